@@ -1,0 +1,112 @@
+"""What is wrong, where, and what would be right: collected as data, shown by a view.
+
+Library code collects `Diagnostic`s and, where it can't go on, raises one `PicoError` that carries all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Literal
+
+Severity = Literal["error", "warning", "note"]
+
+
+class ExitCode(IntEnum):
+    """Exit codes of every command; design, section 4."""
+
+    DONE = 0
+    ERROR = 1
+    CHANGES = 2
+    IMPOSSIBLE = 3
+    STALE = 4
+    LOCKED = 5
+    EXPECTATION = 6
+    DENIED = 7
+    INTERRUPTED = 130
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """A place in a text; `line` and `column` count from 1."""
+
+    line: int
+    column: int
+
+
+@dataclass(frozen=True, slots=True)
+class SourceRange:
+    """A stretch of a file, `end` exclusive, with the text of its first line (`snippet`) for the caret."""
+
+    path: str
+    start: Position
+    end: Position
+    snippet: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.start.line}:{self.start.column}"
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    `code` is a stable word such as `unit`, `unknown-key`, `impossible`, `unreachable`; `summary` one sentence that
+    names the thing; `label` stands beside the caret under the source; `detail` is more text; `hint` says what would
+    be right; `address` is `component` or `component.tunable`.
+    """
+
+    severity: Severity
+    code: str
+    summary: str
+    detail: str = ""
+    hint: str = ""
+    address: str = ""
+    label: str = ""
+    source: SourceRange | None = None
+
+
+def error(
+    code: str,
+    summary: str,
+    *,
+    detail: str = "",
+    hint: str = "",
+    address: str = "",
+    label: str = "",
+    source: SourceRange | None = None,
+) -> Diagnostic:
+    """Return a `Diagnostic` of severity `error`."""
+    return Diagnostic("error", code, summary, detail, hint, address, label, source)
+
+
+def warning(
+    code: str, summary: str, *, detail: str = "", hint: str = "", address: str = "", source: SourceRange | None = None
+) -> Diagnostic:
+    """Return a `Diagnostic` of severity `warning`."""
+    return Diagnostic("warning", code, summary, detail, hint, address, source=source)
+
+
+class PicoError(Exception):
+    """Carries every diagnostic that stopped the work, and the exit code that a command ends with."""
+
+    def __init__(self, diagnostics: Diagnostic | Iterable[Diagnostic], exit_code: ExitCode = ExitCode.ERROR) -> None:
+        self.diagnostics: Sequence[Diagnostic] = (
+            (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
+        )
+        self.exit_code = exit_code
+        super().__init__("; ".join(d.summary for d in self.diagnostics))
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Return a hint for a misspelt `word`: the nearest known one, or the known ones where they are few."""
+    import difflib
+
+    names = sorted(known)
+    near = difflib.get_close_matches(word, names, n=1, cutoff=0.6)
+    if near:
+        return f"did you mean `{near[0]}`?"
+    if names and len(names) <= 12:
+        return "known: " + ", ".join(f"`{n}`" for n in names)
+    return ""

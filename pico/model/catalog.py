@@ -1,0 +1,259 @@
+"""Component types: what a mirror, a lens, a camera is. Lengths in mm, angles in deg, times in ms, powers in mW."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Literal
+
+from pico.model.quantities import Angle, Length, Mass, Milliseconds, Value
+from pico.model.record import record
+
+Mover = Literal["arm", "motor", "electronics", "person", "none"]
+RestoreKind = Literal["setpoint", "align", "none"]
+SeatingKind = Literal["free", "magnet", "kinematic", "bolted"]
+PrimitiveName = Literal["move", "stow", "set", "home", "measure", "scan"]
+
+
+@record
+class Parameter:
+    """A fixed property, such as a focal length; never changes in an experiment."""
+
+    value: Value
+    unit: str = ""
+    description: str = ""
+
+
+@record
+class Restore:
+    """How a checkout brings a tunable back.
+
+    `setpoint`: drive to the value. `align`: an optimization has the last word within `trim` (in the tunable's unit)
+    around the committed value, until `goal` holds. `none`: open loop, shown and never restored.
+    """
+
+    kind: RestoreKind = "setpoint"
+    trim: float | None = None
+    goal: str | None = None
+
+
+@record
+class Axis:
+    """The motor behind a tunable: what its position means after power-up, and how it moves (in the tunable's unit)."""
+
+    kind: Literal["absolute", "homed", "open_loop"] = "absolute"
+    speed: float
+    backlash: float = 0.0
+    approach: Literal["positive", "negative", "either"] = "either"
+    home: float = 0.0
+
+
+@record
+class Tunable:
+    """A directly controllable value other than the pose.
+
+    `unit`, `range`, `period`, `tolerance` and `resolution` belong to datatype `float`; `choices` to `choice`.
+    `settle` is how long the value takes beyond the motion of its axis.
+    """
+
+    datatype: Literal["float", "bool", "choice"] = "float"
+    unit: str = ""
+    range: tuple[float, float] | None = None
+    period: float | None = None
+    choices: tuple[str, ...] = ()
+    tolerance: float = 0.0
+    resolution: float = 0.0
+    mover: Mover = "electronics"
+    axis: Axis | None = None
+    settle: Milliseconds = 10.0
+    restore: Restore = Restore()
+    description: str = ""
+
+
+@record
+class PoseTolerance:
+    """How far a component may stand from where it should: position [mm] and yaw [deg]."""
+
+    position: Length = 0.5
+    yaw: Angle = 0.5
+
+
+@record
+class PoseTunable:
+    """The pose on the table, as a tunable: who moves it, how well it must be met, how it is restored."""
+
+    mover: Mover = "arm"
+    tolerance: PoseTolerance = PoseTolerance()
+    resolution: PoseTolerance = PoseTolerance(position=0.01, yaw=0.01)
+    restore: Restore = Restore()
+
+
+@record
+class Measurable:
+    """An observable. Never set, never restored, only acquired."""
+
+    datatype: Literal["image", "float"]
+    unit: str = ""
+    kernel: str | None = None
+    needs: Mapping[str, Value] = field(default_factory=dict)
+    description: str = ""
+
+
+@record
+class Footprint:
+    """The outline of a component on the table in its own frame [mm]: exactly one of a disc's radius, a box, a polygon.
+
+    A polygon is convex and runs counter-clockwise.
+    """
+
+    disc: Length | None = None
+    box: tuple[Length, Length] | None = None
+    polygon: tuple[tuple[Length, Length], ...] | None = None
+
+    def __post_init__(self) -> None:
+        given = [s for s in (self.disc, self.box, self.polygon) if s is not None]
+        if len(given) != 1:
+            raise ValueError("a footprint is exactly one of `disc`, `box` and `polygon`")
+        if (self.disc is not None and self.disc <= 0) or (self.box is not None and min(self.box) <= 0):
+            raise ValueError("a footprint must have a size above zero")
+        if self.polygon is not None and not _convex(self.polygon):
+            raise ValueError("a footprint polygon must be convex, counter-clockwise, with three corners or more")
+
+    @property
+    def vertices(self) -> tuple[tuple[float, float], ...]:
+        """The corners [mm], counter-clockwise; none for a disc."""
+        if self.box is not None:
+            a, b = self.box[0] / 2, self.box[1] / 2
+            return ((-a, -b), (a, -b), (a, b), (-a, b))
+        return self.polygon or ()
+
+    @property
+    def radius(self) -> float:
+        """The distance of the farthest point from the origin [mm]."""
+        return self.disc if self.disc is not None else max(math.hypot(x, y) for x, y in self.vertices)
+
+
+def _convex(corners: tuple[tuple[float, float], ...]) -> bool:
+    n = len(corners)
+    if n < 3:
+        return False
+    turns = []
+    for i in range(n):
+        (ax, ay), (bx, by), (cx, cy) = corners[i], corners[(i + 1) % n], corners[(i + 2) % n]
+        turns.append((bx - ax) * (cy - by) - (by - ay) * (cx - bx))
+    area = sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True))
+    return min(turns) > 0 and area > 0
+
+
+@record
+class Grasp:
+    """How the gripper holds a component.
+
+    `height`: of the tool centre point above the table [mm]. `width`: of the part between the pads [mm]. `yaws`:
+    directions in which the jaws may close, in the component's frame [deg]; 0 closes along the component's x. Jaws
+    are alike, so a yaw and its opposite are the same to the fingers but not to the wrist: list one of the two.
+    """
+
+    height: Length
+    width: Length
+    yaws: tuple[Angle, ...] = (0.0, 90.0)
+
+
+@record
+class Body:
+    """One shape of the housing, for the twin and for pictures, in the component's frame [mm]: z = 0 is the table.
+
+    `size`: full edge lengths of a `box` along x, y, z; diameter and length of a `cylinder`. `at`: its centre.
+    `axis`: what a cylinder's length runs along.
+    """
+
+    name: str
+    shape: Literal["box", "cylinder"]
+    size: tuple[Length, ...]
+    at: tuple[Length, Length, Length]
+    axis: Literal["x", "y", "z"] = "z"
+    yaw: Angle = 0.0
+    color: tuple[float, float, float, float] = (0.25, 0.26, 0.28, 1.0)
+
+    def __post_init__(self) -> None:
+        if len(self.size) != (3 if self.shape == "box" else 2):
+            raise ValueError("`size` is [x, y, z] of a box, [diameter, length] of a cylinder")
+
+
+@record
+class ClearAperture:
+    """The disc of an optic that light passes and nothing touches: centre and diameter [mm], normal along local x."""
+
+    center: tuple[Length, Length, Length]
+    diameter: Length
+
+
+@record
+class MarkerPlate:
+    """Where the marker sits [mm]: its centre in the component's frame, and the edge length of its black square."""
+
+    at: tuple[Length, Length, Length]
+    size: Length = 24.0
+
+
+@record
+class Geometry:
+    """What space a component takes, what it weighs [kg], and where it may be held."""
+
+    footprint: Footprint
+    height: Length
+    mass: Mass
+    bodies: tuple[Body, ...] = ()
+    grasp: Grasp | None = None
+    clear_aperture: ClearAperture | None = None
+    marker: MarkerPlate | None = None
+
+
+@record
+class Frames:
+    """Origins in the base frame [mm]: `optical`, where the axis (local +x) meets the optic; `pivot`, of a tilt."""
+
+    optical: tuple[Length, Length, Length] = (0.0, 0.0, 70.0)
+    pivot: tuple[Length, Length, Length] = (0.0, 0.0, 70.0)
+
+
+@record
+class OpticalElement:
+    """What a component does to light; the properties are named after the element and light reads them."""
+
+    element: Literal[
+        "source", "lens", "mirror", "polarizer", "waveplate", "beam_splitter", "iris", "filter", "shutter",
+        "detector", "block", "none",
+    ]  # fmt: skip
+    properties: Mapping[str, Value] = field(default_factory=dict)
+
+
+@record
+class Repeatability:
+    """One standard deviation of a placement by arm or seat: position [mm], yaw [deg]."""
+
+    position: Length = 0.1
+    yaw: Angle = 0.05
+
+
+@record
+class ComponentType:
+    """The definition of a component in the catalog."""
+
+    name: str
+    title: str
+    description: str = ""
+    parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    pose: PoseTunable = PoseTunable()
+    tunables: Mapping[str, Tunable] = field(default_factory=dict)
+    measurables: Mapping[str, Measurable] = field(default_factory=dict)
+    primitives: tuple[PrimitiveName, ...] = ("move", "stow")
+    geometry: Geometry
+    frames: Frames = Frames()
+    optics: OpticalElement = OpticalElement(element="none")
+    seating: SeatingKind = "free"
+    repeatability: Repeatability = Repeatability()
+
+
+Catalog = Mapping[str, ComponentType]

@@ -1,0 +1,159 @@
+"""The physical diff: which tunables differ between two states, as motions a person can picture."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from pico.model.catalog import Tunable
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.pose import Pose, angle_between
+from pico.model.quantities import Value
+from pico.model.record import as_json, record
+from pico.model.state import LabState, place_of
+
+
+@record
+class Change:
+    """One tunable that differs. `before` and `after` hold a slot's name, a pose as {x, y, yaw}, or a value; `before`
+    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it."""
+
+    component: str
+    tunable: str
+    before: Any = None
+    after: Any = None
+    text: str = ""
+    tolerated: bool = False
+
+
+def place_json(slot: str | None, pose: Pose) -> Any:
+    """Return a place as a change shows it: the slot's name where it is in one, else the pose."""
+    return slot if slot else as_json(pose)
+
+
+def diff_states(setup: Setup, a: LabState, b: LabState) -> tuple[Change, ...]:
+    """Return what differs from state `a` to state `b`, exactly, sorted by component and tunable.
+
+    A component of either state that the inventory lacks is compared by what the states say alone.
+    """
+    changes: list[Change] = []
+    for name in sorted(a.components.keys() | b.components.keys() | setup.lab.inventory.keys()):
+        if name not in setup.lab.inventory:
+            if name not in a.components or name not in b.components:
+                text = "added" if name in b.components else "removed"
+                changes.append(Change(component=name, tunable="pose", text=f"{text} (not in the inventory)"))
+            continue
+        (slot_a, pose_a), (slot_b, pose_b) = place_of(setup, a, name), place_of(setup, b, name)
+        if (slot_a, pose_a) != (slot_b, pose_b):
+            before, after = place_json(slot_a, pose_a), place_json(slot_b, pose_b)
+            text = describe_move(slot_a, pose_a, slot_b, pose_b)
+            changes.append(Change(component=name, tunable="pose", before=before, after=after, text=text))
+        values_a = a.components[name].values if name in a.components else {}
+        values_b = b.components[name].values if name in b.components else {}
+        for tunable in sorted(values_a.keys() | values_b.keys()):
+            before, after = values_a.get(tunable), values_b.get(tunable)
+            if before != after:
+                kind = setup.type_of(name).tunables.get(tunable, Tunable())
+                text = describe_value(kind, before, after)
+                changes.append(Change(component=name, tunable=tunable, before=before, after=after, text=text))
+    return tuple(changes)
+
+
+def diff_observed(setup: Setup, seen: Observation, wanted: LabState, *, exact: bool = False) -> tuple[Change, ...]:
+    """Return what must change for the bench as observed to be as wanted, sorted by component and tunable.
+
+    Differences within tolerance are listed as `tolerated` unless `exact`. Missing, held and toppled components are
+    left to the caller; tunables that the observation does not hold are not compared.
+    """
+    changes: list[Change] = []
+    for name in sorted(setup.lab.inventory):
+        part = seen.components.get(name)
+        if part is None or part.pose is None or part.presence != "seen":
+            continue
+        move = _observed_move(setup, name, part.pose, wanted, exact)
+        if move:
+            changes.append(move)
+        changes.extend(_observed_values(setup, name, part, wanted, exact))
+    return tuple(changes)
+
+
+def _observed_move(setup: Setup, name: str, pose: Pose, wanted: LabState, exact: bool) -> Change | None:
+    slot, goal = place_of(setup, wanted, name)
+    if slot is not None and slot_at(setup, pose) == slot:
+        return None  # in the slot, at any yaw, is right
+    tolerance = setup.type_of(name).pose.tolerance
+    away, turned = pose.distance(goal), abs(angle_between(pose.yaw, goal.yaw))
+    if away < 1e-6 and turned < 1e-6:
+        return None
+    live = slot_at(setup, pose) if setup.movable(name) else None
+    return Change(
+        component=name,
+        tunable="pose",
+        before=place_json(live, pose),
+        after=place_json(slot, goal),
+        text=describe_move(live, pose, slot, goal),
+        tolerated=slot is None and not exact and away <= tolerance.position and turned <= tolerance.yaw,
+    )
+
+
+def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: LabState, exact: bool) -> list[Change]:
+    changes = []
+    state = wanted.components.get(name)
+    for tunable, goal in sorted(state.values.items()) if state else ():
+        kind = setup.type_of(name).tunables.get(tunable)
+        live = part.values.get(tunable)
+        if kind is None or live is None or kind.restore.kind == "none":
+            continue
+        value = None if live.status == "unknown" else live.value
+        if value == goal:
+            continue
+        near = value is not None and value_distance(kind, value, goal) <= kind.tolerance
+        if near and value is not None and value_distance(kind, value, goal) < 1e-9:
+            continue
+        text = describe_value(kind, value, goal)
+        changes.append(
+            Change(component=name, tunable=tunable, before=value, after=goal, text=text, tolerated=near and not exact)
+        )
+    return changes
+
+
+def value_distance(kind: Tunable, a: Value, b: Value) -> float:
+    """Return how far two values of a tunable lie apart, in its unit; infinite where they are not numbers and differ.
+
+    Values of a tunable with a period count around it.
+    """
+    if isinstance(a, int | float) and isinstance(b, int | float) and not isinstance(a, bool | str):
+        return abs(angle_between(a, b, kind.period)) if kind.period else abs(b - a)
+    return 0.0 if a == b else math.inf
+
+
+def describe_move(slot_a: str | None, a: Pose, slot_b: str | None, b: Pose) -> str:
+    """Return a move in words: `stowed in storage/a1`, `placed at (420, 420, 0°)`, `moved 12.5 mm, turned +5°`."""
+    if slot_b:
+        return f"moved to {slot_b}" if slot_a else f"stowed in {slot_b}"
+    if slot_a:
+        return f"placed at {b}"
+    words = []
+    if a.distance(b) > 5e-4:
+        steps = [f"d{axis} {d:+.4g}" for axis, d in (("x", b.x - a.x), ("y", b.y - a.y)) if abs(d) > 5e-4]
+        words.append(f"moved {a.distance(b):.4g} mm ({', '.join(steps)})")
+    turned = angle_between(a.yaw, b.yaw)
+    if abs(turned) > 5e-4:
+        words.append(f"turned {turned:+.4g}°")
+    return ", ".join(words) or "unchanged"
+
+
+def describe_value(kind: Tunable, before: Value | None, after: Value | None) -> str:
+    """Return a change of value in words: `90 → 1 deg`."""
+    unit = f" {kind.unit}" if kind.unit else ""
+    return f"{show_value(before)} → {show_value(after)}{unit}"
+
+
+def show_value(value: Value | None) -> str:
+    """Return a value as a person writes it in a manifest."""
+    if value is None:
+        return "unknown"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value:.6g}" if isinstance(value, int | float) else value

@@ -1,0 +1,231 @@
+"""The lab: the bench as it is, with the inventory of the parts that it owns. mm, deg, kg; see `pico.model.catalog`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Literal
+
+from pico.model.catalog import Catalog, ComponentType, SeatingKind
+from pico.model.pose import Pose
+from pico.model.quantities import Angle, Length
+from pico.model.record import digest, record
+
+
+@record
+class Holes:
+    """The grid of tapped holes: pitch, and the first hole from the front-left corner [mm]."""
+
+    pitch: Length = 25.0
+    first: tuple[Length, Length] = (12.5, 12.5)
+    thread: str = "M6"
+
+
+@record
+class Table:
+    """The table: size along x and y [mm], its hole grid, and the height of the beam above it [mm]."""
+
+    size: tuple[Length, Length]
+    beam_height: Length = 70.0
+    holes: Holes = Holes()
+
+
+@record
+class Box2:
+    """An axis-parallel rectangle on the table: [least, greatest] of x and of y [mm]."""
+
+    x: tuple[Length, Length]
+    y: tuple[Length, Length]
+
+
+@record
+class Region:
+    """A named part of the table. `staging`: components may be put down there on the way, where the planner may."""
+
+    area: Box2
+    title: str = ""
+    staging: bool = False
+
+
+@record
+class KeepOut:
+    """A volume that neither arm nor component enters: area, and [lowest, highest] above the table [mm]."""
+
+    area: Box2
+    z: tuple[Length, Length] = (0.0, 1000.0)
+    reason: str = ""
+
+
+@record
+class Slot:
+    """A storage place. A part whose origin is within `capture` of it is in the slot, at any yaw.
+
+    `fits`: greatest radius of a footprint that the slot takes; any where it is not given.
+    """
+
+    x: Length
+    y: Length
+    yaw: Angle = 0.0
+    capture: Length = 10.0
+    fits: Length | None = None
+
+    @property
+    def pose(self) -> Pose:
+        """Where a part stands that was put into the slot."""
+        return Pose(self.x, self.y, self.yaw)
+
+
+@record
+class Fingers:
+    """The gripper's fingers: thickness along the closing direction, breadth across it, how far the tips reach below
+    the tool centre point, how much they open beyond the part on each side [mm]."""
+
+    thickness: Length = 14.0
+    breadth: Length = 22.0
+    tip: Length = 10.0
+    opening: Length = 10.0
+
+
+@record
+class Gripper:
+    """What holds a component. `fingers: none` is a vacuum gripper: it needs no room beside the part."""
+
+    fingers: Fingers | Literal["none"] = Fingers()
+    stroke: Length = 84.0
+    tool: Length = 172.0
+
+
+@record
+class Mount:
+    """Where a robot's base stands: x, y on the table, z above it [mm], and where its own x axis points [deg]."""
+
+    x: Length
+    y: Length
+    z: Length = 0.0
+    yaw: Angle = 0.0
+
+
+@record
+class Robot:
+    """An arm. Heights are of the tool centre point above the table [mm]; `speed` is a share of the joint limits."""
+
+    model: Literal["xarm7", "gantry"] = "xarm7"
+    mount: Mount
+    gripper: Gripper = Gripper()
+    transit_height: Length = 250.0
+    speed: float = 0.5
+    park: tuple[Angle, ...] = (0.0, -45.0, 0.0, 30.0, 0.0, 75.0, 0.0)
+
+
+@record
+class Camera:
+    """A camera that watches the bench: where it is and looks [mm], its vertical field of view [deg], its pixels."""
+
+    position: tuple[Length, Length, Length]
+    look_at: tuple[Length, Length, Length]
+    field_of_view: Angle = 45.0
+    pixels: tuple[int, int] = (1280, 960)
+    robot: str | None = None
+
+
+@record
+class Datum:
+    """A marker fixed to the table."""
+
+    marker: int
+    x: Length
+    y: Length
+    yaw: Angle = 0.0
+
+
+@record
+class Tether:
+    """A cable: where it is anchored [mm], its length [mm], and how far the part may turn in all [deg]."""
+
+    anchor: tuple[Length, Length]
+    length: Length
+    yaw_limit: Angle = 360.0
+
+
+@record
+class Part:
+    """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`."""
+
+    type: str
+    marker: int | None = None
+    serial: str = ""
+    home: str | None = None
+    pose: Pose | None = None
+    seating: SeatingKind | None = None
+    tether: Tether | None = None
+    calibration: Mapping[str, float] = field(default_factory=dict)
+    stage: Literal["allowed", "avoid", "never"] = "allowed"
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.home is None) == (self.pose is None):
+            raise ValueError("a part has exactly one of `home` (a slot) and `pose` (fixed)")
+
+
+@record
+class Margins:
+    """Least distance kept between footprints, and between the open fingers and a neighbour [mm]."""
+
+    body: Length = 2.0
+    fingers: Length = 2.0
+
+
+@record
+class SimSettings:
+    """How the simulated bench behaves where a command does not say."""
+
+    fidelity: Literal["kinematic", "physics"] = "kinematic"
+    seed: int = 1
+
+
+@record
+class Lab:
+    """A bench."""
+
+    name: str
+    title: str = ""
+    table: Table
+    regions: Mapping[str, Region] = field(default_factory=dict)
+    slots: Mapping[str, Slot] = field(default_factory=dict)
+    robots: Mapping[str, Robot]
+    cameras: Mapping[str, Camera] = field(default_factory=dict)
+    datums: Mapping[str, Datum] = field(default_factory=dict)
+    keep_out: Mapping[str, KeepOut] = field(default_factory=dict)
+    margins: Margins = Margins()
+    sim: SimSettings = SimSettings()
+    inventory: Mapping[str, Part]
+
+
+@record
+class Setup:
+    """A lab together with the component types that its inventory uses: what every computation about a bench needs."""
+
+    lab: Lab
+    catalog: Catalog
+
+    def type_of(self, component: str) -> ComponentType:
+        """Return the type of `component`; raises KeyError for a part that the inventory does not have."""
+        return self.catalog[self.lab.inventory[component].type]
+
+    def seating_of(self, component: str) -> SeatingKind:
+        """Return how `component` is seated: the part's own word, else its type's."""
+        return self.lab.inventory[component].seating or self.type_of(component).seating
+
+    def movable(self, component: str) -> bool:
+        """Return whether an arm may move `component`: not bolted, has a grasp, and its type says that an arm does."""
+        kind = self.type_of(component)
+        return (
+            self.lab.inventory[component].pose is None
+            and self.seating_of(component) != "bolted"
+            and kind.pose.mover == "arm"
+            and kind.geometry.grasp is not None
+        )
+
+    def digest(self) -> str:
+        """Return the digest of the lab and its types, as a plan records it."""
+        return digest({"lab": self.lab, "catalog": dict(self.catalog)})

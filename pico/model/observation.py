@@ -1,0 +1,99 @@
+"""What a backend saw of a bench: poses with uncertainty and age, values, what is held, what is unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Literal
+
+from pico.model.catalog import Footprint
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.model.quantities import Value
+from pico.model.record import record
+from pico.model.state import ComponentState, LabState
+
+Presence = Literal["seen", "missing", "held", "toppled"]
+
+
+@record
+class Uncertainty:
+    """One standard deviation of an observed pose: position [mm], yaw [deg]."""
+
+    position: float = 0.0
+    yaw: float = 0.0
+
+
+@record
+class ObservedValue:
+    """The value of a tunable. `commanded`: what was last asked for, not read back. `unknown`: has no value."""
+
+    value: Value | None
+    status: Literal["known", "commanded", "unknown"] = "known"
+
+
+@record
+class ObservedComponent:
+    """One component as it was seen: no pose where it is `missing`; `toppled` where it lies on its side; `held` by a
+    robot. `age`: seconds since it was seen."""
+
+    presence: Presence = "seen"
+    pose: Pose | None = None
+    uncertainty: Uncertainty = Uncertainty()
+    age: float = 0.0
+    values: Mapping[str, ObservedValue] = field(default_factory=dict)
+
+
+@record
+class UnknownObject:
+    """Something that the inventory does not have: an obstacle, never moved. Named `unknown/<marker>`."""
+
+    pose: Pose
+    footprint: Footprint
+    height: float
+
+
+@record
+class ObservedRobot:
+    """A robot as it was seen: joint angles from the base outward [rad], and the component in its gripper."""
+
+    joints: tuple[float, ...]
+    holding: str | None = None
+
+
+@record
+class Observation:
+    """A bench as a backend saw it. `time`: the backend's own clock [s], which simulated time advances."""
+
+    backend: str
+    time: float = 0.0
+    observed_at: str = ""
+    components: Mapping[str, ObservedComponent] = field(default_factory=dict)
+    unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
+    robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
+
+
+def slot_at(setup: Setup, pose: Pose) -> str | None:
+    """Return the slot in whose capture radius `pose` lies, the nearest of them, or None."""
+    within = [
+        (slot.pose.distance(pose), name)
+        for name, slot in setup.lab.slots.items()
+        if abs(slot.x - pose.x) <= slot.capture and slot.pose.distance(pose) <= slot.capture
+    ]
+    return min(within)[1] if within else None
+
+
+def live_state(setup: Setup, seen: Observation) -> LabState:
+    """Return the live laboratory state: what the observation amounts to, as a manifest would hold it.
+
+    Parts in a slot's capture radius are named by the slot. Missing, held and toppled parts and unknown values are
+    left out.
+    """
+    components = {}
+    for name, part in seen.components.items():
+        if part.presence != "seen" or part.pose is None:
+            continue
+        values = {k: v.value for k, v in part.values.items() if v.value is not None and v.status != "unknown"}
+        slot = slot_at(setup, part.pose) if setup.movable(name) else None
+        components[name] = ComponentState(slot=slot, pose=None if slot else part.pose, values=values)
+    return LabState(lab=setup.lab.name, components=components)

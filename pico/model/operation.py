@@ -1,0 +1,69 @@
+"""Operations: primitives with their arguments, as a plan orders them and a backend executes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Any, Literal
+
+from pico.diagnostics import Diagnostic
+from pico.model.observation import ObservedComponent
+from pico.model.record import record
+
+Primitive = Literal["move", "stow", "set", "home", "measure", "park", "operator"]
+Outcome = Literal["done", "failed", "unknown"]
+ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked"]
+
+
+@record
+class Reason:
+    """Why an operation is in a plan.
+
+    `changed`: its tunable differs. `stowed`: the state does not want it on the table. `in_the_way`: it is right where
+    it is, but must make room for the components in `of`, whose space it overlaps by `overlap` mm. `staged`: it stands
+    in a ring of components that block one another (`of`), and is put down in storage on its way. `operator`: only a
+    person can do it. `asked`: somebody asked for this one operation (`pico do`).
+    `parked`: a robot leaves the beam when the last of its work is done.
+    """
+
+    kind: ReasonKind
+    of: tuple[str, ...] = ()
+    overlap: float | None = None
+    text: str = ""
+
+
+@record
+class Operation:
+    """One node of a plan's graph.
+
+    Arguments of `move` and `stow`: `from` and `to`, each `{"pose": {x, y, yaw}, "slot": name or absent}`, and
+    `grasp_yaw` [deg], the direction in which the jaws close in the component's frame. Of `set`: `tunable`, `from`,
+    `to`. Of `home`: `tunable`. Of `park`: none; its `component` is the robot's name. Of `operator`: `text`, and `to`
+    where a component is to be moved. `resources` are what it holds while it runs (a robot, `motor/p1.angle`, the
+    component itself): each does one thing at a time. `after`: ids of the operations that must be done first.
+    `start`, `seconds`: predicted [s].
+    """
+
+    id: str
+    primitive: Primitive
+    component: str
+    arguments: Mapping[str, Any] = field(default_factory=dict)
+    robot: str | None = None
+    resources: tuple[str, ...] = ()
+    after: tuple[str, ...] = ()
+    reason: Reason
+    start: float = 0.0
+    seconds: float = 0.0
+
+
+@record
+class OperationResult:
+    """What became of one operation: outcome, the diagnostic of a failure, the component before and after."""
+
+    key: str
+    outcome: Outcome
+    error: Diagnostic | None = None
+    before: ObservedComponent | None = None
+    after: ObservedComponent | None = None
+    seconds: float = 0.0
+    data: Mapping[str, Any] = field(default_factory=dict)

@@ -1,0 +1,88 @@
+"""The plan: the physical diff compiled into a directed acyclic graph of operations, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field, replace
+from typing import Any
+
+from pico.diagnostics import Diagnostic
+from pico.model.diff import Change
+from pico.model.operation import Operation
+from pico.model.record import as_json, canonical, digest, record
+
+SCHEMA = "pico.plan/v1"
+
+
+@record
+class LabRef:
+    """The lab that a plan was made for."""
+
+    name: str
+    digest: str
+
+
+@record
+class Base:
+    """What a plan starts from: the commit checked out, and the live state as it was observed."""
+
+    commit: str | None = None
+    observed_at: str = ""
+    state: Mapping[str, Any] = field(default_factory=dict)
+
+
+@record
+class Target:
+    """What a plan leads to: a revision and its commit, or the manifest in the working tree (no revision)."""
+
+    revision: str | None = None
+    commit: str | None = None
+    state: Mapping[str, Any] = field(default_factory=dict)
+
+
+@record
+class Staging:
+    """How many components are put down on the way, the least number possible as far as it is known, and whether that
+    is proven."""
+
+    count: int = 0
+    lower_bound: int = 0
+    proven: bool = False
+
+
+@record
+class Plan:
+    """Operations that make the live state equal to the target's, in an order that never collides.
+
+    `operations` is sorted by start; arms take theirs in this order. `makespan` [s]. `errored` where the diagnostics
+    hold an error: then the plan must not be applied.
+    """
+
+    schema: str = SCHEMA
+    digest: str = ""
+    lab: LabRef
+    calibration: str | None = None
+    backend: str
+    fidelity: str
+    base: Base
+    target: Target
+    changes: tuple[Change, ...] = ()
+    operations: tuple[Operation, ...] = ()
+    staging: Staging = Staging()
+    makespan: float = 0.0
+    policy: tuple[Mapping[str, Any], ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def errored(self) -> bool:
+        return any(d.severity == "error" for d in self.diagnostics)
+
+    def sealed(self) -> Plan:
+        """Return the plan with its digest set. The digest leaves out itself and the time of the observation."""
+        content = as_json(replace(self, digest=""))
+        content["base"].pop("observed_at", None)
+        return replace(self, digest=digest(content))
+
+    def to_json(self) -> str:
+        """Return the plan as canonical JSON, as `pico plan --out` writes it."""
+        return canonical(self)

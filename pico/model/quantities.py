@@ -1,0 +1,129 @@
+"""Quantities: bare numbers in a declared unit; a string with a unit is converted, a wrong dimension is an error."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import Annotated, Any
+
+# Units that manifests use most, with the factor to the first of their dimension: no import of pint for these.
+_FACTORS: dict[str, tuple[str, float]] = {
+    "mm": ("length", 1.0),
+    "cm": ("length", 10.0),
+    "m": ("length", 1000.0),
+    "um": ("length", 1e-3),
+    "nm": ("length", 1e-6),
+    "deg": ("angle", 1.0),
+    "mrad": ("angle", 0.057295779513082320),
+    "rad": ("angle", 57.295779513082320),
+    "ms": ("time", 1.0),
+    "us": ("time", 1e-3),
+    "s": ("time", 1e3),
+    "mW": ("power", 1.0),
+    "uW": ("power", 1e-3),
+    "W": ("power", 1e3),
+    "kg": ("mass", 1.0),
+    "g": ("mass", 1e-3),
+}
+_DIMENSIONS = {
+    "[length]": "length",
+    "[time]": "time",
+    "[mass]": "mass",
+    "[mass] * [length] ** 2 / [time] ** 3": "power",
+}
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
+
+
+class QuantityError(ValueError):
+    """A text that is no quantity of the unit asked for; `str()` is fit for a user."""
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def dimension(unit: str) -> str:
+    """Return `length`, `angle`, `time`, `power`, `mass`, or pint's dimensionality of `unit`.
+
+    Raises QuantityError for a unit that nobody knows.
+    """
+    if unit in _FACTORS:
+        return _FACTORS[unit][0]
+    if not unit:
+        return "number"
+    try:
+        dimensionality = str(_registry().Unit(unit).dimensionality)
+    except Exception as exc:  # pint raises a dozen kinds
+        raise QuantityError(f"`{unit}` is not a unit") from exc
+    if dimensionality == "dimensionless" and any(word in unit for word in ("deg", "rad", "arc", "turn")):
+        return "angle"
+    return _DIMENSIONS.get(dimensionality, dimensionality)
+
+
+def convert(value: Any, unit: str) -> Any:
+    """Return `value` in `unit`: numbers unchanged, strings such as "1.2 cm" converted; other types unchanged.
+
+    Raises QuantityError for a string without a number, an unknown unit or a wrong dimension.
+    """
+    if not isinstance(value, str):
+        return value
+    match = _QUANTITY.fullmatch(value)
+    if not match:
+        raise QuantityError(f"`{value}` is not a quantity; expected {example(unit)}")
+    number, given = float(match[1]), match[2]
+    if given is None:
+        raise QuantityError(f'"{value}" is a string; write the number without quotes, or with a unit, {example(unit)}')
+    if given == unit:
+        return number
+    if given in _FACTORS and unit in _FACTORS and _FACTORS[given][0] == _FACTORS[unit][0]:
+        return number * _FACTORS[given][1] / _FACTORS[unit][1]
+    have, want = dimension(given), dimension(unit)
+    if have != want:
+        raise QuantityError(f"`{value}` is a {have}, not a {want}; expected {example(unit)}")
+    return float(_registry().Quantity(number, given).to(unit).magnitude)
+
+
+def example(unit: str) -> str:
+    """Return how a value in `unit` may be written, for a hint."""
+    return f"a number in {unit}, for example `2` or `2 {unit}`" if unit else "a number without a unit"
+
+
+class Unit:
+    """Marks a number in a record with its unit; pydantic, where it reads the record, converts strings with units."""
+
+    __slots__ = ("unit",)
+
+    def __init__(self, unit: str) -> None:
+        self.unit = unit
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
+
+        def number(value: Any) -> Any:
+            if isinstance(value, bool):
+                raise QuantityError(f"a truth value is no quantity; expected {example(self.unit)}")
+            return convert(value, self.unit)
+
+        return core_schema.no_info_before_validator_function(number, handler(source))
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {
+            "anyOf": [{"type": "number"}, {"type": "string", "pattern": r"^\s*[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?\s*\S+"}],
+            "description": f"in {self.unit}",
+        }
+
+
+Length = Annotated[float, Unit("mm")]
+Angle = Annotated[float, Unit("deg")]
+Milliseconds = Annotated[float, Unit("ms")]
+Seconds = Annotated[float, Unit("s")]
+Power = Annotated[float, Unit("mW")]
+Mass = Annotated[float, Unit("kg")]
+Speed = Annotated[float, Unit("mm/s")]
+AngularSpeed = Annotated[float, Unit("deg/s")]
+
+Value = float | bool | str
+"""The value of a tunable other than the pose, in the unit that its type declares."""

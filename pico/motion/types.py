@@ -1,0 +1,99 @@
+"""What the planner asks of an arm, and what it gets: a timed path, or what is in the way. Joints in radians."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from pico.model.catalog import Geometry
+from pico.model.pose import Pose
+
+Joints = tuple[float, ...]
+"""Joint angles from the base outward [rad]."""
+
+SegmentName = Literal["approach", "descend", "grip", "lift", "transit", "lower", "release", "retreat", "park"]
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Something that stands on the table: where, and its shape."""
+
+    pose: Pose
+    geometry: Geometry
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One leg of a path: joint waypoints with their times [s] from the segment's start, the first at 0.
+
+    `opening` is the distance between the pads at its end [mm]; `grip` and `release` hold the joints still.
+    """
+
+    name: SegmentName
+    times: tuple[float, ...]
+    joints: tuple[Joints, ...]
+    opening: float
+
+    @property
+    def seconds(self) -> float:
+        return self.times[-1]
+
+
+@dataclass(frozen=True, slots=True)
+class MovePath:
+    """A collision-free motion of one robot, picking and placing one component (or none, for a park)."""
+
+    robot: str
+    component: str | None
+    segments: tuple[Segment, ...]
+
+    @property
+    def seconds(self) -> float:
+        return sum(s.seconds for s in self.segments)
+
+    @property
+    def end(self) -> Joints:
+        """Where the arm stands afterwards."""
+        return self.segments[-1].joints[-1]
+
+
+@dataclass(frozen=True, slots=True)
+class Blocked:
+    """Why a motion is not possible: `obstacle` names the component, robot part, keep-out zone or `table` that is hit
+    in `segment`, `by` how deep [mm] where known; a `reach` has no obstacle."""
+
+    kind: Literal["reach", "collision", "keep_out", "table_edge", "width"]
+    text: str
+    segment: SegmentName | None = None
+    obstacle: str | None = None
+    by: float | None = None
+
+
+class Motion(Protocol):
+    """The arms of a bench, as far as a plan needs them. Pure: same question, same answer."""
+
+    def reach(self, robot: str, component: str, pose: Pose, grasp_yaw: float) -> Blocked | None:
+        """Return why `robot` can't pick or place `component` at `pose`, lift included, or None where it can.
+
+        `grasp_yaw` [deg] is the direction in which the jaws close, in the component's frame.
+        """
+        ...
+
+    def move(
+        self,
+        robot: str,
+        component: str,
+        start: Pose,
+        goal: Pose,
+        grasp_yaw: float,
+        standing: Mapping[str, Standing],
+        joints: Joints | None = None,
+    ) -> MovePath | Blocked:
+        """Return the path that takes `component` from `start` to `goal`, from `joints` (parked where None) to above
+        the goal, clear of everything in `standing` (which may hold the component itself at its start)."""
+        ...
+
+    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+        """Return the path from `joints` to the robot's park pose."""
+        ...
