@@ -1,0 +1,69 @@
+"""A package imports only from those above it in the layout of the design, and no import is circular."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# What each package may import from, besides itself: those above it in the design's layout, and no more than it needs.
+LAYERS: dict[str, set[str]] = {
+    "diagnostics": set(),
+    "resources": set(),
+    "model": {"diagnostics"},
+    "manifest": {"diagnostics", "resources", "model"},
+    "history": {"diagnostics", "resources", "model", "manifest"},
+    "journal": {"diagnostics", "model"},
+    "geometry": {"diagnostics", "model"},
+    "motion": {"diagnostics", "model", "geometry"},
+    "planning": {"diagnostics", "model", "geometry", "motion"},
+    "twin": {"diagnostics", "model", "geometry", "motion"},
+    "backends": {"diagnostics", "model", "journal", "geometry", "motion", "twin"},
+    "execution": {"diagnostics", "model", "journal", "backends"},
+    "bench": {
+        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "twin",
+        "backends", "execution",
+    },
+}  # fmt: skip
+
+
+def imported_packages(path: Path) -> set[str]:
+    """Return the packages of pico that a file imports, at its top or inside a function."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
+        if isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            names = [f"{node.module}.{a.name}" for a in node.names]
+        found |= {n.split(".")[1] for n in names if n.startswith("pico.")}
+    return found
+
+
+def test_every_package_imports_only_from_its_layers() -> None:
+    wrong = []
+    for path in sorted((ROOT / "pico").rglob("*.py")):
+        package = path.relative_to(ROOT / "pico").parts[0].removesuffix(".py")
+        if package == "__init__":
+            continue
+        assert package in LAYERS, f"{package} is not in the design's layout"
+        extra = imported_packages(path) - LAYERS[package] - {package, "__version__"}
+        wrong += [f"{path.relative_to(ROOT)} imports pico.{name}" for name in sorted(extra)]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_the_command_is_built_on_the_library_and_the_library_does_not_know_it() -> None:
+    library = "\n".join(p.read_text() for p in (ROOT / "pico").rglob("*.py"))
+    assert "pico_cli" not in library
+
+
+def test_nothing_in_the_library_prints() -> None:
+    printing = []
+    for path in sorted((ROOT / "pico").rglob("*.py")):
+        tree = ast.parse(path.read_text())
+        main_only = {id(n) for top in tree.body if isinstance(top, ast.If) for n in ast.walk(top)}
+        printing += [
+            f"{path.relative_to(ROOT)}:{node.lineno}"
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "print" and id(node) not in main_only
+        ]
+    assert not printing, "\n".join(printing)

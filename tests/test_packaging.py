@@ -1,0 +1,24 @@
+"""The wheel holds every package of the tree."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def test_every_package_is_listed() -> None:
+    config = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
+    listed = {p for p in config["packages"] if not p.startswith("pico._data")}
+    found = set()
+    for name, folder in (("pico", "pico"), ("pico_cli", "cli")):
+        for init in (ROOT / folder).rglob("__init__.py"):
+            found.add(".".join([name, *init.parent.relative_to(ROOT / folder).parts]))
+    assert listed == found
+
+
+def test_every_python_file_is_in_a_package() -> None:
+    for folder in ("pico", "cli"):
+        for path in (ROOT / folder).rglob("*.py"):
+            assert (path.parent / "__init__.py").exists(), f"{path.relative_to(ROOT)} is in no package"
