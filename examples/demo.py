@@ -3,7 +3,7 @@
     python examples/demo.py [--folder demo] [--friction 1.0]
 
 Runs the same commands that a user types, shows them, and then checks the simulated bodies against the commit with
-code that knows nothing of the planner. With `--friction 0` the fingers can't hold anything, and the demonstration fails.
+code that knows nothing of the planner. With `--friction 0` the fingers hold nothing, and the demonstration fails.
 """
 
 from __future__ import annotations
@@ -55,9 +55,9 @@ def worst_error(folder: Path, revision: str) -> tuple[float, float]:
         pose, (slot, goal) = seen.components[name].pose, place_of(bench.setup, wanted, name)
         if pose is None:
             sys.exit(f"{name} is gone")
-        if slot:
-            continue  # a slot takes a part within its capture radius, which `pico plan` has checked
         far = max(far, math.hypot(pose.x - goal.x, pose.y - goal.y))
+        if slot:
+            continue  # in a slot any yaw is right
         turned = max(turned, abs(angle_between(pose.yaw, goal.yaw)))
     return far, turned
 
@@ -83,7 +83,7 @@ def main() -> None:
         set_friction(folder, options.friction)
     for start, goal in RESTORES:
         say(
-            f"\n--- The bench is brought to {start} quickly (kinematic), then restored to {goal} by friction and gravity ---"
+            f"\n--- Bring the bench to {start} quickly (kinematic), then restore {goal} by friction and gravity ---"
         )
         must(f"pico apply {start} --auto-approve --fidelity kinematic", folder, quiet=True)
         must(f"pico render --out {start}.png", folder)

@@ -177,10 +177,12 @@ class Margins:
 
 @record
 class SimSettings:
-    """How the simulated bench behaves where a command does not say."""
+    """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
+    the finger pads on a part."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1
+    pad_friction: float = 1.0
 
 
 @record
