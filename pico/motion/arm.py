@@ -1,0 +1,193 @@
+"""The xArm7 with its parallel gripper as a MuJoCo model built in code, for the collision scene and for the twin.
+
+Names within an arm: bodies `base`, `link1` to `link7`, `gripper`, `left_finger`, `right_finger`; joints `joint1` to
+`joint7`, `left_slide`, `right_slide`; geoms `left_pad`, `right_pad`, and `<body>_<n>`; actuators `joint1` to
+`joint7` [rad] and `gripper` (travel of each finger [m], so that the opening is twice it); site `tcp`. `attach_arm`
+puts the robot's name before them: `arm1/tcp`.
+
+What is seen is in geom group 2; what is only seen has contype and conaffinity 0.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from pico.model.lab import Fingers, Robot
+from pico.motion.shapes import DARK, FINGER_MASS, GREY, LINK_MASSES, LINKS, PALM, PALM_MASS, Shape
+from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
+
+if TYPE_CHECKING:
+    import mujoco
+
+ARM_BIT = 1
+"""Bit of contype and conaffinity of arms and grippers: they meet one another and what has `WORLD_BIT`."""
+WORLD_BIT = 2
+"""Bit of contype and conaffinity of everything else; a table or component with it meets arms and other components."""
+
+VISUAL_GROUP = 2
+SITE_GROUP = 4
+FINGERS = ("left", "right")
+PALM_LENGTH = 100.0
+"""How far the gripper's body reaches from the flange [mm]; the fingers hang below it."""
+PAD_HEIGHT = 45.0
+"""Height of the pads [mm], from the tips of the fingers up."""
+GRIP_FORCE = 28.0
+"""What each pad presses with at most, in rest [N]."""
+
+_TORQUE = (50.0, 50.0, 30.0, 30.0, 30.0, 20.0, 20.0)  # N m, what the joints' gears stand
+_STIFFNESS = (6000.0, 6000.0, 4000.0, 4000.0, 2000.0, 2000.0, 1000.0)  # N m/rad
+_TIME_CONSTANT = 0.05  # s, of a joint's servo
+_ARMATURE = 0.1  # kg m2, the rotors seen through their gears
+
+
+def build_arm(robot: Robot) -> mujoco.MjSpec:
+    """Return a model of `robot` with its base at the origin, in metres and radians; joints at zero, gripper shut."""
+    import mujoco
+
+    spec = mujoco.MjSpec()
+    spec.compiler.degree = False
+    spec.compiler.autolimits = True
+    parent = spec.worldbody.add_body(name="base", gravcomp=1)
+    _add_shapes(parent, LINKS[0], LINK_MASSES[0])
+    for index in range(7):
+        parent = _add_link(parent, index)
+        _add_servo(spec, index)
+    _add_gripper(spec, parent, robot)
+    for first, second in _NEIGHBORS:
+        spec.add_exclude(bodyname1=first, bodyname2=second)
+    return spec
+
+
+_NEIGHBORS = (  # touch by construction; parent and child never collide in MuJoCo
+    ("base", "link2"),
+    ("link1", "link3"),
+    ("link2", "link4"),
+    ("link3", "link5"),
+    ("link4", "link6"),
+    ("link5", "link7"),
+    ("link6", "gripper"),
+    ("left_finger", "right_finger"),
+    ("link7", "left_finger"),
+    ("link7", "right_finger"),
+)
+
+
+def attach_arm(spec: mujoco.MjSpec, name: str, robot: Robot) -> None:
+    """Add `robot` to `spec` at its mount, its names prefixed with `name/`; z = 0 is the top of the table."""
+    mount = robot.mount
+    half = math.radians(mount.yaw) / 2
+    frame = spec.worldbody.add_frame(
+        pos=[mount.x / 1000, mount.y / 1000, mount.z / 1000], quat=[math.cos(half), 0, 0, math.sin(half)]
+    )
+    frame.attach_body(build_arm(robot).body("base"), f"{name}/", "")
+
+
+def _add_link(parent: Any, index: int) -> Any:
+    half = math.radians(ROLLS[index]) / 2
+    body = parent.add_body(
+        name=f"link{index + 1}",
+        pos=[v / 1000 for v in ORIGINS[index]],
+        quat=[math.cos(half), math.sin(half), 0, 0],
+        gravcomp=1,
+    )
+    body.add_joint(name=f"joint{index + 1}", axis=[0, 0, 1], range=list(LIMITS[index]), armature=_ARMATURE)
+    _add_shapes(body, LINKS[index + 1], LINK_MASSES[index + 1])
+    return body
+
+
+def _add_servo(spec: Any, index: int) -> None:
+    name, stiffness, torque = f"joint{index + 1}", _STIFFNESS[index], _TORQUE[index]
+    actuator = _actuator(spec, name, name, LIMITS[index], torque)
+    actuator.set_to_position(kp=stiffness, kv=stiffness * _TIME_CONSTANT)
+
+
+def _actuator(spec: Any, name: str, joint: str, ctrlrange: tuple[float, float], force: float) -> Any:
+    import mujoco
+
+    return spec.add_actuator(
+        name=name,
+        target=joint,
+        trntype=mujoco.mjtTrn.mjTRN_JOINT,
+        ctrlrange=list(ctrlrange),
+        forcerange=[-force, force],
+        ctrllimited=1,
+        forcelimited=1,
+    )
+
+
+def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
+    import mujoco
+
+    gripper = robot.gripper
+    palm = flange.add_body(name="gripper", quat=[0, 0, 0, 1], gravcomp=1)
+    _add_shapes(palm, PALM, PALM_MASS)
+    palm.add_site(name="tcp", pos=[0, 0, gripper.tool / 1000], size=[0.003, 0, 0], group=SITE_GROUP)
+    fingers = gripper.fingers if gripper.fingers != "none" else Fingers()
+    travel = gripper.stroke / 2000
+    for name, side in zip(FINGERS, (1, -1), strict=True):
+        _add_finger(palm, name, side, fingers, gripper.tool, travel)
+    spec.add_equality(
+        type=mujoco.mjtEq.mjEQ_JOINT,
+        objtype=mujoco.mjtObj.mjOBJ_JOINT,
+        name1="left_slide",
+        name2="right_slide",
+        data=[0, 1, *[0] * 10],
+        solref=[0.004, 1],
+    )
+    # one motor closes both fingers, so each pad gets half of its force
+    actuator = _actuator(spec, "gripper", "left_slide", (0.0, travel), 2 * GRIP_FORCE)
+    actuator.set_to_position(kp=8000.0, kv=400.0)
+
+
+def _add_finger(palm: Any, name: str, side: int, fingers: Fingers, tool: float, travel: float) -> None:
+    """A bar from the palm to below the tool center point; its inner face is the pad."""
+    import mujoco
+
+    body = palm.add_body(name=f"{name}_finger", gravcomp=1)
+    body.add_joint(
+        name=f"{name}_slide",
+        type=mujoco.mjtJoint.mjJNT_SLIDE,
+        axis=[0, side, 0],
+        range=[0, travel],
+        armature=0.1,
+        damping=[5.0, 0, 0],
+    )
+    tip = tool + fingers.tip
+    pad_top = tip - PAD_HEIGHT
+    middle = side * fingers.thickness / 2
+    half = [fingers.breadth / 2, fingers.thickness / 2]
+    for label, low, high, color in ((f"{name}_pad", pad_top, tip, DARK), (f"{name}_bar", PALM_LENGTH, pad_top, GREY)):
+        _geom(
+            body,
+            Shape("box", (0, middle, (low + high) / 2), (half[0], half[1], (high - low) / 2), 0, color, True),
+            label,
+            FINGER_MASS / 2,
+        )
+
+
+def _add_shapes(body: Any, shapes: tuple[Shape, ...], mass: float) -> None:
+    colliding = sum(shape.collides for shape in shapes)
+    for number, shape in enumerate(shapes, 1):
+        _geom(body, shape, f"{body.name}_{number}", mass / colliding if shape.collides else 0.0)
+
+
+def _geom(body: Any, shape: Shape, name: str, mass: float) -> None:
+    import mujoco
+
+    bits = ARM_BIT if shape.collides else 0
+    geom = body.add_geom(
+        name=name,
+        type=getattr(mujoco.mjtGeom, f"mjGEOM_{shape.kind.upper()}"),
+        rgba=list(shape.color),
+        group=VISUAL_GROUP,
+        contype=bits,
+        conaffinity=bits | (WORLD_BIT if bits else 0),
+        mass=mass,
+    )
+    a, b = [v / 1000 for v in shape.a], [v / 1000 for v in shape.b]
+    if shape.kind in ("capsule", "cylinder"):
+        geom.fromto = [*a, *b]
+        geom.size = [shape.radius / 1000, 0, 0]
+    else:
+        geom.pos, geom.size = a, b

@@ -1,0 +1,48 @@
+"""The UFACTORY xArm7 as numbers: where its joints sit and how far and fast they turn.
+
+Joint origins and ranges: the vendor's published URDF. Greatest speed: the vendor's manual (180 deg/s, tool 1 m/s).
+Greatest acceleration: the vendor's SDK (20 rad/s2). The jerk is not published: 500 rad/s3 is an assumption.
+"""
+
+from __future__ import annotations
+
+import math
+
+ORIGINS: tuple[tuple[float, float, float], ...] = (
+    (0.0, 0.0, 267.0),
+    (0.0, 0.0, 0.0),
+    (0.0, -293.0, 0.0),
+    (52.5, 0.0, 0.0),
+    (77.5, -342.5, 0.0),
+    (0.0, 0.0, 0.0),
+    (76.0, 97.0, 0.0),
+)
+"""Origin of each joint in the frame of the link before it [mm]."""
+
+ROLLS: tuple[int, ...] = (0, -90, 90, 90, 90, 90, -90)
+"""How each joint's frame is turned about the x axis of the link before it [deg]; the joint turns about its z."""
+
+LIMITS: tuple[tuple[float, float], ...] = (
+    (-6.28319, 6.28319),
+    (-2.059, 2.0944),
+    (-6.28319, 6.28319),
+    (-0.19198, 3.927),
+    (-6.28319, 6.28319),
+    (-1.69297, 3.14159),
+    (-6.28319, 6.28319),
+)
+"""Range of each joint [rad]."""
+
+JOINT_SPEED = math.pi
+"""Greatest speed of a joint [rad/s]."""
+JOINT_ACCELERATION = 20.0
+"""Greatest acceleration of a joint [rad/s2]."""
+JOINT_JERK = 500.0
+"""Greatest jerk of a joint [rad/s3]; an assumption."""
+TOOL_SPEED = 1000.0
+"""Greatest speed of the tool center point [mm/s]."""
+
+
+def within_limits(joints: tuple[float, ...]) -> bool:
+    """Return whether every joint [rad] is in its range."""
+    return all(low <= q <= high for q, (low, high) in zip(joints, LIMITS, strict=True))
