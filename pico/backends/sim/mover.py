@@ -1,0 +1,51 @@
+"""What moves the bodies of a simulated world: the same questions to a kinematic and to a physical one."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import Any, Protocol
+
+from pico.backends.sim.world import World
+from pico.diagnostics import Diagnostic
+from pico.model.operation import Operation
+from pico.model.pose import Pose
+from pico.motion.types import MovePath
+
+InProgress = Generator[float, None, dict[str, Any]]
+"""An operation in progress: yields the seconds until it wants to be resumed, returns the data of its result."""
+
+
+class MoveFailed(Exception):
+    """A motion that did not do what it should: a missed grasp, a drop, a slip. Carries the diagnostic."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        self.diagnostic = diagnostic
+        super().__init__(diagnostic.summary)
+
+
+class Mover(Protocol):
+    """Moves robots and components. The backend alone advances time; generators only say when to resume them."""
+
+    def advance(self, seconds: float) -> None:
+        """Let `seconds` pass for all operations in progress."""
+        ...
+
+    def move(self, operation: Operation, path: MovePath) -> InProgress:
+        """Pick and place `operation.component` along `path`.
+
+        The generator returns `{"error_mm": ..., "error_deg": ...}`, how far from the goal the component ended, and
+        raises MoveFailed. Closed early, it leaves robot and component as they are at that moment.
+        """
+        ...
+
+    def park(self, path: MovePath) -> InProgress:
+        """Bring `path.robot` along `path`, its gripper as it is."""
+        ...
+
+    def carried(self, robot: str) -> Pose | None:
+        """Return where the component in the gripper of `robot` is, seen from above, or None where it holds none."""
+        ...
+
+    def world(self, world: World) -> World:
+        """Return `world` with poses, presence, joints and what is held as they are now. Nothing else changes."""
+        ...

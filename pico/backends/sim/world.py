@@ -1,0 +1,124 @@
+"""The simulated table as plain data: what stands where, between one command and the next.
+
+A new world starts from the homes of the inventory, never from a laboratory state. Poses in mm and deg, clock in s.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import field, replace
+from typing import Any
+
+from pico.model.catalog import ComponentType, Footprint, Tunable
+from pico.model.lab import Setup
+from pico.model.observation import ObservedRobot, ObservedValue, Presence, UnknownObject
+from pico.model.pose import Pose
+from pico.model.quantities import Value
+from pico.model.record import record
+from pico.model.state import home_state, place_of
+
+SCHEMA = "pico.world/v1"
+
+
+@record
+class FreePose:
+    """A pose in space, of a part that does not stand upright on the table: position of its base frame [mm] and unit
+    quaternion (w, x, y, z) in the table frame."""
+
+    position: tuple[float, float, float]
+    quaternion: tuple[float, float, float, float]
+
+
+@record
+class Shape:
+    """What the world remembers of a component type, so that a part that leaves the inventory stays an obstacle."""
+
+    footprint: Footprint
+    height: float
+
+
+@record
+class Body:
+    """One component of the simulated table.
+
+    `pose` is its planar pose, None where it is `missing`; of a part that is `held` or `toppled`, where its origin is
+    above the table. `free`: its full pose where physics left it off the plane. `type` names an entry of
+    `World.shapes`.
+    """
+
+    type: str
+    marker: int | None = None
+    presence: Presence = "seen"
+    pose: Pose | None = None
+    free: FreePose | None = None
+    values: Mapping[str, ObservedValue] = field(default_factory=dict)
+
+
+@record
+class World:
+    """The simulated table. `clock`: simulated seconds since it was new. `robots`: joints [rad] and what each holds."""
+
+    schema: str = SCHEMA
+    lab: str
+    seed: int = 1
+    clock: float = 0.0
+    components: Mapping[str, Body] = field(default_factory=dict)
+    robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
+    unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
+    shapes: Mapping[str, Shape] = field(default_factory=dict)
+
+    def with_body(self, name: str, **changes: Any) -> World:
+        """Return the world with fields of component `name` replaced."""
+        return replace(self, components={**self.components, name: replace(self.components[name], **changes)})
+
+    def with_value(self, name: str, tunable: str, value: ObservedValue) -> World:
+        """Return the world with the value of one tunable replaced."""
+        return self.with_body(name, values={**self.components[name].values, tunable: value})
+
+
+def new_world(setup: Setup) -> World:
+    """Return the world in which every part is at home, every tunable at its initial value, every robot parked."""
+    homes = home_state(setup)
+    return World(
+        lab=setup.lab.name,
+        seed=setup.lab.sim.seed,
+        components={name: new_body(setup, name, place_of(setup, homes, name)[1]) for name in setup.lab.inventory},
+        robots={name: parked(setup, name) for name in setup.lab.robots},
+        shapes=shapes_of(setup),
+    )
+
+
+def new_body(setup: Setup, name: str, pose: Pose | None) -> Body:
+    """Return the component as the world first sees it: standing at `pose`, its tunables at their initial values."""
+    part, kind = setup.lab.inventory[name], setup.type_of(name)
+    presence: Presence = "seen" if pose else "missing"
+    return Body(type=part.type, marker=part.marker, presence=presence, pose=pose, values=initial_values(kind))
+
+
+def parked(setup: Setup, robot: str) -> ObservedRobot:
+    """Return the robot at its park pose with an empty gripper."""
+    return ObservedRobot(joints=tuple(math.radians(angle) for angle in setup.lab.robots[robot].park))
+
+
+def shapes_of(setup: Setup) -> dict[str, Shape]:
+    """Return the shapes of the types that the inventory uses."""
+    names = sorted({part.type for part in setup.lab.inventory.values()})
+    kinds = {name: setup.catalog[name].geometry for name in names}
+    return {name: Shape(footprint=g.footprint, height=g.height) for name, g in kinds.items()}
+
+
+def initial_values(kind: ComponentType) -> dict[str, ObservedValue]:
+    """Return what the tunables of a type read when the world is new: axes are homed, electronics at their default."""
+    return {name: ObservedValue(value=initial_value(tunable)) for name, tunable in sorted(kind.tunables.items())}
+
+
+def initial_value(tunable: Tunable) -> Value:
+    """Return the home of an axis, the low end of a range, false, or the first choice."""
+    if tunable.datatype == "bool":
+        return False
+    if tunable.datatype == "choice":
+        return tunable.choices[0] if tunable.choices else ""
+    if tunable.axis is not None:
+        return tunable.axis.home
+    return tunable.range[0] if tunable.range else 0.0
