@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import cache
 from typing import Annotated, Any
@@ -12,8 +13,11 @@ _FACTORS: dict[str, tuple[str, float]] = {
     "cm": ("length", 10.0),
     "m": ("length", 1000.0),
     "um": ("length", 1e-3),
+    "µm": ("length", 1e-3),
+    "μm": ("length", 1e-3),
     "nm": ("length", 1e-6),
     "deg": ("angle", 1.0),
+    "°": ("angle", 1.0),
     "mrad": ("angle", 0.057295779513082320),
     "rad": ("angle", 57.295779513082320),
     "ms": ("time", 1.0),
@@ -31,11 +35,23 @@ _DIMENSIONS = {
     "[mass]": "mass",
     "[mass] * [length] ** 2 / [time] ** 3": "power",
 }
+# What may follow a number: units with one exponent each. Anything else never reaches pint, which evaluates powers.
+_UNIT = re.compile(
+    r"(?:1/)?[A-Za-zµμΩ°%]+(?:(?:\*\*|\^)?-?\d)?(?:\s?[*/·\s]\s?[A-Za-zµμΩ°%]+(?:(?:\*\*|\^)?-?\d)?){0,4}"
+)
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 
 
 class QuantityError(ValueError):
     """A text that is no quantity of the unit asked for; `str()` is fit for a user."""
+
+
+class DimensionError(QuantityError):
+    """A quantity of another dimension than asked for: `have`, `want` as `dimension` names them."""
+
+    def __init__(self, message: str, have: str, want: str) -> None:
+        super().__init__(message)
+        self.have, self.want = have, want
 
 
 @cache
@@ -74,15 +90,19 @@ def convert(value: Any, unit: str) -> Any:
     if not match:
         raise QuantityError(f"`{value}` is not a quantity; expected {example(unit)}")
     number, given = float(match[1]), match[2]
+    if math.isinf(number):
+        raise QuantityError(f"`{value[:40]}` is too large; expected {example(unit)}")
     if given is None:
         raise QuantityError(f'"{value}" is a string; write the number without quotes, or with a unit, {example(unit)}')
     if given == unit:
         return number
     if given in _FACTORS and unit in _FACTORS and _FACTORS[given][0] == _FACTORS[unit][0]:
         return number * _FACTORS[given][1] / _FACTORS[unit][1]
+    if len(given) > 40 or not _UNIT.fullmatch(given):
+        raise QuantityError(f"`{given[:40]}` is not a unit; expected {example(unit)}")
     have, want = dimension(given), dimension(unit)
     if have != want:
-        raise QuantityError(f"`{value}` is a {have}, not a {want}; expected {example(unit)}")
+        raise DimensionError(f"`{value}` is a {have}, not a {want}; expected {example(unit)}", have, want)
     return float(_registry().Quantity(number, given).to(unit).magnitude)
 
 
