@@ -5,7 +5,7 @@ Names within an arm: bodies `base`, `link1` to `link7`, `gripper`, `left_finger`
 `joint7` [rad] and `gripper` (travel of each finger [m], so that the opening is twice it); site `tcp`. `attach_arm`
 puts the robot's name before them: `arm1/tcp`.
 
-What is seen is in geom group 2; what is only seen has contype and conaffinity 0.
+What is seen is in geom group 2, what is only hit in group 3; what is only seen has contype and conaffinity 0.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ WORLD_BIT = 2
 """Bit of contype and conaffinity of everything else; a table or component with it meets arms and other components."""
 
 VISUAL_GROUP = 2
+COLLISION_GROUP = 3
 SITE_GROUP = 4
 FINGERS = ("left", "right")
 PALM_LENGTH = 100.0
@@ -39,6 +40,7 @@ _TORQUE = (50.0, 50.0, 30.0, 30.0, 30.0, 20.0, 20.0)  # N m, what the joints' ge
 _STIFFNESS = (6000.0, 6000.0, 4000.0, 4000.0, 2000.0, 2000.0, 1000.0)  # N m/rad
 _TIME_CONSTANT = 0.05  # s, of a joint's servo
 _ARMATURE = 0.1  # kg m2, the rotors seen through their gears
+_FINGER_DAMPING = 300.0  # N s/m: the gripper shuts at 90 mm/s at most
 
 
 def build_arm(robot: Robot) -> mujoco.MjSpec:
@@ -134,10 +136,11 @@ def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
         name2="right_slide",
         data=[0, 1, *[0] * 10],
         solref=[0.004, 1],
+        solimp=[0.99, 0.999, 0.0005, 0.5, 2],
     )
     # one motor closes both fingers, so each pad gets half of its force
     actuator = _actuator(spec, "gripper", "left_slide", (0.0, travel), 2 * GRIP_FORCE)
-    actuator.set_to_position(kp=8000.0, kv=400.0)
+    actuator.set_to_position(kp=8000.0, kv=0.0)
 
 
 def _add_finger(palm: Any, name: str, side: int, fingers: Fingers, tool: float, travel: float) -> None:
@@ -151,19 +154,17 @@ def _add_finger(palm: Any, name: str, side: int, fingers: Fingers, tool: float, 
         axis=[0, side, 0],
         range=[0, travel],
         armature=0.1,
-        damping=[5.0, 0, 0],
+        damping=[_FINGER_DAMPING, 0, 0],
     )
     tip = tool + fingers.tip
     pad_top = tip - PAD_HEIGHT
-    middle = side * fingers.thickness / 2
-    half = [fingers.breadth / 2, fingers.thickness / 2]
-    for label, low, high, color in ((f"{name}_pad", pad_top, tip, DARK), (f"{name}_bar", PALM_LENGTH, pad_top, GREY)):
-        _geom(
-            body,
-            Shape("box", (0, middle, (low + high) / 2), (half[0], half[1], (high - low) / 2), 0, color, True),
-            label,
-            FINGER_MASS / 2,
-        )
+    for label, low, high, recess, color in (
+        (f"{name}_pad", pad_top, tip, 0.0, DARK),
+        (f"{name}_bar", PALM_LENGTH, pad_top, 2.0, GREY),  # set back, so that only the pad meets the part
+    ):
+        center = (0.0, side * (fingers.thickness + recess) / 2, (low + high) / 2)
+        half = (fingers.breadth / 2, (fingers.thickness - recess) / 2, (high - low) / 2)
+        _geom(body, Shape("box", center, half, 0, color, True), label, FINGER_MASS / 2)
 
 
 def _add_shapes(body: Any, shapes: tuple[Shape, ...], mass: float) -> None:
@@ -180,7 +181,7 @@ def _geom(body: Any, shape: Shape, name: str, mass: float) -> None:
         name=name,
         type=getattr(mujoco.mjtGeom, f"mjGEOM_{shape.kind.upper()}"),
         rgba=list(shape.color),
-        group=VISUAL_GROUP,
+        group=VISUAL_GROUP if shape.color[3] else COLLISION_GROUP,
         contype=bits,
         conaffinity=bits | (WORLD_BIT if bits else 0),
         mass=mass,

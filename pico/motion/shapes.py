@@ -1,6 +1,6 @@
 """What the arm looks like and weighs: capsules, cylinders, ellipsoids and boxes in the links' frames, in mm and kg.
 
-Drawn after the real arm's outline. Bodies that collide are the white ones; caps and rings are only seen. A link's
+Drawn after the real arm's outline. Shapes that collide round off the white ones; caps and rings are only seen. A link's
 mass is spread over its colliding shapes.
 """
 
@@ -16,6 +16,7 @@ WHITE: Color = (0.93, 0.94, 0.95, 1.0)
 DARK: Color = (0.13, 0.14, 0.16, 1.0)
 GREY: Color = (0.55, 0.57, 0.60, 1.0)
 BLUE: Color = (0.10, 0.38, 0.66, 1.0)
+NONE: Color = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +49,7 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
     ),
     (  # shoulder: a stump under a barrel that lies across
         _solid("capsule", (0, 0, -20), (0, 0, 0), 58),
-        _disc((0, 0, -76), (0, 0, -18), 58, WHITE),
+        _disc((0, 0, -76), (0, 0, -18), 58.6, WHITE),
         _solid("capsule", (0, -22, 0), (0, 22, 0), 58),
         _disc((0, -81, 0), (0, -60, 0), 38),
         _disc((0, 60, 0), (0, 81, 0), 38),
@@ -57,11 +58,11 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
         _solid("capsule", (0, 0, 0), (0, -190, 0), 51),
         Shape("ellipsoid", (0, -30, 0), (55, 62, 57), 0, WHITE),
         _disc((0, -228, 0), (0, -234, 0), 49),
-        _disc((0, -228, 0), (0, -150, 0), 51, WHITE),
+        _disc((0, -228, 0), (0, -150, 0), 51.6, WHITE),
     ),
     (  # elbow: the stump of joint 3, and a barrel set forward of it
         _solid("capsule", (0, 0, -10), (20, 0, 0), 50),
-        _disc((0, 0, -58), (0, 0, -8), 50, WHITE),
+        _disc((0, 0, -58), (0, 0, -8), 50.6, WHITE),
         _solid("capsule", (52.5, -24, 0), (52.5, 24, 0), 50),
         _disc((52.5, -75, 0), (52.5, -58, 0), 33),
         _disc((52.5, 58, 0), (52.5, 75, 0), 33),
@@ -70,12 +71,12 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
     (  # forearm: slants forward, then runs straight towards the wrist
         _solid("capsule", (0, 0, 0), (77.5, -95, 0), 45),
         _solid("capsule", (77.5, -95, 0), (77.5, -205, 0), 44),
-        _disc((77.5, -205, 0), (77.5, -243, 0), 44, WHITE),
+        _disc((77.5, -205, 0), (77.5, -243, 0), 44.6, WHITE),
         _disc((77.5, -243, 0), (77.5, -249, 0), 42),
     ),
     (  # lower forearm: tapers to the barrel of joint 6
         _solid("capsule", (0, 0, -50), (0, 0, 0), 40),
-        _disc((0, 0, -93), (0, 0, -45), 40, WHITE),
+        _disc((0, 0, -93), (0, 0, -45), 40.6, WHITE),
         _solid("capsule", (0, -18, 0), (0, 18, 0), 42),
         _disc((0, -64, 0), (0, -52, 0), 27),
         _disc((0, 52, 0), (0, 64, 0), 27),
@@ -83,7 +84,7 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
     (  # wrist: reaches forward to the housing of joint 7
         _solid("capsule", (0, 0, 0), (76, 10, 0), 37),
         _solid("capsule", (76, 10, 0), (76, 38, 0), 37.5),
-        _disc((76, 30, 0), (76, 72, 0), 37.5, WHITE),
+        _disc((76, 30, 0), (76, 72, 0), 38, WHITE),
         _disc((76, 72, 0), (76, 76, 0), 35),
         _disc((76, -32, 0), (76, -26, 0), 18, BLUE),
     ),
@@ -96,11 +97,12 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
 
 PALM: tuple[Shape, ...] = (
     Shape("cylinder", (0, 0, 0), (0, 0, 34), 34, DARK, True),
-    Shape("box", (0, 0, 64), (25, 54, 30), 0, WHITE, True),
-    Shape("box", (0, 0, 97), (22, 54, 4), 0, DARK),
-    Shape("cylinder", (0, -44, 34), (0, -44, 94), 27, WHITE),
-    Shape("cylinder", (0, 44, 34), (0, 44, 94), 27, WHITE),
-    Shape("box", (0, 0, 62), (26.5, 26, 12), 0, BLUE),
+    Shape("box", (0, 0, 64), (26, 58, 30), 0, NONE, True),
+    Shape("box", (0, 0, 64), (26, 32, 30), 0, WHITE),
+    Shape("box", (0, 0, 97), (21, 55, 4), 0, DARK),
+    Shape("cylinder", (0, -32, 34), (0, -32, 94), 26, WHITE),
+    Shape("cylinder", (0, 32, 34), (0, 32, 94), 26, WHITE),
+    Shape("box", (0, 0, 62), (26.5, 24, 11), 0, BLUE),
 )
 """Shapes of the gripper's body, z out of the flange; the fingers hang below z = 100."""
 
