@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
 from pico.model.record import as_json, canonical, digest, record
@@ -86,3 +86,24 @@ class Plan:
     def to_json(self) -> str:
         """Return the plan as canonical JSON, as `pico plan --out` writes it."""
         return canonical(self)
+
+
+def plan_from_json(text: str | bytes) -> Plan:
+    """Return the plan that `Plan.to_json` wrote; raises PicoError where it is none, or was changed since."""
+    from pydantic import TypeAdapter, ValidationError
+
+    try:
+        plan: Plan = TypeAdapter(Plan).validate_json(text)
+    except ValidationError as exc:
+        first = exc.errors()[0]
+        where = ".".join(str(word) for word in first["loc"])
+        raise PicoError(
+            error("plan-file", f"this is no saved plan: {where + ': ' if where else ''}{first['msg']}")
+        ) from exc
+    if plan.schema != SCHEMA:
+        raise PicoError(error("plan-file", f"this plan has schema `{plan.schema}`; this PICO reads `{SCHEMA}`"))
+    if plan.digest != plan.sealed().digest:
+        raise PicoError(
+            error("plan-file", "this plan was changed after it was saved: its digest does not fit", hint="plan again")
+        )
+    return plan

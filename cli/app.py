@@ -1,0 +1,142 @@
+"""All commands together, the options that each of them takes, and what becomes of errors."""
+
+from __future__ import annotations
+
+import copy
+import os
+import sys
+import traceback
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+
+from .commands import REGISTER
+from .session import Session
+from .summary import COMMANDS
+
+SHARED = ("folder", "json", "debug", "backend")
+
+
+def _remember(context: typer.Context, parameter: typer.CallbackParam, value: Any) -> Any:
+    """Keep an option that was given, before or after the command's name; the later one wins."""
+    if value is not None and value is not False:
+        context.meta.setdefault("pico.session", {})[parameter.name] = value
+    return value
+
+
+def _version(value: bool) -> None:
+    if value:
+        from pico import __version__
+
+        typer.echo(f"pico {__version__}")
+        raise typer.Exit
+
+
+def root(
+    folder: Annotated[
+        Path | None, typer.Option("-C", metavar="DIR", help="Work as if started in DIR.", callback=_remember)
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Answer with JSON.", callback=_remember)] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show the traceback of an internal error.", callback=_remember)
+    ] = False,
+    backend: Annotated[
+        str | None,
+        typer.Option(
+            "--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=_remember
+        ),
+    ] = None,
+    version: Annotated[bool, typer.Option("--version", help="Show the version.", callback=_version)] = False,
+) -> None:
+    """Version control for the optical table."""
+
+
+def build() -> Any:
+    """Return the command line as a command group."""
+    app = typer.Typer(
+        name="pico", rich_markup_mode=None, pretty_exceptions_enable=False, no_args_is_help=True, add_completion=False
+    )
+    app.callback()(root)
+    for register in REGISTER:
+        register(app)
+    group = typer.main.get_command(app)
+    shared = [_hidden_from_function(p) for p in group.params if p.name in SHARED]
+    _share(group, shared)
+    return group
+
+
+def _hidden_from_function(option: Any) -> Any:
+    """Return the option as a command takes it: its callback remembers the value, the function never sees it."""
+    own = copy.copy(option)
+    own.expose_value = False
+    return own
+
+
+def _share(group: Any, options: list[Any]) -> None:
+    for command in group.commands.values():
+        taken = {word for p in command.params for word in p.opts}
+        command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
+        if hasattr(command, "commands"):
+            _share(command, options)
+
+
+def run(words: list[str]) -> int:
+    """Run one command; every error becomes a diagnostic and an exit code."""
+    session = Session(json="--json" in words, debug="--debug" in words)
+    if "_PICO_COMPLETE" in os.environ:
+        from typer.completion import completion_init
+
+        completion_init()
+    try:
+        code = build().main(args=words, prog_name="pico", complete_var="_PICO_COMPLETE", standalone_mode=False)
+    except (Exception, KeyboardInterrupt) as exc:
+        found, code = _explain(exc, words)
+        if session.debug:
+            traceback.print_exc()
+        session.report(found)
+    return int(code or 0)
+
+
+def _explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], int]:
+    """Return an exception as diagnostics and an exit code."""
+    if isinstance(exc, PicoError):
+        return list(exc.diagnostics), exc.exit_code
+    if isinstance(exc, KeyboardInterrupt):
+        return [error("interrupted", "interrupted; nothing was moving")], ExitCode.INTERRUPTED
+    if isinstance(exc, typer.Abort):
+        return [error("declined", "nothing was done")], ExitCode.ERROR
+    if hasattr(exc, "format_message"):  # a usage error, whichever click typer carries
+        return [_usage(exc, words)], ExitCode.ERROR
+    if isinstance(exc, OSError) and exc.filename:
+        reason = (exc.strerror or str(exc)).lower()
+        return [error("file", f"{exc.filename}: {reason}")], ExitCode.ERROR
+    return [_internal(exc)], ExitCode.ERROR
+
+
+def _usage(exc: Any, words: list[str]) -> Diagnostic:
+    context = getattr(exc, "ctx", None)
+    path = context.command_path if context else "pico"
+    message = exc.format_message().rstrip(".")
+    hint = f"`{path} --help` shows how it is used"
+    if message.startswith("No such command"):
+        from pico.diagnostics import did_you_mean
+
+        unknown = message.split("'")[1] if "'" in message else next((w for w in words if not w.startswith("-")), "")
+        message = f"pico has no command `{unknown}`"
+        near = did_you_mean(unknown, COMMANDS)
+        hint = near if near.startswith("did") else "`pico --help` lists the commands"
+    return error("usage", message[:1].lower() + message[1:], hint=hint)
+
+
+def _internal(exc: BaseException) -> Diagnostic:
+    """Return what a user sees of a mistake in PICO itself: one line, and how to report it."""
+    frames = traceback.extract_tb(exc.__traceback__)
+    last = next((f for f in reversed(frames) if "pico" in f.filename), frames[-1] if frames else None)
+    where = f" at {'/'.join(Path(last.filename).parts[-3:])}:{last.lineno}" if last else ""
+    text = " ".join(str(exc).split())[:200]
+    summary = f"PICO itself failed: {type(exc).__name__}{f': {text}' if text else ''}{where}"
+    again = " ".join(["pico", *sys.argv[1:], "--debug"])
+    return error("internal", summary, hint=f"this is a mistake in PICO; report it with the output of `{again}`")

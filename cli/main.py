@@ -1,0 +1,44 @@
+"""Entry point of `pico`: answers what needs nothing at once, leaves the rest to `app`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code (design: `pico.diagnostics.ExitCode`)."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")  # a terminal that can't show ✓ shows ? instead of failing
+    at_once = _at_once(words)
+    if at_once is None:
+        from .app import run
+
+        return run(words)
+    try:
+        print(at_once, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+def _at_once(words: list[str]) -> str | None:
+    """Return the answer to `--version` and the top-level `--help`, or None where a command must run."""
+    if "_PICO_COMPLETE" in os.environ:
+        return None
+    if words in ([], ["--help"], ["-h"], ["help"]):
+        from .summary import help_text
+
+        return help_text()
+    if words in (["--version"], ["-V"]):
+        from pico import __version__
+
+        return f"pico {__version__}"
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,102 @@
+"""What every command is told (`-C`, `--json`, `--debug`, `--backend`), and where its answer goes."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TextIO
+
+import typer
+
+from .views.style import plain
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+    from pico.diagnostics import Diagnostic
+
+
+class View(Protocol):
+    """A module of `views`."""
+
+    def text(self, *args: Any, **options: Any) -> str: ...
+
+    def data(self, *args: Any, **options: Any) -> dict[str, Any]: ...
+
+
+@dataclass(frozen=True)
+class Session:
+    """One call of `pico`."""
+
+    folder: Path = Path()
+    json: bool = False
+    debug: bool = False
+    backend: str = "sim"
+
+    @classmethod
+    def of(cls, context: typer.Context) -> Session:
+        """Return the session of a command, from the options given before and after its name."""
+        return cls(**context.meta.get("pico.session", {}))
+
+    def bench(self, fidelity: str | None = None) -> Bench:
+        """Open the lab of this session; raises PicoError."""
+        from pico.bench import Bench
+
+        return Bench.open(self.folder, backend=self.backend, fidelity=fidelity)
+
+    def show(self, view: View, *args: Any, **options: Any) -> None:
+        """Print an answer, for people or as one JSON document."""
+        if self.json:
+            self.document(view.data(*args, **options))
+        else:
+            self.say(view.text(*args, **options))
+
+    def document(self, data: Any) -> None:
+        """Print one JSON document, in one line."""
+        write(sys.stdout, json.dumps(data, ensure_ascii=False, default=str))
+
+    def say(self, text: str) -> None:
+        """Print text for people; nothing with `--json`."""
+        if not self.json:
+            write(sys.stdout, text)
+
+    def report(self, diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> None:
+        """Print diagnostics: on standard error for people, on standard output as JSON."""
+        from .views import diagnostics as view
+
+        if diagnostics and self.json:
+            self.document(view.data(diagnostics))
+        elif diagnostics:
+            write(sys.stderr, view.text(diagnostics))
+
+    def confirm(self, question: str) -> bool:
+        """Ask, and return whether the answer is yes. Nobody there to answer is a no."""
+        sys.stdout.write(f"{question} [y/N] ")
+        sys.stdout.flush()
+        try:
+            answer = input()
+        except EOFError:
+            answer = ""
+            write(sys.stdout, "")
+        return answer.strip().lower() in ("y", "yes")
+
+
+def colored(stream: TextIO) -> bool:
+    """Return whether color helps: on a terminal, unless NO_COLOR (no-color.org) or TERM=dumb say no."""
+    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
+def write(stream: TextIO, text: str, end: str = "\n") -> None:
+    """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly."""
+    try:
+        stream.write((text if colored(stream) else plain(text)) + end)
+        stream.flush()
+    except BrokenPipeError:
+        silence(stream)
+
+
+def silence(stream: TextIO) -> None:
+    """Send what is written to `stream` from now on nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

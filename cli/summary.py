@@ -1,0 +1,64 @@
+"""The top-level help, answered before anything heavy is imported; a test compares it with the real commands."""
+
+from __future__ import annotations
+
+GROUPS: dict[str, dict[str, str]] = {
+    "The main job": {
+        "init": "Make a new lab, or an example with its history.",
+        "status": "Show what is committed, desired and live, side by side.",
+        "plan": "Show what would move to make the bench equal to the manifest or a revision.",
+        "apply": "Move what the plan says.",
+        "checkout": "Go to a revision: files and bench.",
+    },
+    "Manifests": {
+        "validate": "Check the manifests.",
+        "fmt": "Bring manifests into the normal form; comments stay.",
+        "capture": "Write what stands on the bench into the manifest.",
+        "catalog": "List the component types, or show one.",
+        "parts": "List the parts of this bench and where they are.",
+    },
+    "History": {
+        "commit": "Capture the bench and commit.",
+        "log": "List commits with what each changed on the table.",
+        "diff": "Show what differs between two states, as motions.",
+        "show": "Show a revision or a saved plan.",
+        "drift": "Show where the bench has left the last commit. Moves nothing.",
+    },
+    "One operation at a time": {
+        "do": "Run one primitive of a component, through the same checks as a plan.",
+        "move": "Move a component to a pose or a slot.",
+        "rotate": "Turn a component about the vertical.",
+        "place": "Place a component a distance after another along the beam.",
+        "stow": "Put a component back into its home slot.",
+        "set": "Set a tunable.",
+        "get": "Read the tunables of a component.",
+        "home": "Home the axis of a tunable.",
+    },
+    "The simulator, and the rest": {
+        "sim": "Act on the simulated world: reset it, nudge or remove a component.",
+        "render": "Draw the bench as a PNG.",
+        "completion": "Print the completion script of a shell.",
+        "version": "Show the versions of PICO and what it stands on.",
+    },
+}
+
+COMMANDS: dict[str, str] = {name: line for group in GROUPS.values() for name, line in group.items()}
+
+OPTIONS = {
+    "-C DIR": "Work as if started in DIR.",
+    "--json": "Answer with JSON.",
+    "--debug": "Show the traceback of an internal error.",
+    "--backend NAME": "What executes operations: sim (default) or hardware.",
+    "--version": "Show the version.",
+    "--help": "Show this, or the help of a command.",
+}
+
+
+def help_text() -> str:
+    """Return what `pico --help` prints."""
+    lines = ["Usage: pico [OPTIONS] COMMAND [ARGS]...", "", "Version control for the optical table.", ""]
+    for title, commands in GROUPS.items():
+        lines += [f"{title}:", *(f"  {name:<11} {line}" for name, line in commands.items()), ""]
+    lines += ["Options, before or after the command:"]
+    lines += [f"  {option:<15} {line}" for option, line in OPTIONS.items()]
+    return "\n".join([*lines, "", "Start with `pico init --example shel bench`. Help of a command: `pico COMMAND --help`."])

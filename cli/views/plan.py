@@ -1,0 +1,176 @@
+"""A plan: where from and to, each operation with its reason, what it costs, what next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from pico.model.diff import Change
+from pico.model.operation import Operation, Reason
+from pico.model.plan import Plan
+from pico.model.record import as_json
+
+from .style import WIDTH, columns, count, listed, paint, place, seconds, width, wrap
+
+SHOWN_TOLERATED = 5
+
+
+def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "") -> str:
+    """Return the screen of a plan. `head` and `goal` name the commits; `next_step` says what to type."""
+    blocks = [header(plan, head, goal)]
+    if plan.operations:
+        blocks.append("\n".join(operations(plan)))
+    blocks.append("\n".join([*_tolerated(plan), *(f"  {line}" for line in _summary(plan))]))
+    if plan.errored:
+        blocks.append("This plan can't be applied; what is wrong stands below.")
+    elif next_step and plan.operations:
+        blocks.append(next_step)
+    return "\n\n".join(block for block in blocks if block)
+
+
+def data(plan: Plan, **_: Any) -> dict[str, Any]:
+    """Return the plan, schema `pico.plan/v1`: what `--out` writes."""
+    found: dict[str, Any] = as_json(plan)
+    return found
+
+
+def header(plan: Plan, head: str = "", goal: str = "") -> str:
+    """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted")`."""
+    parts = [paint("bold", plan.lab.name), f"{plan.backend} ({plan.fidelity})"]
+    target = goal or plan.target.revision or "the manifest"
+    parts.append(f"HEAD {head} → {target}" if head else f"→ {target}")
+    return " · ".join(parts)
+
+
+def operations(plan: Plan) -> list[str]:
+    """Return one line an operation, two where the reason is long."""
+    changes = {(c.component, c.tunable): c for c in plan.changes}
+    moving = any(op.robot for op in plan.operations)
+    rows = [[*_cells(op), _why(op, changes, moving)] for op in plan.operations]
+    lines = columns([row[:-1] for row in rows], indent="  ")
+    whole = []
+    room = max((width(line) for line in lines), default=0)
+    for line, (*_, why) in zip(lines, rows, strict=True):
+        if room + 2 + width(why) <= WIDTH or not why:
+            whole.append((line + " " * (room - width(line) + 2) + paint("dim", why)).rstrip())
+        else:
+            whole += [line, *(paint("dim", w) for w in wrap(why, " " * 6))]
+    return whole
+
+
+def symbol(op: Operation) -> str:
+    """Return + placed from storage, - stowed, ~ changed where it is, ↷ makes room, ! a person must act."""
+    if op.primitive == "operator":
+        return paint("red", "!")
+    if op.primitive == "park":
+        return paint("dim", "·")
+    if op.reason.kind in ("staged", "in_the_way"):
+        return paint("yellow", "↷")
+    if op.primitive in ("move", "stow"):
+        if _slot(op.arguments.get("to")):
+            return paint("yellow", "-")
+        if _slot(op.arguments.get("from")):
+            return paint("green", "+")
+    return paint("yellow", "~")
+
+
+def _slot(where: Any) -> str | None:
+    return where.get("slot") if isinstance(where, dict) else None
+
+
+def address(op: Operation) -> str:
+    """Return `p2`, or `p1.angle` where one tunable is driven."""
+    tunable = op.arguments.get("tunable")
+    return f"{op.component}.{tunable}" if tunable else op.component
+
+
+def step(op: Operation) -> str:
+    """Return what an operation does: `storage/a3 → (395, 420, 0°)`, `90 → 1`, `home`."""
+    if op.primitive == "operator":
+        return "by hand" if "to" not in op.arguments else f"by hand to {place(op.arguments['to'])}"
+    if op.primitive in ("home", "park", "measure"):
+        return op.primitive
+    if "to" not in op.arguments:
+        return op.primitive
+    before = op.arguments.get("from")
+    goal = place(op.arguments["to"])
+    return f"{place(before)} → {goal}" if before is not None else f"→ {goal}"
+
+
+def _cells(op: Operation) -> list[str]:
+    took = seconds(op.seconds) if op.seconds >= 0.05 else ""
+    return [f"{symbol(op)} {address(op)}", step(op), f"{took:>6}"]
+
+
+def _why(op: Operation, changes: dict[tuple[str, str], Change], moving: bool) -> str:
+    change = changes.get((op.component, op.arguments.get("tunable", "pose")))
+    said = reason(op.reason, change)
+    beside = "beside the arm" if moving and not op.robot and op.primitive in ("set", "home") else ""
+    return ", ".join(part for part in (said, beside) if part)
+
+
+def reason(why: Reason, change: Change | None = None) -> str:
+    """Return why an operation is in the plan, in words."""
+    if why.text:
+        return why.text
+    of = listed(why.of)
+    overlap = f" by {why.overlap:.3g} mm" if why.overlap else ""
+    words = {
+        "changed": change.text if change and "turned" in change.text + "moved" in change.text else "",
+        "in_the_way": f"in the way of {of}: they would overlap{overlap}",
+        "staged": f"put down on its way: a ring of {of} block one another",
+        "stowed": "not wanted on the table",
+        "operator": "only a person can do it",
+        "asked": "asked for",
+        "parked": "leaves the beam free",
+    }
+    return words.get(why.kind, "")
+
+
+def _tolerated(plan: Plan) -> list[str]:
+    near = [c for c in plan.changes if c.tolerated]
+    rows = [[f"  = {_name(c)}", f"{c.text}: within tolerance, stays"] for c in near[:SHOWN_TOLERATED]]
+    more = len(near) - SHOWN_TOLERATED
+    lines = columns(rows) + ([f"    and {more} more within tolerance"] if more > 0 else [])
+    return [paint("dim", line) for line in lines] + ([""] if lines else [])
+
+
+def _name(change: Change) -> str:
+    return change.component if change.tunable == "pose" else f"{change.component}.{change.tunable}"
+
+
+def tally(operations: Sequence[Operation]) -> str:
+    """Return `2 moves, 1 setting, 1 homing`; empty for no operation."""
+    kinds = [op.primitive for op in operations]
+    found = [
+        (kinds.count("move") + kinds.count("stow"), "move", ""),
+        (kinds.count("set"), "setting", ""),
+        (kinds.count("home"), "homing", ""),
+        (kinds.count("measure"), "measurement", ""),
+        (kinds.count("operator"), "step by hand", "steps by hand"),
+    ]
+    return ", ".join(count(n, noun, plural) for n, noun, plural in found if n)
+
+
+def _summary(plan: Plan) -> list[str]:
+    if not plan.operations:
+        return [f"Nothing to do: the bench equals {goal_name(plan)}."] if not plan.errored else []
+    parts = [tally(plan.operations)]
+    if any(op.primitive in ("move", "stow") for op in plan.operations):
+        parts.append(_staging(plan))
+    arms = sum(op.seconds for op in plan.operations if op.robot)
+    parts.append(f"{seconds(plan.makespan)} in all" + (f", arm {seconds(arms)}" if arms else ""))
+    line = " · ".join(part for part in parts if part)
+    moved = {op.component for op in plan.operations}
+    return [line, "Nothing else moves."] if moved else [line]
+
+
+def _staging(plan: Plan) -> str:
+    s = plan.staging
+    known = "fewest possible, proven" if s.proven else f"at least {s.lower_bound} needed"
+    return f"{s.count} staged ({known})"
+
+
+def goal_name(plan: Plan) -> str:
+    """Return what the plan leads to, as a person calls it."""
+    return plan.target.revision or "the manifest"

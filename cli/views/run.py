@@ -1,0 +1,66 @@
+"""A run while it goes on and when it is over."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.model.event import Event
+from pico.model.plan import Plan
+
+from .plan import address, step
+from .style import WIDTH, pad, paint, seconds, shorten, width
+
+
+class Progress:
+    """Turns events into lines: one that stays for each operation that ended, one that is overwritten meanwhile."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.operations = {op.id: op for op in plan.operations}
+        self.order = {op.id: i for i, op in enumerate(plan.operations, 1)}
+        self.names = max((width(f"{address(op)} {step(op)}") for op in plan.operations), default=0)
+
+    def line(self, event: Event) -> str:
+        """Return the line that stays after an event; empty for none."""
+        if event.operation not in self.operations:
+            return ""
+        marks = {
+            "operation_done": paint("green", "✓"),
+            "operation_failed": paint("red", "✗"),
+            "operation_unknown": paint("red", "?"),
+            "operation_skipped": paint("dim", "-"),
+        }
+        if event.kind not in marks:
+            return ""
+        return f"  {marks[event.kind]} {self._head(event)}  {self._tail(event)}".rstrip()
+
+    def live(self, event: Event) -> str:
+        """Return the line that stands while an operation is under way; empty for none."""
+        op = self.operations.get(event.operation or "")
+        if op is None or event.kind not in ("operation_started", "operation_progress"):
+            return ""
+        done = float(event.data.get("fraction", 0.0)) * op.seconds
+        tail = f"{done:5.1f} / {op.seconds:.1f} s  {event.data.get('phase', '')}"
+        return shorten(f"  {paint('cyan', '▸')} {self._head(event)}  {tail}".rstrip(), WIDTH)
+
+    def _head(self, event: Event) -> str:
+        op = self.operations[event.operation or ""]
+        total = len(self.operations)
+        return f"{self.order[op.id]:>{len(str(total))}}/{total} " + pad(f"{address(op)} {step(op)}", self.names)
+
+    def _tail(self, event: Event) -> str:
+        data = event.data
+        if event.kind == "operation_done":
+            took = f"{seconds(float(data['seconds'])):>7}" if "seconds" in data else ""
+            return took + (f"   {placement(data)}" if "error_mm" in data else "")
+        if event.kind == "operation_skipped":
+            because = self.operations.get(str(data.get("because", "")))
+            return f"skipped: {address(because)} did not get there" if because else "skipped"
+        found = data.get("diagnostic")
+        summary = found.get("summary", "") if isinstance(found, dict) else getattr(found, "summary", "")
+        return f"{'failed' if event.kind == 'operation_failed' else 'outcome unknown'}: {summary}".rstrip(": ")
+
+
+def placement(data: Any) -> str:
+    """Return `placed 0.11 mm, 0.03° from its goal`."""
+    turned = f", {float(data['error_deg']):.2f}°" if data.get("error_deg") is not None else ""
+    return f"off by {float(data['error_mm']):.2f} mm{turned}"

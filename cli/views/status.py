@@ -1,0 +1,71 @@
+"""Committed, desired and live, side by side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.model.record import as_json
+from pico.model.status import Status, StatusRow
+
+from .style import columns, count, paint, place
+
+LONG = 40
+
+
+def text(status: Status, *, every: bool = False) -> str:
+    """Return the table of three columns; of a long one only what differs, unless `every`."""
+    rows = [r for r in status.rows if every or len(status.rows) <= LONG or not r.equal]
+    head = ["component", f"committed ({status.head})" if status.head else "committed", "desired", "live"]
+    table = [[paint("dim", cell) for cell in head], *map(_cells, rows)]
+    table += [
+        [f"unknown/{name}", "-", "-", f"{place(as_json(pose))}  {paint('yellow', 'an obstacle, not in the inventory')}"]
+        for name, pose in sorted(status.unknown.items())
+    ]
+    lines = columns(table) if len(table) > 1 else []
+    hidden = len(status.rows) - len(rows)
+    if hidden:
+        lines.append(paint("dim", f"and {hidden} more that are equal in all three; --all shows them"))
+    return "\n".join([*lines, "", *_summary(status)]).lstrip("\n")
+
+
+def _cells(row: StatusRow) -> list[str]:
+    committed = "-" if row.committed is None else place(row.committed)
+    desired = paint("yellow", f"{place(row.desired)} *") if row.edited else "="
+    if row.note:
+        live = paint("red", row.note)
+    elif row.live is None:
+        live = "unknown"
+    elif row.off:
+        live = paint("yellow" if row.edited else "red", f"{place(row.live)} !")
+    else:
+        live = "=" if row.exact else f"= {row.near}"
+    return [row.address, committed if row.committed is not None or not row.edited else "-", desired, live]
+
+
+def _summary(status: Status) -> list[str]:
+    drifts = sum(r.drifted for r in status.rows)
+    pending = sum(r.off and not r.drifted for r in status.rows)
+    lost = sum(bool(r.note) for r in status.rows)
+    edits = sum(r.edited for r in status.rows)
+    parts = [
+        (edits, f"{count(edits, 'edit')} in the manifest, not committed (*)"),
+        (pending, f"{count(pending, 'tunable')} to bring to the manifest"),
+        (drifts, f"{count(drifts, 'drift')}: the bench left commit and manifest (!)"),
+        (lost, f"{count(lost, 'component')} not seen as it should be"),
+        (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
+    ]
+    said = " · ".join(words for number, words in parts if number)
+    if not said:
+        return ["Committed, desired and live are equal."]
+    advice = []
+    if pending or drifts:
+        advice.append("`pico plan` shows what would move; `pico capture` takes the live values into the manifest.")
+    elif edits:
+        advice.append('The bench is as the manifest says; `pico commit -m "why"` keeps it.')
+    return [said, *advice]
+
+
+def data(status: Status, **_: Any) -> dict[str, Any]:
+    """Return schema `pico.status/v1`: `head`, `rows` (component, tunable, committed, desired, live, ...), `unknown`."""
+    found: dict[str, Any] = as_json(status)
+    return found

@@ -1,0 +1,95 @@
+"""Plain text with a little color, columns, and numbers as people write them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+WIDTH = 100
+_CODES = {"bold": 1, "dim": 2, "red": 31, "green": 32, "yellow": 33, "blue": 34, "cyan": 36}
+_ANSI = re.compile(r"\x1b\[[0-9;]*m")
+
+
+def paint(style: str, text: str) -> str:
+    """Return `text` in a style (`bold`, `dim`, `red`, ...); `Output` removes it where no color is wanted."""
+    return f"\x1b[{_CODES[style]}m{text}\x1b[0m" if text else text
+
+
+def plain(text: str) -> str:
+    """Return `text` without color."""
+    return _ANSI.sub("", text)
+
+
+def width(text: str) -> int:
+    """Return how many columns `text` takes."""
+    return len(plain(text))
+
+
+def pad(text: str, columns: int) -> str:
+    """Return `text` with spaces to the right, `columns` wide or more."""
+    return text + " " * (columns - width(text))
+
+
+def columns(rows: Sequence[Sequence[str]], *, gap: int = 2, indent: str = "", last: int = 1000) -> list[str]:
+    """Return rows of cells as aligned lines. The last cell is not padded; one over `last` columns is cut."""
+    if not rows:
+        return []
+    widths = [max(width(row[i]) for row in rows if i < len(row)) for i in range(max(map(len, rows)))]
+    lines = []
+    for row in rows:
+        cells = [pad(cell, widths[i]) for i, cell in enumerate(row[:-1])] + [shorten(row[-1], last)]
+        lines.append((indent + (" " * gap).join(cells)).rstrip())
+    return lines
+
+
+def shorten(text: str, columns: int) -> str:
+    """Return `text`, cut with an ellipsis where it is wider than `columns`."""
+    return text if width(text) <= columns else plain(text)[: max(columns - 1, 0)] + "…"
+
+
+def wrap(text: str, indent: str, columns: int = WIDTH) -> list[str]:
+    """Return `text` in lines of at most `columns`, each after `indent`; line breaks in it are kept."""
+    import textwrap
+
+    room = max(columns - len(indent), 20)
+    lines = [line for part in text.splitlines() for line in (textwrap.wrap(part, room) or [""])]
+    return [f"{indent}{line}".rstrip() for line in lines]
+
+
+def count(number: int, noun: str, plural: str = "") -> str:
+    """Return `1 move`, `2 moves`."""
+    return f"{number} {noun if number == 1 else plural or noun + 's'}"
+
+
+def listed(names: Sequence[str], limit: int = 6) -> str:
+    """Return `a, b and c`, or the first few and how many more there are."""
+    if len(names) > limit:
+        return f"{', '.join(names[:limit])} and {len(names) - limit} more"
+    return " and ".join(([", ".join(names[:-1])] if names[:-1] else []) + list(names[-1:]))
+
+
+def number(value: float, digits: int = 2) -> str:
+    """Return a number without needless zeros: `420`, `12.5`, `0.07`."""
+    text = f"{round(value, digits) + 0.0:.{digits}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def seconds(value: float) -> str:
+    """Return a duration: `0.4 s`, `41 s`, `2 min 05 s`."""
+    if value < 60:
+        return f"{value:.1f} s"
+    return f"{int(value) // 60} min {int(value) % 60:02d} s"
+
+
+def place(value: Any) -> str:
+    """Return a place as a change or an operation holds it: a slot's name, `(x, y, yaw°)`, or a value."""
+    if value is None:
+        return "unknown"
+    if isinstance(value, dict) and "x" in value:
+        return f"({number(value['x'])}, {number(value['y'])}, {number(value.get('yaw', 0.0))}°)"
+    if isinstance(value, dict):
+        return value.get("slot") or place(value.get("pose"))
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return number(value, 4) if isinstance(value, int | float) else str(value)

@@ -1,0 +1,157 @@
+"""The three states side by side: committed, desired and live, for each tunable of each component."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import field
+from typing import Any
+
+from pico.model.diff import Change, diff_observed, place_json
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.pose import Pose, angle_between
+from pico.model.record import record
+from pico.model.state import LabState, place_of
+
+
+@record
+class StatusRow:
+    """One tunable in the three states; a place is a slot's name or a pose as {x, y, yaw}.
+
+    `edited`: desired differs from committed. `off`: live differs from desired by more than the tolerance. `drifted`:
+    it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
+    deviation; `near` says what a tolerated deviation is. `note`: missing, held or toppled.
+    """
+
+    component: str
+    tunable: str
+    committed: Any = None
+    desired: Any = None
+    live: Any = None
+    edited: bool = False
+    off: bool = False
+    drifted: bool = False
+    exact: bool = False
+    near: str = ""
+    note: str = ""
+
+    @property
+    def address(self) -> str:
+        """`p2` for a pose, `p1.angle` for another tunable."""
+        return self.component if self.tunable == "pose" else f"{self.component}.{self.tunable}"
+
+    @property
+    def equal(self) -> bool:
+        """Whether there is nothing to tell about it."""
+        return not (self.edited or self.off or self.note)
+
+
+@record
+class Status:
+    """The three states of a bench. `head`: what the commit is called, empty without Git or before a first commit."""
+
+    schema: str = "pico.status/v1"
+    lab: str
+    backend: str
+    head: str = ""
+    observed_at: str = ""
+    rows: tuple[StatusRow, ...] = ()
+    unknown: Mapping[str, Pose] = field(default_factory=dict)
+
+
+def compare(setup: Setup, committed: LabState | None, desired: LabState, seen: Observation, head: str = "") -> Status:
+    """Return the three states side by side, sorted by component and tunable; `committed` is None without a commit."""
+    off = _by_address(diff_observed(setup, seen, desired))
+    moved = _by_address(diff_observed(setup, seen, committed)) if committed else off
+    rows: list[StatusRow] = []
+    for name in sorted(setup.lab.inventory):
+        rows.append(_pose_row(setup, name, committed, desired, seen, off, moved))
+        rows.extend(_value_rows(setup, name, committed, desired, seen, off, moved))
+    unknown = {name: thing.pose for name, thing in seen.unknown.items()}
+    return Status(
+        lab=setup.lab.name,
+        backend=seen.backend,
+        head=head,
+        observed_at=seen.observed_at,
+        rows=tuple(rows),
+        unknown=unknown,
+    )
+
+
+_Changes = Mapping[tuple[str, str], Change]
+
+
+def _by_address(changes: Iterable[Change]) -> dict[tuple[str, str], Change]:
+    return {(c.component, c.tunable): c for c in changes}
+
+
+def _pose_row(
+    setup: Setup, name: str, committed: LabState | None, desired: LabState, seen: Observation, off: _Changes,
+    moved: _Changes,
+) -> StatusRow:  # fmt: skip
+    slot, goal = place_of(setup, desired, name)
+    before = place_json(*place_of(setup, committed, name)) if committed else None
+    after = place_json(slot, goal)
+    part = seen.components.get(name)
+    note = _note(part)
+    live = part.pose if part and not note else None
+    in_slot = slot_at(setup, live) if live and setup.movable(name) else None
+    return StatusRow(
+        component=name,
+        tunable="pose",
+        committed=before,
+        desired=after,
+        live=place_json(in_slot, live) if live else None,
+        edited=committed is not None and before != after,
+        note=note,
+        near=_deviation(goal, live) if live else "",
+        **_verdict((name, "pose"), off, moved),
+    )
+
+
+def _value_rows(
+    setup: Setup, name: str, committed: LabState | None, desired: LabState, seen: Observation, off: _Changes,
+    moved: _Changes,
+) -> list[StatusRow]:  # fmt: skip
+    before = _values(committed, name)
+    after = _values(desired, name)
+    part = seen.components.get(name)
+    live = {k: v.value for k, v in part.values.items() if v.status != "unknown"} if part else {}
+    return [
+        StatusRow(
+            component=name,
+            tunable=tunable,
+            committed=before.get(tunable),
+            desired=after.get(tunable),
+            live=live.get(tunable),
+            edited=committed is not None and before.get(tunable) != after.get(tunable),
+            near=str(live.get(tunable)),
+            **_verdict((name, tunable), off, moved),
+        )
+        for tunable in sorted(before.keys() | after.keys())
+    ]
+
+
+def _values(state: LabState | None, name: str) -> Mapping[str, Any]:
+    return state.components[name].values if state and name in state.components else {}
+
+
+def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes) -> dict[str, Any]:
+    change, drift = off.get(key), moved.get(key)
+    is_off = change is not None and not change.tolerated
+    return {
+        "off": is_off,
+        "drifted": is_off and drift is not None and not drift.tolerated,
+        "exact": change is None,
+    }
+
+
+def _note(part: ObservedComponent | None) -> str:
+    if part is None or (part.pose is None and part.presence == "seen"):
+        return "missing"
+    return "" if part.presence == "seen" else part.presence
+
+
+def _deviation(goal: Pose, live: Pose) -> str:
+    turned = angle_between(goal.yaw, live.yaw)
+    return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
