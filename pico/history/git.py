@@ -1,0 +1,79 @@
+"""The user's own `git`, for what must run hooks, sign and obey configuration. Never through a shell."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from pico.diagnostics import PicoError, error
+
+# git's words, the code of the diagnostic, and what to do. The first that matches counts.
+_KNOWN: tuple[tuple[str, str, str], ...] = (
+    (
+        r"tell me who you are|empty ident|auto-detect email|user\.useConfigOnly|no email was given",
+        "identity",
+        'say who you are, once: `git config --global user.name "Your Name"` and '
+        "`git config --global user.email you@example.org`",
+    ),
+    (
+        r"Unable to create '(?P<path>[^']*\.lock)'|cannot lock ref",
+        "git-locked",
+        "another git command is running here: wait for it. If none is, remove the lock file that git names",
+    ),
+    (
+        r"would be overwritten|Please commit your changes|Your local changes",
+        "dirty",
+        "commit the edits (`pico commit`), or shelve them (`git stash`); shelving files moves nothing on the table",
+    ),
+    (r"dubious ownership", "git-ownership", "the repository belongs to somebody else; git says how to trust it"),
+    (r"gpg failed to sign|failed to sign|signing failed", "git-signing", "check `git config user.signingKey`"),
+    (r"nothing to commit|nothing added to commit|no changes added", "nothing-to-commit", "nothing differs from HEAD"),
+    (r"partial commit during a", "git-merging", "end the merge first: `git commit`, or `git merge --abort`"),
+    (r"already exists", "exists", "choose another name"),
+    (r"not a valid (branch|tag) name|not a valid ref", "name", "use letters, digits, `-`, `_` and `/`"),
+)
+
+
+def run(root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None) -> str:
+    """Run `git ARGUMENTS` in `root` and return what it wrote to standard output.
+
+    `doing` completes "git did not ...". `hook` names the hooks that may refuse it. The environment's GIT_* count.
+    Raises PicoError with git's own words and what to do.
+    """
+    environment = os.environ | {"LC_ALL": "C.UTF-8", "LANGUAGE": "", "GIT_OPTIONAL_LOCKS": "0"}
+    try:
+        done = subprocess.run(
+            ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), capture_output=True, check=False
+        )
+    except FileNotFoundError:
+        hint = "install git, or add it to PATH"
+        raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
+    if done.returncode:
+        words = "\n".join(t for t in (done.stderr.decode(errors="replace"), done.stdout.decode(errors="replace")) if t)
+        raise refusal(words.strip(), doing=doing, hook=_installed(root, hook))
+    return done.stdout.decode(errors="surrogateescape")
+
+
+def refusal(words: str, *, doing: str, hook: str | None = None) -> PicoError:
+    """Return the error that says in git's `words` why it did not do what was asked, and what to do about it."""
+    for pattern, code, hint in _KNOWN:
+        if re.search(pattern, words, re.IGNORECASE):
+            return PicoError(error(code, f"git did not {doing}", detail=words, hint=hint))
+    if hook:
+        return PicoError(error("git-hook", f"git did not {doing}: its {hook} hook refused", detail=words))
+    return PicoError(error("git", f"git did not {doing}", detail=words))
+
+
+def _installed(root: Path, names: str | None) -> str | None:
+    """Return which of the hooks in `names` the repository has, or None."""
+    found = []
+    for name in (names or "").split():
+        asked = subprocess.run(
+            ["git", "rev-parse", "--git-path", f"hooks/{name}"], cwd=root, capture_output=True, text=True, check=False
+        )
+        if asked.returncode == 0 and os.access(root / asked.stdout.strip(), os.X_OK):
+            found.append(name)
+    return " or ".join(found) or None

@@ -1,0 +1,336 @@
+"""A Git repository that holds a lab: read a state at any revision without checking it out; commit, check out, name."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from datetime import datetime, timedelta, timezone
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.history import git
+from pico.history.commit import Commit, Head
+from pico.history.graph import topological
+
+# How libgit2 names what it can't read, and what to tell the user.
+_UNREADABLE: tuple[tuple[str, str, str], ...] = (
+    ("unknown object format", "it uses SHA-256 object names", "make it with `git init --object-format=sha1`"),
+    ("extensions.refstorage", "it stores refs as reftable", "convert it: `git refs migrate --ref-format=files`"),
+    ("extensions.partialclone", "it is a partial clone", "clone it without `--filter`"),
+    (
+        "not owned by current user",
+        "it belongs to another user, and a repository can run its owner's code",
+        "if you trust it: `git config --global --add safe.directory FOLDER`",
+    ),
+)
+
+
+class Repository:
+    """A Git repository, opened by `Repository.discover` or made by `Repository.init`.
+
+    Reading goes through libgit2; whatever changes it goes through the user's `git`, so that hooks run and commits
+    are signed as configured. `root` is the top of the working tree; a lab may be any folder below it.
+    """
+
+    def __init__(self, handle: Any, root: Path) -> None:
+        self._git = handle
+        self.root = root
+
+    @classmethod
+    def discover(cls, path: Path) -> Repository | None:
+        """Return the repository that `path` lies in, None where there is none.
+
+        GIT_DIR, GIT_WORK_TREE and GIT_CEILING_DIRECTORIES count as they do for git. Raises PicoError for a
+        repository that can't be read or has no working tree.
+        """
+        import pygit2
+
+        ceiling = os.environ.get("GIT_CEILING_DIRECTORIES", "")
+        found = os.environ.get("GIT_DIR") or pygit2.discover_repository(str(path.absolute()), False, ceiling)
+        if not found:
+            return None
+        try:
+            handle = pygit2.Repository(found)
+        except Exception as exc:  # GitError, or ValueError and KeyError of the same cause
+            raise _unreadable(Path(found), str(exc)) from exc
+        tree = os.environ.get("GIT_WORK_TREE") or handle.workdir
+        if tree is None:
+            hint = "clone it, and work in the clone"
+            raise PicoError(error("git-bare", f"{found} is a bare repository, without files to edit", hint=hint))
+        return cls(handle, Path(tree).resolve())
+
+    @classmethod
+    def init(cls, path: Path) -> Repository:
+        """Make an empty repository with branch `main` in the folder `path` and return it."""
+        import pygit2
+
+        pygit2.init_repository(str(path), initial_head="main")
+        return cls(pygit2.Repository(str(path)), path.resolve())
+
+    def head(self) -> Head:
+        """Return what is checked out: labelled with a tag at the commit, else the branch, else the short id."""
+        if self._git.head_is_unborn:
+            branch = str(self._git.lookup_reference("HEAD").target).removeprefix("refs/heads/")
+            return Head(commit=None, branch=branch, label=branch)
+        attached = None if self._git.head_is_detached else str(self._git.head.shorthand)
+        commit = str(self._git.head.target)
+        tags = self._refs(("refs/tags/",)).get(commit, ())
+        return Head(commit=commit, branch=attached, label=tags[0] if tags else attached or commit[:7])
+
+    def resolve(self, revision: str) -> Commit:
+        """Return the commit that `revision` names: a branch, tag, id or its beginning, `HEAD~2`, `e1@{1}`, ...
+
+        A branch that only a remote has counts too, as in `git checkout`. Raises PicoError naming the revision.
+        """
+        return self._commit(self._lookup(revision), self._refs())
+
+    def _lookup(self, revision: str) -> Any:
+        import pygit2
+
+        name = "@{-1}" if revision == "-" else revision
+        try:
+            return self._git.revparse_single(name).peel(pygit2.Commit)
+        except (KeyError, ValueError, pygit2.GitError):
+            pass
+        for _, target in self._remote_branches(name):
+            return self._git[target]
+        if not name.startswith("-"):  # git knows forms that libgit2 does not
+            try:
+                told = git.run(self.root, ["rev-parse", "--verify", "--quiet", name + "^{commit}"], doing="look it up")
+                return self._git[told.strip()]
+            except PicoError:
+                pass
+        raise self._unknown(revision)
+
+    def _remote_branches(self, name: str) -> list[tuple[str, str]]:
+        """Return (remote branch, commit id) where exactly one remote has the branch `name`, else nothing."""
+        found = [
+            (ref, target)
+            for target, refs in self._refs(("refs/remotes/",)).items()
+            for ref in refs
+            if ref.partition("/")[2] == name
+        ]
+        return found if len(found) == 1 else []
+
+    def _unknown(self, revision: str) -> PicoError:
+        if self._git.head_is_unborn:
+            hint = 'nothing is committed yet: `pico commit -m "first state"`'
+            return PicoError(error("revision", f"there is no revision `{revision}`", hint=hint))
+        if 4 <= len(revision) <= 40 and set(revision.lower()) <= set("0123456789abcdef"):
+            alike = [c for c in self._walk([str(self._git.head.target)]) if c.startswith(revision.lower())]
+            if len(alike) > 1:
+                hint = "write more of it: " + ", ".join(f"`{c[:12]}`" for c in alike[:4])
+                return PicoError(error("revision", f"several commits begin with `{revision}`", hint=hint))
+        known = {name for refs in self._refs().values() for name in refs}
+        recent = {c[:7] for c, _ in zip(self._walk([str(self._git.head.target)]), range(100), strict=False)}
+        hint = did_you_mean(revision, known) or did_you_mean(revision, known | recent)
+        hint = hint or "`pico log --graph` shows what there is"
+        return PicoError(error("revision", f"there is no revision `{revision}`", hint=hint))
+
+    def _walk(self, ids: Sequence[str]) -> Iterator[str]:
+        import pygit2
+
+        walker = self._git.walk(ids[0], pygit2.enums.SortMode.TIME)
+        for other in ids[1:]:
+            walker.push(other)
+        return (str(c.id) for c in walker)
+
+    def files(
+        self, revision: str, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None
+    ) -> dict[str, bytes]:
+        """Return every `*.yaml` below `folder` (relative to the root) at `revision`, by path relative to `folder`.
+
+        Nothing is checked out. Dot-folders and `runs/` are left out; links and submodules are skipped, with a
+        warning appended to `diagnostics`. Raises PicoError where the revision or the folder in it does not exist.
+        """
+        import pygit2
+
+        tree = self._lookup(revision).tree
+        inside = self.relative(folder)
+        try:
+            tree = tree[inside] if inside else tree
+        except KeyError:
+            tree = None
+        if not isinstance(tree, pygit2.Tree):
+            hint = "the lab may have had another folder then"
+            raise PicoError(error("revision", f"`{revision}` has no folder {inside}", hint=hint))
+        found: dict[str, bytes] = {}
+        skipped: list[str] = []
+        _collect(tree, PurePosixPath(), found, skipped)
+        if diagnostics is not None:
+            diagnostics += [
+                warning("link", f"{path} at {revision} is a link or a submodule and is not read") for path in skipped
+            ]
+        return found
+
+    def relative(self, folder: str | Path) -> str:
+        """Return `folder` (absolute, or relative to the root) as a path in a commit; empty for the root.
+
+        Raises PicoError for a folder outside the repository.
+        """
+        absolute = (self.root / folder).resolve()
+        if not absolute.is_relative_to(self.root):
+            raise PicoError(error("outside", f"{folder} lies outside the repository {self.root}"))
+        inside = absolute.relative_to(self.root).as_posix()
+        return "" if inside == "." else inside
+
+    def changed(self, folder: str | Path = "") -> tuple[str, ...]:
+        """Return the manifests below `folder` that differ from HEAD or are not committed, relative to the root."""
+        arguments = ["status", "--porcelain", "-z", "--untracked-files=all", "--no-renames", "--"]
+        listed = git.run(self.root, [*arguments, self.relative(folder) or "."], doing="list what was edited")
+        paths = (entry[3:] for entry in listed.split("\0") if entry)
+        return tuple(sorted(p for p in paths if p.endswith(".yaml") and not _left_out(p)))
+
+    def log(
+        self,
+        revisions: Sequence[str] = ("HEAD",),
+        *,
+        folder: str | Path = "",
+        limit: int | None = None,
+    ) -> Iterator[Commit]:
+        """Yield the commits that `revisions` reach, children before parents, lines of history kept together.
+
+        With a `folder`, only commits that changed it, as if there were no others. `limit` bounds how many.
+        """
+        import pygit2
+
+        if not revisions or (list(revisions) == ["HEAD"] and self._git.head_is_unborn):
+            return
+        refs = self._refs()
+        walker = self._git.walk(None, pygit2.enums.SortMode.TIME | pygit2.enums.SortMode.TOPOLOGICAL)
+        for revision in revisions:
+            walker.push(self._lookup(revision).id)
+        inside = self.relative(folder)
+        commits = [self._commit(c, refs) for c in walker] if not inside else self._touching(walker, inside, refs)
+        ordered = topological(commits)
+        yield from ordered[:limit] if limit is not None else ordered
+
+    def _touching(self, walker: Iterable[Any], folder: str, refs: dict[str, tuple[str, ...]]) -> list[Commit]:
+        """Return the commits that changed `folder`, each with the nearest such ancestors as parents."""
+        from dataclasses import replace
+
+        handles = list(walker)
+        trees = {str(c.id): _tree_id(c, folder) for c in handles}
+        kept: dict[str, tuple[str, ...]] = {}  # commit -> itself, or what stands for it
+        commits = []
+        for handle in reversed(handles):
+            name = str(handle.id)
+            before = [str(p) for p in handle.parent_ids]
+            parents = tuple(dict.fromkeys(k for p in before for k in kept.get(p, ())))
+            same = [p for p in before if trees.get(p) == trees[name]]
+            if same or (not before and trees[name] is None):
+                kept[name] = kept.get(same[0], ()) if same else ()
+            else:
+                kept[name] = (name,)
+                commits.append(replace(self._commit(handle, refs), parents=parents))
+        return commits[::-1]
+
+    def tips(self) -> tuple[str, ...]:
+        """Return the branches and tags, HEAD first where it exists: everything that `log` may start from."""
+        names = {name for refs in self._refs(("refs/heads/", "refs/tags/")).values() for name in refs}
+        return (*(() if self._git.head_is_unborn else ("HEAD",)), *sorted(names))
+
+    def commit(self, paths: Iterable[str | Path], message: str) -> Commit:
+        """Commit `paths` (and nothing else that is staged) and return the commit; hooks run, signing as configured.
+
+        Raises PicoError with git's words: no identity, a hook that refuses, a lock, nothing to commit.
+        """
+        if not message.strip():
+            raise PicoError(error("message", "a commit needs a message", hint='say why: `pico commit -m "..."`'))
+        names = [self.relative(p) or "." for p in paths]
+        if not names:
+            raise PicoError(error("nothing-to-commit", "there is nothing to commit", hint="nothing differs from HEAD"))
+        git.run(self.root, ["add", "--all", "--", *names], doing="stage the manifests")
+        arguments = ["commit", "--quiet", "--file=-", "--only", "--", *names]
+        hooks = "pre-commit commit-msg prepare-commit-msg"
+        git.run(self.root, arguments, doing="commit", stdin=message, hook=hooks)
+        return self.resolve("HEAD")
+
+    def checkout(self, revision: str) -> Head:
+        """Check `revision` out with git (a branch, else detached) and return the new HEAD. Moves nothing on a table.
+
+        Raises PicoError where edits would be overwritten, in git's words.
+        """
+        self._lookup(revision)
+        arguments = ["-c", "advice.detachedHead=false", "checkout", "--quiet", revision, "--"]
+        git.run(self.root, arguments, doing=f"check out {revision}", hook="post-checkout")
+        return self.head()
+
+    def branch(self, name: str, at: str = "HEAD") -> None:
+        """Make the branch `name` at a revision; raises PicoError where it exists."""
+        git.run(self.root, ["branch", "--", name, self.resolve(at).id], doing=f"make the branch {name}")
+
+    def tag(self, name: str, at: str = "HEAD") -> None:
+        """Make the tag `name` at a revision; raises PicoError where it exists."""
+        git.run(self.root, ["tag", "--", name, self.resolve(at).id], doing=f"make the tag {name}")
+
+    def _refs(
+        self, prefixes: tuple[str, ...] = ("refs/tags/", "refs/heads/", "refs/remotes/")
+    ) -> dict[str, tuple[str, ...]]:
+        """Return the short names at each commit, in the order of `prefixes`, then by name."""
+        import pygit2
+
+        at: dict[str, list[tuple[int, str]]] = {}
+        for name in self._git.references:
+            kind = next((i for i, p in enumerate(prefixes) if name.startswith(p)), None)
+            if kind is None or name.endswith("/HEAD"):
+                continue
+            try:
+                commit = self._git.references[name].peel(pygit2.Commit)
+            except (KeyError, ValueError, pygit2.GitError):  # a tag of a file, or a ref to nothing
+                continue
+            at.setdefault(str(commit.id), []).append((kind, name.removeprefix(prefixes[kind])))
+        return {commit: tuple(name for _, name in sorted(names)) for commit, names in at.items()}
+
+    def _commit(self, handle: Any, refs: dict[str, tuple[str, ...]]) -> Commit:
+        name = str(handle.id)
+        author, message = handle.author, handle.message.strip()
+        zone = timezone(timedelta(minutes=author.offset))
+        return Commit(
+            id=name,
+            parents=tuple(str(p) for p in handle.parent_ids),
+            summary=message.partition("\n")[0],
+            message=message,
+            author=f"{author.name} <{author.email}>",
+            time=datetime.fromtimestamp(author.time, zone),
+            refs=refs.get(name, ()),
+        )
+
+
+def _unreadable(path: Path, words: str) -> PicoError:
+    for pattern, reason, hint in _UNREADABLE:
+        if pattern in words:
+            folder = path.parent if path.name == ".git" else path
+            hint = hint.replace("FOLDER", str(folder))
+            return PicoError(error("git-unreadable", f"{folder} can't be read: {reason}", hint=hint))
+    return PicoError(error("git-unreadable", f"{path} can't be read", detail=words))
+
+
+def _left_out(path: str) -> bool:
+    """Return whether a path lies in a dot-folder or in `runs/`."""
+    folders = PurePosixPath(path).parts[:-1]
+    return any(part.startswith(".") or part == "runs" for part in folders)
+
+
+def _collect(tree: Any, at: PurePosixPath, found: dict[str, bytes], skipped: list[str]) -> None:
+    """Add the manifests of `tree`, which lies at `at`, to `found`; links and submodules to `skipped`."""
+    from pygit2.enums import FileMode
+
+    for entry in tree:
+        path = at / entry.name
+        if entry.filemode == FileMode.TREE:
+            if not _left_out(f"{path}/" + "x"):
+                _collect(entry, path, found, skipped)
+        elif entry.filemode in (FileMode.LINK, FileMode.COMMIT):
+            if entry.filemode == FileMode.COMMIT or entry.name.endswith(".yaml"):
+                skipped.append(str(path))
+        elif entry.name.endswith(".yaml"):
+            found[str(path)] = entry.data
+
+
+def _tree_id(commit: Any, folder: str) -> str | None:
+    try:
+        return str(commit.tree[folder].id)
+    except KeyError:
+        return None
