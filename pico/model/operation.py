@@ -58,7 +58,10 @@ class Operation:
 
 @record
 class OperationResult:
-    """What became of one operation: outcome, the diagnostic of a failure, the component before and after."""
+    """What became of one operation: outcome, the diagnostic of a failure, the component before and after.
+
+    `seconds` that it took; `ended`: the backend's clock when it was over [s].
+    """
 
     key: str
     outcome: Outcome
@@ -66,4 +69,5 @@ class OperationResult:
     before: ObservedComponent | None = None
     after: ObservedComponent | None = None
     seconds: float = 0.0
+    ended: float = 0.0
     data: Mapping[str, Any] = field(default_factory=dict)

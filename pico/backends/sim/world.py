@@ -6,13 +6,13 @@ A new world starts from the homes of the inventory, never from a laboratory stat
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import Any
 
 from pico.model.catalog import ComponentType, Footprint, Tunable
 from pico.model.lab import Setup
-from pico.model.observation import ObservedRobot, ObservedValue, Presence, UnknownObject
+from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import record
@@ -122,3 +122,28 @@ def initial_value(tunable: Tunable) -> Value:
     if tunable.axis is not None:
         return tunable.axis.home
     return tunable.range[0] if tunable.range else 0.0
+
+
+def footprints(world: World) -> Iterator[tuple[str, Footprint, Pose]]:
+    """Yield name, footprint and pose of everything that takes room on the table: what is held does not."""
+    for name, body in world.components.items():
+        if body.pose is not None and body.presence in ("seen", "toppled"):
+            yield name, world.shapes[body.type].footprint, body.pose
+    for name, thing in world.unknown.items():
+        yield name, thing.footprint, thing.pose
+
+
+def observe(world: World, backend: str, observed_at: str) -> Observation:
+    """Return the world as an observation without error."""
+    components = {
+        name: ObservedComponent(presence=body.presence, pose=body.pose, values=body.values)
+        for name, body in world.components.items()
+    }
+    return Observation(
+        backend=backend,
+        time=world.clock,
+        observed_at=observed_at,
+        components=components,
+        unknown=world.unknown,
+        robots=world.robots,
+    )

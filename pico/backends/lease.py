@@ -1,0 +1,101 @@
+"""One mover at a time: a kernel lock on the lab's folder, which the kernel frees when its holder dies.
+
+Who holds it stands beside the lock, for the message that the second one reads. Tokens count up, for every command to
+the bench to carry, so that one that comes late is known for what it is.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import getpass
+import json
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+
+from pico.backends.protocol import Lease
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+
+
+def utc_now() -> str:
+    """Return the time as ISO 8601, UTC, to the second."""
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+class BenchLock:
+    """The lock of the lab in folder `root`: `.pico/lock`, with the holder in `.pico/holder.json`."""
+
+    def __init__(self, root: Path, clock: Callable[[], str] = utc_now) -> None:
+        self._folder = root / ".pico"
+        self._clock = clock
+        self._file: int | None = None
+
+    def acquire(self, holder: str) -> Lease:
+        """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for."""
+        file = self._open()
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(file)
+            raise PicoError(self._taken(), ExitCode.LOCKED) from None
+        self._file = file
+        lease = Lease(token=self._last_token() + 1, holder=holder, since=self._clock())
+        self._write_holder(lease)
+        return lease
+
+    def release(self) -> None:
+        """Let go of the lock; nothing happens where it is not held."""
+        if self._file is not None:
+            os.close(self._file)
+            self._file = None
+
+    @contextmanager
+    def held(self, holder: str) -> Iterator[Lease]:
+        """Hold the lock for a while; raises PicoError as `acquire` does."""
+        lease = self.acquire(holder)
+        try:
+            yield lease
+        finally:
+            self.release()
+
+    def _open(self) -> int:
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            return os.open(self._folder / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        except OSError as exc:
+            text = f"the bench cannot be locked in {self._folder}: {(exc.strerror or str(exc)).lower()}"
+            raise PicoError(error("lock-file", text)) from exc
+
+    def _last_token(self) -> int:
+        """Return the highest token given out; kept in the lock's own file, which only its holder writes."""
+        assert self._file is not None
+        digits = os.pread(self._file, 32, 0).split(b"\n")[0].strip()
+        return int(digits) if digits.isdigit() else 0
+
+    def _write_holder(self, lease: Lease) -> None:
+        assert self._file is not None
+        os.pwrite(self._file, b"%-31d\n" % lease.token, 0)
+        os.fsync(self._file)
+        who = {"token": lease.token, "user": user(), "pid": os.getpid(), "since": lease.since, "what": lease.holder}
+        fresh = self._folder / f"holder.{os.getpid()}.tmp"
+        fresh.write_text(json.dumps(who), encoding="utf-8")
+        fresh.replace(self._folder / "holder.json")
+
+    def _taken(self) -> Diagnostic:
+        try:
+            who = json.loads((self._folder / "holder.json").read_text(encoding="utf-8"))
+            by = f"{who['user']} (process {who['pid']}, since {who['since']}): {who['what']}"
+        except (OSError, ValueError, KeyError, TypeError):
+            by = "another process"
+        hint = "wait until it is done; looking (`pico status`, `pico plan`) is always possible"
+        return error("locked", f"the bench is in use by {by}", hint=hint)
+
+
+def user() -> str:
+    """Return the name of the user of this process, or the number where it has no name."""
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):
+        return str(os.getuid())

@@ -1,0 +1,68 @@
+"""What a hand does to the simulated table, for tests of what a drift, a missing part or a stranger leads to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from pico.backends.sim.world import Body, World, footprints
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.geometry.shape import placed, separation
+from pico.model.lab import Setup
+from pico.model.observation import ObservedRobot
+from pico.model.pose import Pose, wrap
+from pico.model.state import home_state, place_of
+
+_TOUCH = 1e-6  # mm: parts may touch
+
+
+def nudge(setup: Setup, world: World, name: str, *, dx: float = 0.0, dy: float = 0.0, dyaw: float = 0.0) -> World:
+    """Return the world after a hand shifted `name` by (dx, dy) [mm] and turned it by dyaw [deg], upright.
+
+    A missing part is put to its home first; a held one is taken from the gripper. Raises PicoError for a part that
+    the world does not have, and where the part would stand in another one or beside the table.
+    """
+    body = _body(world, name)
+    start = body.pose or place_of(setup, home_state(setup), name)[1]
+    goal = Pose(start.x + dx, start.y + dy, wrap(start.yaw + dyaw))
+    problems = list(_obstacles(setup, world, name, goal))
+    if problems:
+        raise PicoError(problems)
+    return _released(world, name).with_body(name, presence="seen", pose=goal, free=None)
+
+
+def remove(setup: Setup, world: World, name: str) -> World:
+    """Return the world after a hand took `name` off the table; raises PicoError for a part that is not there."""
+    if _body(world, name).presence == "missing":
+        hint = f"`pico sim nudge {name}` puts it back to its home"
+        raise PicoError(error("missing", f"{name} is not on the table", hint=hint, address=name))
+    return _released(world, name).with_body(name, presence="missing", pose=None, free=None)
+
+
+def _body(world: World, name: str) -> Body:
+    try:
+        return world.components[name]
+    except KeyError:
+        hint = did_you_mean(name, world.components)
+        raise PicoError(error("unknown-component", f"the lab has no part `{name}`", hint=hint)) from None
+
+
+def _released(world: World, name: str) -> World:
+    """Return the world with no robot holding `name`."""
+    robots = {
+        key: ObservedRobot(joints=robot.joints) if robot.holding == name else robot
+        for key, robot in world.robots.items()
+    }
+    return replace(world, robots=robots)
+
+
+def _obstacles(setup: Setup, world: World, name: str, goal: Pose) -> Iterator[Diagnostic]:
+    width, depth = setup.lab.table.size
+    if not (0 <= goal.x <= width and 0 <= goal.y <= depth):
+        yield error("off-table", f"{name} would fall off the table at {goal}", address=name)
+    shape = placed(world.shapes[world.components[name].type].footprint, goal)
+    for other, footprint, pose in footprints(world):
+        overlap = -separation(shape, placed(footprint, pose))
+        if other != name and overlap > _TOUCH:
+            text = f"{name} cannot stand at {goal}: it would overlap {other} by {overlap:.3g} mm"
+            yield error("overlap", text, hint=f"{other} stands at {pose}; nudge less, or {other} first", address=name)

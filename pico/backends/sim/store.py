@@ -1,0 +1,174 @@
+"""The simulated table on disk: `.pico/sim/world.json` beside the lab, replaced as a whole, so that it is never half."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pico.backends.lease import BenchLock
+from pico.backends.sim.reconcile import reconcile
+from pico.backends.sim.world import SCHEMA, Body, FreePose, Shape, World, new_world
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.model.catalog import Footprint
+from pico.model.lab import Setup
+from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
+from pico.model.pose import Pose
+from pico.model.record import as_json
+
+
+def world_path(root: Path) -> Path:
+    """Return where the world of the lab in folder `root` is kept."""
+    return root / ".pico" / "sim" / "world.json"
+
+
+def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]:
+    """Return the simulated table of the lab in `root` and what had to change because the lab did.
+
+    A lab without one gets a new world; nothing is written. Raises PicoError where the file can't be read.
+    """
+    path = world_path(root)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return new_world(setup), ()
+    except (OSError, UnicodeDecodeError) as exc:
+        raise PicoError(_broken(path, getattr(exc, "strerror", None) or "it is not text")) from exc
+    try:
+        world = world_from_json(json.loads(text))
+    except (KeyError, TypeError, ValueError, AttributeError) as exc:
+        what = f"no {exc}" if isinstance(exc, KeyError) else str(exc)
+        raise PicoError(_broken(path, what)) from exc
+    return reconcile(setup, world)
+
+
+def save_world(root: Path, world: World) -> None:
+    """Store the world durably: a reader sees the old one or the new one. Raises PicoError where it can't."""
+    path = world_path(root)
+    fresh = path.with_name(f"world.{os.getpid()}.tmp")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with fresh.open("w", encoding="utf-8") as file:
+            json.dump(as_json(world), file, separators=(",", ":"), sort_keys=True)
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(path)
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+    except OSError as exc:
+        text = f"the simulated table cannot be stored in {path}: {(exc.strerror or str(exc)).lower()}"
+        raise PicoError(error("world-file", text)) from exc
+
+
+def change_world(setup: Setup, root: Path, holder: str, change: Callable[[World], World]) -> tuple[Diagnostic, ...]:
+    """Change the simulated table by hand, with the bench locked meanwhile; return what its lab changed.
+
+    Raises PicoError: exit code LOCKED where somebody moves the bench, and what `change` raises.
+    """
+    with BenchLock(root).held(holder):
+        world, found = load_world(setup, root)
+        save_world(root, change(world))
+    return found
+
+
+def reset_world(setup: Setup, root: Path, holder: str) -> None:
+    """Start the simulated table over, whatever its file holds: every part at home. Raises PicoError (LOCKED)."""
+    with BenchLock(root).held(holder):
+        save_world(root, new_world(setup))
+
+
+def world_from_json(data: Any) -> World:
+    """Return the world whose `as_json` gave `data`; raises KeyError, TypeError or ValueError for anything else."""
+    if not isinstance(data, dict):
+        raise TypeError("it holds no world")
+    if data.get("schema") != SCHEMA:
+        raise ValueError(f"its schema is {data.get('schema')!r}, this PICO reads {SCHEMA!r}")
+    shapes = {
+        k: Shape(footprint=_footprint(v["footprint"]), height=_number(v["height"])) for k, v in data["shapes"].items()
+    }
+    components = {k: _body(v) for k, v in data["components"].items()}
+    for name, body in components.items():
+        if body.type not in shapes:
+            raise ValueError(f"{name} has the type {body.type!r} that it does not describe")
+    return World(
+        lab=str(data["lab"]),
+        seed=int(data["seed"]),
+        clock=_number(data["clock"]),
+        components=components,
+        robots={k: _robot(v) for k, v in data["robots"].items()},
+        unknown={k: _unknown(v) for k, v in data["unknown"].items()},
+        shapes=shapes,
+    )
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise ValueError(f"{value!r} is no finite number")
+    return float(value)
+
+
+def _numbers(values: Any) -> tuple[float, ...]:
+    return tuple(_number(v) for v in values)
+
+
+def _pose(data: Mapping[str, Any]) -> Pose:
+    return Pose(_number(data["x"]), _number(data["y"]), _number(data["yaw"]))
+
+
+def _body(data: Mapping[str, Any]) -> Body:
+    presence, free = data["presence"], data.get("free")
+    if presence not in ("seen", "missing", "held", "toppled"):
+        raise ValueError(f"{presence!r} is no presence")
+    if presence == "seen" and "pose" not in data:
+        raise ValueError("a part that is seen has no pose")
+    return Body(
+        type=str(data["type"]),
+        marker=data.get("marker"),
+        presence=presence,
+        pose=_pose(data["pose"]) if "pose" in data else None,
+        free=_free(free) if free else None,
+        values={k: _value(v) for k, v in data["values"].items()},
+    )
+
+
+def _free(data: Mapping[str, Any]) -> FreePose:
+    x, y, z = _numbers(data["position"])
+    a, b, c, d = _numbers(data["quaternion"])
+    return FreePose(position=(x, y, z), quaternion=(a, b, c, d))
+
+
+def _value(data: Mapping[str, Any]) -> ObservedValue:
+    value, status = data.get("value"), data["status"]
+    if status not in ("known", "commanded", "unknown") or not isinstance(value, float | int | bool | str | None):
+        raise ValueError(f"{dict(data)!r} is no value")
+    return ObservedValue(value=value, status=status)
+
+
+def _robot(data: Mapping[str, Any]) -> ObservedRobot:
+    return ObservedRobot(joints=_numbers(data["joints"]), holding=data.get("holding"))
+
+
+def _footprint(data: Mapping[str, Any]) -> Footprint:
+    box, corners = data.get("box"), data.get("polygon")
+    return Footprint(
+        disc=data.get("disc"),
+        box=(_number(box[0]), _number(box[1])) if box else None,
+        polygon=tuple((_number(x), _number(y)) for x, y in corners) if corners else None,
+    )
+
+
+def _unknown(data: Mapping[str, Any]) -> UnknownObject:
+    return UnknownObject(
+        pose=_pose(data["pose"]), footprint=_footprint(data["footprint"]), height=_number(data["height"])
+    )
+
+
+def _broken(path: Path, what: str) -> Diagnostic:
+    hint = "`pico sim reset` starts the simulated table over, with every part at home"
+    return error("world-file", f"{path} cannot be read: {what}", hint=hint)

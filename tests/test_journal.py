@@ -1,0 +1,127 @@
+"""The journal: three records an operation, results of known keys, and diagnostics instead of tracebacks."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from pico.diagnostics import PicoError, error
+from pico.journal import Journal
+from pico.model.observation import ObservedComponent, ObservedValue
+from pico.model.operation import Operation, OperationResult, Reason
+from pico.model.pose import Pose
+
+MOVE = Operation(
+    id="op1", primitive="move", component="p1", arguments={"to": {"pose": {"x": 1.0}}}, reason=Reason(kind="changed")
+)
+SEEN = ObservedComponent(pose=Pose(1 / 3, 2.0, 30.0), values={"angle": ObservedValue(value=90.0)})
+DONE = OperationResult(key="r1/op1/1", outcome="done", before=SEEN, after=SEEN, seconds=9.5, data={"error_mm": 0.1 / 3})
+
+
+@pytest.fixture
+def journal(tmp_path: Path) -> Iterator[Journal]:
+    journal = Journal(tmp_path / "journal.sqlite", clock=lambda: "2026-11-01T00:00:00Z")
+    yield journal
+    journal.close()
+
+
+def test_an_operation_leaves_intent_start_and_end(journal: Journal) -> None:
+    assert journal.intend("r1/op1/1", MOVE, token=7) is None
+    journal.started("r1/op1/1", SEEN, token=7)
+    journal.ended(DONE, token=7)
+    records = journal.records(run="r1")
+    assert [(r.kind, r.token) for r in records] == [("intent", 7), ("started", 7), ("done", 7)]
+    assert records[0].data["arguments"] == {"to": {"pose": {"x": 1.0}}}
+    assert records[1].data["pose"] == {"x": 1 / 3, "y": 2.0, "yaw": 30.0}
+
+
+def test_a_known_key_returns_its_recorded_result(journal: Journal) -> None:
+    failed = replace(DONE, outcome="failed", error=error("dropped", "p1 was dropped", address="p1"))
+    for key, result in (("r1/op1/1", DONE), ("r1/op1/2", replace(failed, key="r1/op1/2"))):
+        journal.intend(key, MOVE, token=1)
+        journal.started(key, SEEN, token=1)
+        journal.ended(result, token=1)
+        assert journal.intend(key, MOVE, token=1) == result
+
+
+def test_a_known_key_with_other_content_is_an_error(journal: Journal) -> None:
+    journal.intend("r1/op1/1", MOVE, token=1)
+    with pytest.raises(PicoError, match="other content"):
+        journal.intend("r1/op1/1", replace(MOVE, component="p2"), token=1)
+
+
+def test_what_never_started_may_be_executed_and_what_was_cut_short_is_unknown(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    first = Journal(path)
+    first.intend("r1/op1/1", MOVE, token=1)
+    first.intend("r1/op2/1", MOVE, token=1)
+    first.started("r1/op2/1", SEEN, token=1)
+    first.close()
+    again = Journal(path)
+    assert again.intend("r1/op1/1", MOVE, token=2) is None
+    cut = again.intend("r1/op2/1", MOVE, token=2)
+    assert cut is not None
+    assert cut.outcome == "unknown"
+    assert [r.key for r in again.unfinished()] == ["r1/op2/1"]
+
+
+def test_an_end_is_recorded_once(journal: Journal) -> None:
+    journal.intend("r1/op1/1", MOVE, token=1)
+    journal.ended(DONE, token=1)
+    with pytest.raises(PicoError, match="already"):
+        journal.ended(replace(DONE, outcome="failed"), token=1)
+
+
+def test_runs_are_listed_with_their_outcome_and_belong_to_one_plan(journal: Journal) -> None:
+    journal.begin_run("r1", "sha256:a", "ann: apply")
+    journal.end_run("r1", "failed", {"done": 1, "failed": 1})
+    journal.begin_run("r2", "sha256:b", "ann: apply")
+    assert [(r.run, r.outcome, r.tally) for r in journal.runs()] == [
+        ("r1", "failed", {"done": 1, "failed": 1}),
+        ("r2", None, None),
+    ]
+    with pytest.raises(PicoError, match="another plan"):
+        journal.begin_run("r1", "sha256:c", "ann: apply")
+
+
+def test_a_record_is_durable_and_ordered_before_the_call_returns(journal: Journal) -> None:
+    journal.intend("r1/op1/1", MOVE, token=1)
+    with sqlite3.connect(journal.path) as other:
+        assert other.execute("SELECT kind FROM records").fetchall() == [("intent",)]
+    assert journal._db.execute("PRAGMA synchronous").fetchone() == (2,)
+    assert journal._db.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"this is no database, but it is long enough to be looked at" * 20, b"SQLite format 3\0" + b"\xff" * 4000],
+)
+def test_a_damaged_database_is_a_diagnostic_that_says_what_to_do(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "journal.sqlite"
+    path.write_bytes(content)
+    with pytest.raises(PicoError) as caught:
+        Journal(path).runs()
+    (found,) = caught.value.diagnostics
+    assert str(path) in found.summary
+    assert found.code == "journal"
+
+
+def test_a_locked_database_is_a_diagnostic(journal: Journal) -> None:
+    journal._db.execute("PRAGMA busy_timeout=1")
+    other = sqlite3.connect(journal.path, isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    with pytest.raises(PicoError, match="is locked"):
+        journal.intend("r1/op1/1", MOVE, token=1)
+    other.close()
+
+
+def test_a_database_of_a_newer_pico_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    with sqlite3.connect(path) as db:
+        db.execute("PRAGMA user_version=99")
+    with pytest.raises(PicoError, match="newer PICO"):
+        Journal(path)
