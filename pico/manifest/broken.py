@@ -1,0 +1,77 @@
+"""What is wrong with a text that is no YAML, in words that say what to do about it."""
+
+from __future__ import annotations
+
+import yaml
+
+from pico.diagnostics import Diagnostic, error
+from pico.manifest.source import Source
+
+# What libyaml's scanner and parser say, to what it means for somebody who edits a manifest.
+_MEANINGS: tuple[tuple[str, str, str], ...] = (
+    (
+        "mapping values are not allowed",
+        "a `:` stands where no key can be",
+        "check the indentation of this line and the one above, or quote a value that holds `: `",
+    ),
+    (
+        "could not find expected ':'",
+        "a key without `:`",
+        "write `name: value`, and check the indentation",
+    ),
+    (
+        "did not find expected key",
+        "this line does not fit the lines above",
+        "keys of one component stand in one column; check the indentation and the quotes",
+    ),
+    (
+        "did not find expected '-' indicator",
+        "this line does not belong to the list above",
+        "items of a list begin with `- ` in one column",
+    ),
+    (
+        "did not find expected ',' or ']'",
+        "a list that was opened with `[` does not end",
+        "close it with `]`; separate items with commas",
+    ),
+    (
+        "did not find expected ',' or '}'",
+        "a mapping that was opened with `{` does not end",
+        "close it with `}`; separate entries with commas",
+    ),
+    ("found unexpected end of stream", "a quoted text does not end", "close the quote with the mark that opened it"),
+    ("found unexpected document indicator", "a quoted text does not end", "close the quote"),
+    ("found unknown escape character", "an unknown escape in a quoted text", "use single quotes, or double the `\\`"),
+    ("block sequence entries are not allowed", "a list item stands where none can be", "begin it on a line of its own"),
+    ("found undefined tag handle", "an unknown tag", "remove the tag; quote text that begins with `!`"),
+    ("found incompatible YAML document", "another YAML version", "remove the `%YAML` line; manifests are YAML 1.2"),
+    ("did not find expected node content", "a value is missing", "quote text that begins with `,`, `?` or `%`"),
+    ("did not find expected <document start>", "text after the end of the document", "check the indentation"),
+)
+
+
+def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:
+    """Return the diagnostic of a syntax error that libyaml found in `source`."""
+    mark = getattr(exc, "problem_mark", None) or getattr(exc, "context_mark", None)
+    index = min(mark.index if mark else getattr(exc, "position", 0) or 0, len(source.content))
+    problem = str(getattr(exc, "problem", None) or getattr(exc, "reason", None) or "not valid YAML")
+    summary, hint = _meaning(source, index, problem)
+    opened = getattr(exc, "context_mark", None)
+    detail = ""
+    if opened is not None and mark is not None and opened.line != mark.line:
+        detail = f"it began in line {opened.line + 1}"
+    return error("yaml", summary, detail=detail, hint=hint, label=problem, source=source.range(index))
+
+
+def _meaning(source: Source, index: int, problem: str) -> tuple[str, str]:
+    character = source.content[index : index + 1]
+    if "cannot start any token" in problem:
+        if character == "\t":
+            return "a tab in the indentation", "indent with spaces"
+        return f"`{character}` can't begin a value", "put the value in quotes"
+    for said, summary, hint in _MEANINGS:
+        if said in problem:
+            return summary, hint
+    if "\t" in source.line(source.position(index).line):
+        return "not valid YAML", "indent with spaces, not tabs"
+    return "not valid YAML", "check indentation, quotes and brackets here and in the line above"

@@ -1,0 +1,216 @@
+"""From manifests to the model: a folder or a Git tree in, the bench and its desired state out, or all that is wrong."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from pico.diagnostics import Diagnostic, PicoError, SourceRange, error
+from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_broken
+from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
+from pico.manifest.files import decode_all, read_folder, shown_path
+from pico.manifest.kinds import kind_of
+from pico.manifest.lab_checks import check_lab, check_setup
+from pico.manifest.places import find, where, where_key
+from pico.manifest.records import read_record
+from pico.manifest.source import Source
+from pico.manifest.state import read_states
+from pico.manifest.tree import Document, Map, Scalar, parse
+from pico.model.catalog import ComponentType
+from pico.model.lab import Lab, Setup
+from pico.model.state import LabState
+
+_IS_LAB = re.compile(rb"^kind:[ \t]*[\"']?Lab[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
+_NO_LAB = "`pico init --example minimal d` makes one in folder d"
+
+
+@dataclass(frozen=True)
+class Manifests:
+    """What a folder's manifests hold. `setup` and `state` are None where there is an error in them."""
+
+    setup: Setup | None
+    state: LabState | None
+    diagnostics: tuple[Diagnostic, ...]
+    documents: Mapping[str, tuple[Document, ...]] = field(default_factory=dict, repr=False, compare=False)
+
+    def source(self, address: str) -> SourceRange | None:
+        """Return where an address stands: `p1`, `p1.angle`, `p1.pose.x`, `inventory.p1`, `slots.storage/a1`.
+
+        A key that is not there falls back to what holds it; a component that no state names, to the inventory.
+        """
+        head, *rest = address.split(".")
+        for document in self.documents.get("LabState", ()):
+            if find(document, "components", head):
+                return where(document, "components", head, *rest) if rest else where_key(document, "components", head)
+        for document in self.documents.get("Lab", ()):
+            path = [head, *rest] if find(document, head) else ["inventory", head, *rest]
+            if find(document, *path[:2]):
+                return where(document, *path) if len(path) > 2 else where_key(document, *path)
+        return None
+
+    def require(self) -> tuple[Setup, LabState]:
+        """Return the bench and its state; raises PicoError with all diagnostics where there is any error."""
+        if self.setup is None or self.state is None or any(d.severity == "error" for d in self.diagnostics):
+            raise PicoError(self.diagnostics)
+        return self.setup, self.state
+
+
+def find_lab(start: Path) -> Path:
+    """Return the nearest folder, from `start` upward, that holds a manifest of kind Lab; raises PicoError for none."""
+    folder = start.resolve()
+    if not folder.exists():
+        raise PicoError(error("no-lab", f"there is no folder {start}", hint=_NO_LAB))
+    for candidate in [folder, *folder.parents] if folder.is_dir() else folder.parents:
+        if (candidate / "lab.yaml").is_file() or any(_is_lab(path) for path in sorted(candidate.glob("*.yaml"))):
+            return candidate
+    raise PicoError(error("no-lab", f"no lab in {start} or any folder above it", hint=_NO_LAB))
+
+
+def _is_lab(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            return bool(_IS_LAB.search(file.read(100_000)))
+    except OSError:
+        return False
+
+
+def load_folder(root: Path) -> Manifests:
+    """Return the manifests of a lab: every `*.yaml` below `root` that declares PICO's apiVersion.
+
+    Dot-folders and folders called `runs` are left out. Never raises for what a file holds: that is in the diagnostics.
+    """
+    files, found = read_folder(root)
+    return _load(files, found, shown_path(root), None)
+
+
+def load_files(files: Mapping[str, bytes], *, setup: Setup | None = None) -> Manifests:
+    """Return the manifests of files in memory, by path, as a Git tree has them.
+
+    With `setup` given, Lab and ComponentType documents are skipped and the state is read against that bench.
+    """
+    return _load(files, [], "", setup)
+
+
+def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None) -> Manifests:
+    documents = _documents(files, found)
+    setup, view = (setup, view_of(setup)) if setup else _bench(documents, found, root)
+    state = None
+    if documents["LabState"]:
+        state, wrong = read_states(documents["LabState"], view) if view else (None, [])
+        found.extend(wrong)
+    elif not any(d.severity == "error" for d in found):
+        hint = "add a file with `kind: LabState` and `components:`"
+        found.append(error("no-state", "the lab has no LabState", hint=hint, source=_somewhere(documents, root)))
+    kept = {kind: tuple(of_kind) for kind, of_kind in documents.items()}
+    return Manifests(setup, state, tuple(sorted(found, key=_order)), kept)
+
+
+def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, list[Document]]:
+    by_kind: dict[str, list[Document]] = {"Lab": [], "LabState": [], "ComponentType": []}
+    sources, wrong = decode_all(files)
+    found.extend(wrong)
+    for source in sources:
+        documents, wrong = parse(source)
+        found.extend(wrong)
+        if not documents and not wrong:
+            hint = "begin it with `apiVersion: pico/v1`, or delete it"
+            found.append(error("empty", f"{source.path}: nothing but comments", hint=hint, source=source.range(0)))
+        for document in documents:
+            kind, wrong = kind_of(document)
+            found.extend(wrong)
+            if kind:
+                by_kind[kind].append(document)
+    return by_kind
+
+
+def _bench(
+    documents: Mapping[str, list[Document]], found: list[Diagnostic], root: str
+) -> tuple[Setup | None, BenchView | None]:
+    own = _own_types(documents["ComponentType"], found)
+    if not documents["Lab"]:
+        if not found:
+            hint = f"add lab.yaml with `kind: Lab`; {_NO_LAB}"
+            found.append(error("no-lab", "no Lab here", hint=hint, source=_somewhere(documents, root)))
+        return None, None
+    document = documents["Lab"][0]
+    for other in documents["Lab"][1:]:
+        detail = f"the first at {where(document, 'kind')}"
+        hint = "a lab is one folder: remove one of the two, or run in the folder of the one you mean"
+        found.append(error("duplicate", "a second Lab", detail=detail, hint=hint, source=where(other, "kind")))
+    lab, wrong = read_record(document, "Lab", Lab)
+    catalog = _types(document, own, wrong)
+    if lab:
+        wrong += check_lab(document, lab)
+    found.extend(wrong)
+    if lab is None or wrong:
+        return None, view_of_broken(document, catalog)
+    setup = Setup(lab=lab, catalog=catalog)
+    misfits = check_setup(document, setup)
+    found.extend(misfits)
+    return (None if misfits else setup), view_of(setup)
+
+
+def _own_types(documents: list[Document], found: list[Diagnostic]) -> dict[str, ComponentType]:
+    own: dict[str, ComponentType] = {}
+    first: dict[str, Document] = {}
+    for document in documents:
+        kind, wrong = read_type(document)
+        found.extend(wrong)
+        if kind is None:
+            continue
+        at = where(document, "metadata", "name")
+        if kind.name in first:
+            detail = f"first at {where(first[kind.name], 'metadata', 'name')}"
+            hint = "keep one of the two"
+            found.append(
+                error("duplicate", f"the type `{kind.name}` is given twice", detail=detail, hint=hint, source=at)
+            )
+        elif kind.name in catalog_names():
+            found.append(_placed(both(kind.name), at))
+        first.setdefault(kind.name, document)
+        own.setdefault(kind.name, kind)
+    return own
+
+
+def _types(document: Document, own: Mapping[str, ComponentType], found: list[Diagnostic]) -> dict[str, ComponentType]:
+    catalog = dict(own)
+    used = type_names(document)
+    for name in sorted(used - own.keys()):
+        try:
+            catalog[name] = packaged_type(name)
+        except PicoError as exc:
+            if exc.diagnostics[0].code == "unknown-type":
+                found.extend(_unknown_types(document, name, [*catalog_names(), *own]))
+            else:
+                found.extend(exc.diagnostics)
+    return {name: kind for name, kind in catalog.items() if name in used}
+
+
+def _unknown_types(document: Document, name: str, known: list[str]) -> list[Diagnostic]:
+    entry = find(document, "inventory")
+    assert entry and isinstance(entry[1], Map)
+    parts = [part for part in entry[1].entries if _type_of(document, part) == name]
+    return [_placed(unknown_type(name, known), where(document, "inventory", part, "type")) for part in parts]
+
+
+def _type_of(document: Document, part: str) -> str:
+    entry = find(document, "inventory", part, "type")
+    return entry[1].text if entry and isinstance(entry[1], Scalar) else ""
+
+
+def _placed(diagnostic: Diagnostic, source: SourceRange) -> Diagnostic:
+    return replace(diagnostic, source=source)
+
+
+def _somewhere(documents: Mapping[str, list[Document]], root: str) -> SourceRange:
+    for document in documents["Lab"]:
+        return where(document, "kind")
+    path = str(Path(root) / "lab.yaml") if root else "lab.yaml"
+    return Source(path, "").range(0)
+
+
+def _order(diagnostic: Diagnostic) -> tuple[str, int, int]:
+    at = diagnostic.source
+    return (at.path, at.start.line, at.start.column) if at else ("", 0, 0)

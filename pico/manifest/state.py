@@ -1,0 +1,264 @@
+"""LabState documents against a bench: by hand rather than by pydantic, because there are thousands of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
+from pico.manifest.bench_view import BenchView
+from pico.manifest.lab_checks import off_table
+from pico.manifest.names import name_problem
+from pico.manifest.places import where, where_key
+from pico.manifest.tree import Document, List, Map, Node, Scalar, plain
+from pico.manifest.values import read_number, read_value
+from pico.manifest.wording import shown
+from pico.model.pose import Pose
+from pico.model.quantities import Value
+from pico.model.state import ComponentState, Expectation, LabState
+
+MOST_COMPONENTS = 200
+"""More components in one file than this are warned about: merges and blame work best with 10 to 50."""
+_POSE = (("x", "mm"), ("y", "mm"), ("yaw", "deg"))
+_KEYS = ("apiVersion", "kind", "metadata", "components", "expect")
+
+
+def read_states(documents: Iterable[Document], view: BenchView) -> tuple[LabState | None, list[Diagnostic]]:
+    """Return the state that several documents make up together, or None and every error."""
+    reader = _Reader(view)
+    for document in documents:
+        reader.read(document)
+    reader.check_slots()
+    if any(d.severity == "error" for d in reader.found):
+        return None, reader.found
+    state = LabState(lab=view.lab or reader.lab, components=reader.components, expect=tuple(reader.expect))
+    return state, reader.found
+
+
+class _Reader:
+    """Collects components, expectations and diagnostics over the documents of a state."""
+
+    def __init__(self, view: BenchView) -> None:
+        self.view = view
+        self.lab = ""
+        self.components: dict[str, ComponentState] = {}
+        self.expect: list[Expectation] = []
+        self.found: list[Diagnostic] = []
+        self.first: dict[str, Document] = {}
+
+    def read(self, document: Document) -> None:
+        root = document.root
+        assert isinstance(root, Map)
+        self._lab(document, root)
+        for key, (at, _) in root.entries.items():
+            if key not in _KEYS:
+                hint = did_you_mean(key[:40], _KEYS)
+                self._error(document, at, "unknown-key", f"unknown key `{key[:40]}` in a LabState", hint)
+        components = root.get("components")
+        if isinstance(components, Map):
+            self._components(document, components)
+        elif components is not None and not _empty(components):
+            hint = "expected a mapping of component names, such as `p1: {slot: storage/a1}`"
+            self._error(document, components, "type", "`components` is not a mapping", hint)
+        self._expect(document, root.get("expect"))
+
+    def check_slots(self) -> None:
+        """Find slots that two components of the whole state claim; a part that the state does not name goes home."""
+        owner: dict[str, str] = {}
+        for name, part in self.components.items():
+            if part.slot is None:
+                continue
+            if part.slot in owner:
+                other = owner[part.slot]
+                detail = f"{other} is put there at {self._place(other, 'slot')}"
+                self._slot_error(name, f"{name} and {other} are both put into {part.slot}", detail)
+            owner.setdefault(part.slot, name)
+        for name, home in self.view.homes.items():
+            if name not in self.first and home in owner and owner[home] != name:
+                detail = f"{name} is not in the state, so it goes home, and {home} is its home"
+                self._slot_error(owner[home], f"{owner[home]} is put into {home}, the home of {name}", detail)
+
+    def _lab(self, document: Document, root: Map) -> None:
+        node = root.get("metadata")
+        value = node.get("lab") if isinstance(node, Map) else None
+        text = value.text if isinstance(value, Scalar) else ""
+        self.lab = self.lab or text
+        if not isinstance(node, Map):
+            return  # said with the header
+        hint = f"write `metadata: {{lab: {self.view.lab or 'NAME'}}}`"
+        if value is None:
+            where_ = where_key(document, "metadata")
+            self.found.append(error("missing-key", "metadata has no `lab`", hint=hint, source=where_))
+        elif not isinstance(value, Scalar) or not text:
+            self._error(document, value, "type", "`metadata.lab` is not a name", hint)
+        elif self.view.lab is not None and text != self.view.lab:
+            summary = f"this state is of lab `{text[:40]}`, the bench here is `{self.view.lab}`"
+            self._error(document, value, "lab", summary, hint)
+
+    def _components(self, document: Document, components: Map) -> None:
+        if len(components.entries) > MOST_COMPONENTS:
+            summary = f"{len(components.entries)} components in one file"
+            hint = "split it: one file a sub-assembly, 10 to 50 components; states that branches change then merge"
+            self.found.append(warning("large-file", summary, hint=hint, source=where_key(document, "components")))
+        for name, (key, node) in components.entries.items():
+            if name in self.first:
+                first = where_key(self.first[name], "components", name)
+                hint = "keep one of the two"
+                self._error(
+                    document, key, "duplicate", f"{name} is in two files", hint, name, detail=f"first at {first}"
+                )
+                continue
+            self.first[name] = document
+            if name not in self.view.kinds:
+                self._unknown(document, key)
+            else:
+                self._component(document, name, key, node)
+
+    def _unknown(self, document: Document, key: Scalar) -> None:
+        problem = name_problem(key.text)
+        if problem:
+            self._error(document, key, "name", f"`{key.text[:40]}` is not a name", f"expected {problem}")
+            return
+        hint = did_you_mean(key.text, self.view.kinds) or "add it to the inventory in lab.yaml"
+        self._error(
+            document, key, "unknown-component", f"{key.text} is not in the inventory of this lab", hint, key.text
+        )
+
+    def _component(self, document: Document, name: str, key: Scalar, node: Node) -> None:
+        if not isinstance(node, Map):
+            if not _empty(node):
+                hint = "expected `slot:` or `pose:` and one line a tunable"
+                self._error(document, node, "type", f"{name} is {shown(plain(node))}", hint, name)
+                return
+            node = Map(key.start, True)
+        slot, pose = node.entries.get("slot"), node.entries.get("pose")
+        if slot and pose:
+            hint = "keep one: a slot for storage, a pose on the table"
+            self._error(document, slot[0], "place", f"{name} has both a slot and a pose", hint, name)
+        elif not slot and not pose and name not in self.view.fixed:
+            hint = "add `slot: NAME`, or `pose: {x: ..., y: ..., yaw: ...}`"
+            self._error(document, key, "place", f"{name} has neither a slot nor a pose", hint, name)
+        self.components[name] = ComponentState(
+            slot=self._slot(document, name, slot[1]) if slot else None,
+            pose=self._pose(document, name, *pose) if pose else None,
+            values=self._values(document, name, node),
+        )
+
+    def _slot(self, document: Document, name: str, node: Node) -> str | None:
+        text = node.text if isinstance(node, Scalar) else ""
+        if name in self.view.fixed:
+            summary = f"{name} is fixed to the table and can't be in a slot"
+            self._error(document, node, "slot", summary, "give its `pose`, or leave it out", name)
+        elif not isinstance(node, Scalar) or text not in self.view.slots:
+            hint = did_you_mean(text[:40], self.view.slots) or "the slots are listed under `slots:` in lab.yaml"
+            said = shown(node.text or None) if isinstance(node, Scalar) else shown(plain(node))
+            self._error(document, node, "unknown-slot", f"{name}: there is no slot {said}", hint, f"{name}.slot")
+        else:
+            return text
+        return None
+
+    def _pose(self, document: Document, name: str, key: Scalar, node: Node) -> Pose | None:
+        example = "expected `{x: ..., y: ..., yaw: ...}` in mm and deg"
+        if not isinstance(node, Map):
+            at = key if _empty(node) else node
+            self._error(document, at, "type", f"the pose of {name} is {shown(plain(node))}", example, f"{name}.pose")
+            return None
+        numbers: dict[str, float] = {}
+        for axis, unit in _POSE:
+            value = node.get(axis)
+            if value is None:
+                if axis != "yaw":
+                    self._error(
+                        document, key, "missing-key", f"the pose of {name} has no `{axis}`", example, f"{name}.pose"
+                    )
+                continue
+            number = value.value if isinstance(value, Scalar) else None
+            if type(number) is not float and type(number) is not int:
+                converted = read_number(document.source, name, axis, unit, value)
+                if isinstance(converted, Diagnostic):
+                    self.found.append(converted)
+                    continue
+                number = converted
+            if math.isfinite(number):
+                numbers[axis] = float(number)
+            else:
+                self._error(document, value, "type", f"{axis} of {name} is no finite number", f"expected {unit}", name)
+        for other, (at, _) in node.entries.items():
+            if other not in ("x", "y", "yaw"):
+                hint = did_you_mean(other[:40], ("x", "y", "yaw"))
+                summary = f"unknown key `{other[:40]}` in the pose of {name}"
+                self._error(document, at, "unknown-key", summary, hint, f"{name}.pose")
+        if "x" not in numbers or "y" not in numbers:
+            return None
+        pose = Pose(numbers["x"], numbers["y"], numbers.get("yaw", 0.0))
+        self._on_table(document, name, pose)
+        return pose
+
+    def _on_table(self, document: Document, name: str, pose: Pose) -> None:
+        size = self.view.size
+        if size is None or (0 <= pose.x <= size[0] and 0 <= pose.y <= size[1]):
+            return
+        axis = "y" if 0 <= pose.x <= size[0] else "x"
+        at = where(document, "components", name, "pose", axis)
+        self.found.append(off_table(name, pose.x, pose.y, size, at))
+
+    def _values(self, document: Document, name: str, node: Map) -> dict[str, Value]:
+        kind = self.view.kinds[name]
+        values: dict[str, Value] = {}
+        for key, (at, value) in node.entries.items():
+            if key in ("slot", "pose") or kind is None:
+                continue
+            tunable = kind.tunables.get(key)
+            if tunable is None:
+                hint = self._tunables(key[:40], kind.tunables)
+                self._error(
+                    document, at, "unknown-tunable", f"{name} ({kind.name}) has no tunable `{key[:40]}`", hint, name
+                )
+                continue
+            read = read_value(document.source, name, key, tunable, value)
+            if isinstance(read, Diagnostic):
+                self.found.append(read)
+            else:
+                values[key] = read
+        return values
+
+    def _tunables(self, key: str, known: Iterable[str]) -> str:
+        return did_you_mean(key, ["slot", "pose", *known])
+
+    def _expect(self, document: Document, node: Node | None) -> None:
+        example = 'expected a list of `{that: "cam.peak > 200", message: ...}`'
+        if node is None or _empty(node):
+            return
+        if not isinstance(node, List):
+            self._error(document, node, "type", "`expect` is not a list", example)
+            return
+        for item in node.items:
+            data = plain(item)
+            if not isinstance(item, Map) or not isinstance(data.get("that"), str) or not data["that"].strip():
+                self._error(document, item, "type", "an expectation has no `that`", example)
+                continue
+            for key, (at, value) in item.entries.items():
+                if key not in ("that", "message"):
+                    summary = f"unknown key `{key[:40]}` in an expectation"
+                    self._error(document, at, "unknown-key", summary, did_you_mean(key[:40], ("that", "message")))
+                elif not isinstance(data[key], str):
+                    self._error(document, value, "type", f"`{key}` is {shown(data[key])}", "expected text")
+            self.expect.append(Expectation(that=data["that"], message=str(data.get("message") or "")))
+
+    def _place(self, name: str, key: str) -> SourceRange:
+        return where(self.first[name], "components", name, key)
+
+    def _slot_error(self, name: str, summary: str, detail: str) -> None:
+        hint = "give one of them another slot or a pose"
+        at = self._place(name, "slot")
+        self.found.append(error("slot", summary, detail=detail, hint=hint, address=f"{name}.slot", source=at))
+
+    def _error(
+        self, document: Document, node: Node, code: str, summary: str, hint: str, address: str = "", detail: str = ""
+    ) -> None:
+        at = document.source.range(node.start, node.end)
+        self.found.append(error(code, summary, detail=detail, hint=hint, address=address, source=at))
+
+
+def _empty(node: Node) -> bool:
+    return isinstance(node, Scalar) and node.value is None
