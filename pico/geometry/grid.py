@@ -49,12 +49,12 @@ class Grid(Generic[K]):
         return found
 
     def conflicts(self, shape: Shape, margin: float) -> list[K]:
-        """Return the keys of the shapes that come as near to `shape` as `margin` mm."""
+        """Return the keys of the shapes that come nearer to `shape` than `margin` mm, or touch it."""
         return [key for key in self.near(shape, margin) if conflict(shape, self.shapes[key], margin)]
 
 
 def overlapping(shapes: Mapping[K, Shape], margin: float = 0.0) -> list[tuple[K, K]]:
-    """Return every pair that comes as near as `margin` mm, each once, in the order of `shapes`."""
+    """Return every pair that comes nearer than `margin` mm or touches, each once, in the order of `shapes`."""
     grid = Grid.of(shapes)
     order = {key: i for i, key in enumerate(shapes)}
     pairs = [

@@ -12,7 +12,8 @@ from pico.model.pose import Pose
 Point = tuple[float, float]
 
 CONTACT = 1e-9
-"""Shapes no farther apart than this touch [mm]: about the rounding of a double at the size of a table."""
+"""Shapes no farther apart than this touch [mm], and a margin missed by less is kept: a thousand times the rounding of
+a double at the size of a table."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,11 +76,10 @@ def separation(a: Shape, b: Shape) -> float:
 
 
 def conflict(a: Shape, b: Shape, margin: float = 0.0) -> bool:
-    """Return whether two shapes come as near as `margin` [mm]; touching counts, and so does what is not a number."""
+    """Return whether two shapes come nearer than `margin` [mm]; touching counts, and so does what is not a number."""
     gap = math.hypot(a.x - b.x, a.y - b.y) - (a.radius + b.radius)
-    if gap > margin + CONTACT:
-        return False
-    return not separation(a, b) > margin + CONTACT
+    enough = max(CONTACT, margin - CONTACT)
+    return not gap > enough and not separation(a, b) > enough
 
 
 def _along_normals(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:

@@ -1,0 +1,7 @@
+"""From the bench as it was seen to the state wanted: a plan, or why there is none."""
+
+from pico.planning.compile import plan
+from pico.planning.placement import place_after
+from pico.planning.single import home_one, move_one, set_one
+
+__all__ = ["home_one", "move_one", "place_after", "plan", "set_one"]

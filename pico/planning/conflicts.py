@@ -1,0 +1,179 @@
+"""Which moves exclude which standing components: bodies at every place, fingers at pick and place, reach, paths.
+
+Every (mover, place) has a bit. A configuration is the union of the bits of the places taken; a move is possible
+where its mask meets none of them. Masks are computed when they are first asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from pico.geometry import (
+    Grid,
+    Shape,
+    capture_disc,
+    conflict,
+    finger_height,
+    finger_zones,
+    outline,
+    overhang,
+    placed,
+    reaches,
+)
+from pico.model.lab import Setup
+from pico.motion.types import Blocked, Motion
+from pico.planning.movers import Hold, Mover, Obstacle
+
+Spot = tuple[int, int]
+"""A mover and one of its places, by index."""
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """One way to make a move: how the component is held, and the bits of the spots that must be empty."""
+
+    hold: Hold
+    mask: int
+
+
+class Conflicts:
+    """The tables of one planning problem. A mask is None where something that stays excludes it."""
+
+    def __init__(
+        self, setup: Setup, movers: Sequence[Mover], obstacles: Sequence[Obstacle], motion: Motion | None
+    ) -> None:
+        self.setup, self.movers, self.motion = setup, tuple(movers), motion
+        self.obstacles = {o.name: o for o in obstacles}
+        self.static: Grid[str] = Grid.of({o.name: o.shape for o in obstacles})
+        self.spots: list[Spot] = [(i, p) for i, m in enumerate(movers) for p in range(len(m.places))]
+        self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
+        shapes = {(i, p): placed(movers[i].geometry.footprint, movers[i].places[p].pose) for i, p in self.spots}
+        self.mobile: Grid[Spot] = Grid.of(shapes)
+        self._arrive: dict[Spot, int | None] = {}
+        self._grip: dict[tuple[int, int, Hold], int | None] = {}
+        self._ways: dict[tuple[int, int, int], tuple[Way, ...]] = {}
+        self._paths: dict[tuple[int, int, int, Hold], int | None] = {}
+
+    def bit(self, mover: int, place: int) -> int:
+        """Return the bit of a spot."""
+        return self._bits[mover, place]
+
+    def at(self, mask: int) -> Iterator[Spot]:
+        """Yield the spots whose bits are in `mask`."""
+        while mask:
+            low = mask & -mask
+            yield self.spots[low.bit_length() - 1]
+            mask ^= low
+
+    def shape(self, mover: int, place: int) -> Shape:
+        """Return the footprint of a mover at one of its places."""
+        return self.mobile.shapes[mover, place]
+
+    def arrive(self, i: int, place: int) -> int | None:
+        """Return the spots that exclude the body of mover `i` at `place`."""
+        if (i, place) not in self._arrive:
+            self._arrive[i, place] = self._body(i, place)
+        return self._arrive[i, place]
+
+    def _body(self, i: int, place: int) -> int | None:
+        mover, lab = self.movers[i], self.setup.lab
+        shape, slot, margin = self.shape(i, place), mover.places[place].slot, lab.margins.body
+        if overhang(lab.table, shape) > 0 or self.static.conflicts(shape, margin):
+            return None
+        if any(reaches(k, 0.0, mover.geometry.height) and conflict(shape, outline(k)) for k in lab.keep_out.values()):
+            return None
+        mask = self._meeting(i, shape, margin, slot)
+        if slot is not None:
+            mouth = capture_disc(lab.slots[slot])
+            if self.static.conflicts(mouth, 0.0) or (place in mover.staging and self._covers_slot(shape, slot)):
+                return None
+            mask |= self._meeting(i, mouth, 0.0, slot)
+        return mask
+
+    def _covers_slot(self, shape: Shape, slot: str) -> bool:
+        """Whether a part staged in `slot` would keep another slot from being free."""
+        return any(n != slot and conflict(shape, capture_disc(s)) for n, s in self.setup.lab.slots.items())
+
+    def _meeting(self, i: int, shape: Shape, margin: float, slot: str | None = None, above: float = -1.0) -> int:
+        mask = 0
+        for j, place in self.mobile.near(shape, margin):
+            other = self.movers[j]
+            if j == i or other.geometry.height <= above:
+                continue
+            together = slot is not None and place > 0 and other.places[place].slot == slot
+            if together or conflict(shape, self.mobile.shapes[j, place], margin):
+                mask |= self._bits[j, place]
+        return mask
+
+    def grip(self, i: int, place: int, hold: Hold) -> int | None:
+        """Return the spots that exclude picking or placing mover `i` at `place` in this hold."""
+        key = (i, place, hold)
+        if key not in self._grip:
+            self._grip[key] = self._fingers(i, place, hold)
+        return self._grip[key]
+
+    def _fingers(self, i: int, place: int, hold: Hold) -> int | None:
+        mover, lab = self.movers[i], self.setup.lab
+        grasp, pose = mover.geometry.grasp, mover.places[place].pose
+        if hold.robot is None or grasp is None:
+            return 0
+        gripper = lab.robots[hold.robot].gripper
+        lowest, mask = finger_height(grasp, gripper), 0
+        for zone in finger_zones(grasp, gripper, hold.yaw, pose):
+            if any(self.obstacles[o].height > lowest for o in self.static.conflicts(zone, lab.margins.fingers)):
+                return None
+            if any(reaches(k, lowest, float("inf")) and conflict(zone, outline(k)) for k in lab.keep_out.values()):
+                return None
+            mask |= self._meeting(i, zone, lab.margins.fingers, above=lowest)
+        if self.unreachable(i, place, hold):
+            return None
+        return mask
+
+    def unreachable(self, i: int, place: int, hold: Hold) -> Blocked | None:
+        """Return why the robot of a hold can't pick or place mover `i` at `place`."""
+        if self.motion is None or hold.robot is None:
+            return None
+        mover = self.movers[i]
+        return self.motion.reach(hold.robot, mover.name, mover.places[place].pose, hold.yaw)
+
+    def ways(self, i: int, start: int, goal: int) -> tuple[Way, ...]:
+        """Return how mover `i` can go from one place to another, the preferred way first; none where what stays
+        excludes all of them. A way that needs everything that an earlier one needs is left out."""
+        key = (i, start, goal)
+        if key not in self._ways:
+            self._ways[key] = tuple(self._find_ways(i, start, goal))
+        return self._ways[key]
+
+    def _find_ways(self, i: int, start: int, goal: int) -> Iterator[Way]:
+        body = self.arrive(i, goal)
+        if body is None:
+            return
+        masks: list[int] = []
+        for hold in self.movers[i].holds:
+            parts = (self.grip(i, start, hold), self.grip(i, goal, hold), self._paths.get((i, start, goal, hold), 0))
+            if any(p is None for p in parts):
+                continue
+            mask = body | sum_of(p for p in parts if p)
+            if not any(m | mask == mask for m in masks):
+                masks.append(mask)
+                yield Way(hold, mask)
+
+    def way(self, i: int, start: int, goal: int, taken: int) -> Way | None:
+        """Return the first way to make a move while the spots of `taken` are taken."""
+        return next((w for w in self.ways(i, start, goal) if not w.mask & taken), None)
+
+    def forbid(self, i: int, start: int, goal: int, hold: Hold, spot: Spot | None) -> None:
+        """Exclude a hold for a move: while `spot` is taken, or for good (None), because its path is blocked."""
+        key = (i, start, goal, hold)
+        known = self._paths.get(key, 0)
+        self._paths[key] = None if spot is None or known is None else known | self._bits[spot]
+        self._ways.pop((i, start, goal), None)
+
+
+def sum_of(masks: Iterator[int]) -> int:
+    """Return the union of masks."""
+    union = 0
+    for mask in masks:
+        union |= mask
+    return union

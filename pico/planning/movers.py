@@ -1,0 +1,161 @@
+"""What a plan moves, where each thing may stand on the way, how it may be held, and what else stands on the table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from pico.geometry import Shape, disc, fits, half_turn_symmetric, placed
+from pico.model.catalog import Footprint, Geometry
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.pose import Pose, wrap
+from pico.model.state import LabState, place_of
+from pico.motion.types import Standing
+
+AVOID_PENALTY = 2.0
+"""What staging a part with `stage: avoid` costs beyond the move itself, in moves."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a component may stand: a pose, and the slot that it belongs to, if any."""
+
+    pose: Pose
+    slot: str | None = None
+
+    def __str__(self) -> str:
+        return self.slot or str(self.pose)
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """What moves a component: a robot whose jaws close along `yaw` [deg] in the component's frame, or a person
+    (no robot), who needs no room for fingers."""
+
+    robot: str | None
+    yaw: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """A component that a plan may move. `places[0]` is where it stands; `goals` and `staging` index `places`.
+
+    `right`: it stands where it should, and is only moved to make room. `penalty`: extra cost of staging it, in moves.
+    """
+
+    name: str
+    geometry: Geometry
+    places: tuple[Place, ...]
+    goals: tuple[int, ...]
+    staging: tuple[int, ...]
+    holds: tuple[Hold, ...]
+    right: bool = False
+    penalty: float = 0.0
+
+    @property
+    def start(self) -> Place:
+        return self.places[0]
+
+    @property
+    def goal(self) -> Place:
+        """Where it is preferred to end."""
+        return self.places[next((g for g in self.goals if g), 0)]
+
+    @property
+    def finished(self) -> frozenset[int]:
+        """The places where it is right."""
+        return frozenset(self.goals) | ({0} if self.right else frozenset())
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """Something that stays where it is."""
+
+    name: str
+    shape: Shape
+    height: float
+    standing: Standing
+
+
+def turned(setup: Setup, slot: str, footprint: Footprint, *, wrist: bool) -> list[Place]:
+    """Return how a part may stand in a slot: as the slot says, or turned by quarters, which the fingers may need.
+
+    Half a turn is left out where it changes nothing: to a symmetric footprint, and if no `wrist` is asked.
+    """
+    pose = setup.lab.slots[slot].pose
+    turns = (0, 90) if half_turn_symmetric(footprint) and not wrist else (0, 180, 90, 270)
+    return [Place(Pose(pose.x, pose.y, wrap(pose.yaw + t)), slot) for t in turns]
+
+
+def mover(
+    setup: Setup, seen: Observation, wanted: LabState, name: str, robots: tuple[str, ...], *, wrist: bool,
+    right: bool = False,
+) -> Mover:  # fmt: skip
+    """Return what may be done with a component that is `seen`; `robots` are those with a free gripper."""
+    part, kind, pose = setup.lab.inventory[name], setup.type_of(name), seen.components[name].pose
+    assert pose is not None
+    movable = setup.movable(name)
+    footprint = kind.geometry.footprint
+    slot, goal = place_of(setup, wanted, name)
+    places = [Place(pose, slot_at(setup, pose) if movable else None)]
+    ends = turned(setup, slot, footprint, wrist=wrist) if slot and movable else [Place(goal, slot)]
+    goals = tuple(range(1, 1 + len(ends)))
+    spots: list[Place] = []
+    if movable and part.stage != "never":
+        for other, storage in sorted(setup.lab.slots.items()):
+            if other != slot and fits(storage, footprint):
+                spots += turned(setup, other, footprint, wrist=wrist)
+    staging = tuple(range(1 + len(ends), 1 + len(ends) + len(spots)))
+    holds = _holds(setup, name, robots, wrist) if movable else (Hold(None),)
+    penalty = AVOID_PENALTY if part.stage == "avoid" else 0.0
+    return Mover(name, kind.geometry, (*places, *ends, *spots), goals, staging, holds, right, penalty)
+
+
+def _holds(setup: Setup, name: str, robots: tuple[str, ...], wrist: bool) -> tuple[Hold, ...]:
+    grasp = setup.type_of(name).geometry.grasp
+    yaws = list(grasp.yaws) if grasp else []
+    if wrist:  # the jaws are alike, but the wrist turns only so far
+        yaws += [wrap(y + 180) for y in yaws]
+    return tuple(Hold(robot, yaw) for robot in robots for yaw in yaws)
+
+
+def obstacle(setup: Setup, name: str, part: ObservedComponent) -> Obstacle | None:
+    """Return a component of the inventory as something that stays where it is; None where it is not on the table."""
+    if part.pose is None or part.presence in ("missing", "held"):
+        return None
+    geometry = setup.type_of(name).geometry
+    if part.presence == "toppled":
+        return _lying(name, part.pose, geometry)
+    shape = placed(geometry.footprint, part.pose)
+    return Obstacle(name, shape, geometry.height, Standing(part.pose, geometry))
+
+
+def _lying(name: str, pose: Pose, geometry: Geometry) -> Obstacle:
+    """A part that lies on its side may reach as far as it was tall, in any direction."""
+    radius = geometry.height + geometry.footprint.radius
+    height = max(geometry.height, 2 * geometry.footprint.radius)
+    lying = Geometry(footprint=Footprint(disc=radius), height=height, mass=geometry.mass)
+    return Obstacle(name, disc(pose.x, pose.y, radius), height, Standing(pose, lying))
+
+
+def strangers(seen: Observation) -> list[Obstacle]:
+    """Return the objects that the inventory does not have."""
+    found = []
+    for name, thing in sorted(seen.unknown.items()):
+        geometry = Geometry(footprint=thing.footprint, height=thing.height, mass=0.0)
+        shape = placed(thing.footprint, thing.pose)
+        found.append(Obstacle(name, shape, thing.height, Standing(thing.pose, geometry)))
+    return found
+
+
+def standing_obstacles(setup: Setup, seen: Observation, moving: Mapping[str, Mover]) -> list[Obstacle]:
+    """Return everything on the table that is not `moving`."""
+    parts = []
+    for name, part in seen.components.items():
+        if name in moving or name not in setup.lab.inventory:
+            continue
+        thing = obstacle(setup, name, part)
+        if thing:
+            parts.append(thing)
+    return [*parts, *strangers(seen)]

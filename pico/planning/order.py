@@ -1,0 +1,63 @@
+"""What must happen before what, and the order in which the arms take their moves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from pico.model.lab import Setup
+from pico.planning.conflicts import Conflicts
+from pico.planning.search import Step
+
+Closure = tuple[frozenset[int], ...]
+"""For each step the indices of all steps that must come before it, directly or not."""
+
+
+def precedence(table: Conflicts, steps: Sequence[Step], extra: Mapping[int, int]) -> Closure:
+    """Return which of the steps, given in an order that works, must come before which in every order.
+
+    Of two moves the first must stay first where the second needs the spot that it leaves, or takes the spot that it
+    needs empty. Every order that keeps all of these works as well: a component that is elsewhere than in the given
+    order has skipped, or run ahead by, a move that the pair is ordered for. `extra`: bits that the path of a step
+    needs besides its mask.
+    """
+    needs = [s.mask | extra.get(k, 0) for k, s in enumerate(steps)]
+    leaves = [table.bit(s.mover, s.start) for s in steps]
+    takes = [table.bit(s.mover, s.goal) for s in steps]
+    closure: list[frozenset[int]] = []
+    for k, step in enumerate(steps):
+        before: set[int] = set()
+        for e in range(k):
+            if steps[e].mover == step.mover or needs[k] & leaves[e] or needs[e] & takes[k]:
+                before |= {e} | closure[e]
+        closure.append(frozenset(before))
+    return tuple(closure)
+
+
+def reduced(closure: Closure) -> tuple[tuple[int, ...], ...]:
+    """Return for each step those that come directly before it: what the others do not already say."""
+    return tuple(
+        tuple(sorted(e for e in before if not any(e in closure[other] for other in before))) for before in closure
+    )
+
+
+def arranged(setup: Setup, table: Conflicts, steps: Sequence[Step], closure: Closure) -> tuple[Step, ...]:
+    """Return the steps in an order that keeps `closure`, each time the one whose pick is nearest to where its robot
+    is."""
+    at = {name: (r.mount.x, r.mount.y) for name, r in setup.lab.robots.items()}
+    left, done, out = list(range(len(steps))), set[int](), []
+    while left:
+
+        def way_to(k: int) -> tuple[float, int]:
+            pose = table.movers[steps[k].mover].places[steps[k].start].pose
+            x, y = at.get(steps[k].hold.robot or "", (pose.x, pose.y))
+            return round(math.hypot(pose.x - x, pose.y - y), 6), k
+
+        k = min((k for k in left if closure[k] <= done), key=way_to)
+        left.remove(k)
+        done.add(k)
+        out.append(steps[k])
+        if steps[k].hold.robot:
+            goal = table.movers[steps[k].mover].places[steps[k].goal].pose
+            at[steps[k].hold.robot or ""] = (goal.x, goal.y)
+    return tuple(out)

@@ -1,0 +1,190 @@
+"""Why there is no order of moves: who can't be held, reached or placed, or who blocks whom in a ring."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from pico.diagnostics import Diagnostic, error
+from pico.geometry import finger_height, finger_zones, separation
+from pico.motion.types import Blocked
+from pico.planning.conflicts import Conflicts
+from pico.planning.movers import Hold, Mover
+from pico.planning.paths import NoPath
+from pico.planning.reasons import body_overlap
+from pico.planning.solve import Refusal
+from pico.planning.target import Source, located
+
+
+def explain(refused: Refusal, source: Source) -> list[Diagnostic]:
+    """Return the errors that say why the movers of a refused problem can't all reach their goals."""
+    table = refused.table
+    if len(refused.core) == 1:
+        return [_alone(refused, refused.core[0], source)]
+    stuck = list(refused.core) or [
+        i for i, m in enumerate(table.movers) if refused.closest[i] not in m.finished
+    ]  # fmt: skip
+    if refused.blocked and not refused.core:
+        return [_no_path(table, refused.blocked[-1], source)]
+    return [_ring(table, stuck, refused.proven, source)]
+
+
+def _alone(refused: Refusal, i: int, source: Source) -> Diagnostic:
+    """A mover that can't get home even with all other movers off the table."""
+    table = refused.table
+    mover = table.movers[i]
+    own = [b for b in refused.blocked if b.step.mover == i]
+    if own:
+        return _no_path(table, own[-1], source)
+    if not mover.holds:
+        return error("blocked", f"{mover.name} can't be moved: no robot has its gripper free", address=mover.name)
+    for verb, places in (("picked up", (0,)), ("put down", mover.goals)):
+        if all(table.grip(i, p, h) is None for p in places for h in mover.holds):
+            return _no_grip(table, i, verb, places, source)
+    storage = "stage: never" if not mover.staging else "no storage slot where it could be put down in between"
+    return error(
+        "blocked", f"{mover.name} can't go from {mover.start} to {mover.goal}: no one grasp is free at both ends",
+        detail=f"{mover.name}: {storage}", hint="free a storage slot, or leave more room on one side of it",
+        address=f"{mover.name}.pose", source=located(source, mover),
+    )  # fmt: skip
+
+
+def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source: Source) -> Diagnostic:
+    mover = table.movers[i]
+    place = mover.places[places[0]]
+    where = f"{mover.name} can't be {verb} at {place}"
+    address, blame = f"{mover.name}.pose", located(source, mover)
+    hits = [(h, hit) for p in places for h in mover.holds for hit in finger_hits(table, i, p, h)]
+    reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
+    free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
+    if reach and (free or not hits):
+        return error(
+            "unreachable", f"{where}: {reach[0].text}", detail=_depth(reach[0]),
+            hint="bring it nearer to the arm, or turn it", address=address, source=blame,
+        )  # fmt: skip
+    if not hits:
+        return error("blocked", f"{where}: a keep-out leaves no room for the fingers", address=address, source=blame)
+    names = sorted({name for _, (name, _) in hits})
+    deepest = min(gap for _, (_, gap) in hits)
+    touch = f"by {-deepest:.3g} mm" if deepest < 0 else f"(only {deepest:.3g} mm apart)"
+    return error(
+        "blocked", f"{where}: a finger of the gripper would touch {_list(names)} {touch}, every grasp yaw tried",
+        hint=f"move {_list(names, 'or')} away first, or leave more room there", address=address, source=blame,
+    )  # fmt: skip
+
+
+def finger_hits(table: Conflicts, i: int, place: int, hold: Hold) -> Iterator[tuple[str, float]]:
+    """Yield the things that stay which the fingers come too near to, and how near [mm], negative where they overlap."""
+    mover, lab = table.movers[i], table.setup.lab
+    grasp = mover.geometry.grasp
+    if grasp is None or hold.robot is None:
+        return
+    gripper = lab.robots[hold.robot].gripper
+    lowest = finger_height(grasp, gripper)
+    for zone in finger_zones(grasp, gripper, hold.yaw, mover.places[place].pose):
+        for name in table.static.conflicts(zone, lab.margins.fingers):
+            if table.obstacles[name].height > lowest:
+                yield name, separation(zone, table.obstacles[name].shape)
+
+
+def _depth(blocked: Blocked) -> str:
+    return f"by {blocked.by:.3g} mm" if blocked.by is not None else ""
+
+
+def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
+    mover, blocked = table.movers[no.step.mover], no.blocked
+    goal = mover.places[no.step.goal]
+    primitive = "stow" if goal.slot else "move"
+    during = f" during {blocked.segment}" if blocked.segment else ""
+    code = "unreachable" if blocked.kind == "reach" else "blocked"
+    hint = f"move {blocked.obstacle} away first" if blocked.obstacle in table.obstacles else "choose another place"
+    return error(
+        code, f"{primitive} of {mover.name} to {goal} has no free path{during}: {blocked.text}",
+        detail=f"in the way: {blocked.obstacle} {_depth(blocked)}".strip() if blocked.obstacle else _depth(blocked),
+        hint=hint, address=f"{mover.name}.pose", source=located(source, mover),
+    )  # fmt: skip
+
+
+def _ring(table: Conflicts, stuck: Sequence[int], proven: bool, source: Source) -> Diagnostic:
+    arcs = {(a, b): text for a in stuck for b in stuck if a != b and (text := before(table, a, b))}
+    ring = _cycle(stuck, arcs)
+    names = [table.movers[i].name for i in (ring or stuck)]
+    lines = [arcs[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)] or sorted(arcs.values())
+    lines += [_storage_line(table, i) for i in (ring or stuck)]
+    if ring:
+        summary = f"{_list(names)} block one another in a ring that no storage slot breaks"
+    elif proven:
+        summary = f"{_list(names)} can't all reach their places in any order"
+    else:
+        summary = f"found no order in which {_list(names)} reach their places, within the limit of the search"
+    allowed = [table.movers[i].name for i in (ring or stuck) if not table.movers[i].staging]
+    hint = "free one slot within reach, or leave more room between them"
+    if allowed and len(allowed) < 6:
+        hint = f"free one slot within reach, or allow staging of {_list(allowed, 'or')}"
+    first = names[0] if names else ""
+    return error(
+        "impossible", summary, detail="\n".join(lines), hint=hint, address=f"{first}.pose",
+        source=located(source, table.movers[stuck[0]]) if stuck else None,
+    )  # fmt: skip
+
+
+def before(table: Conflicts, a: int, b: int) -> str:
+    """Return why mover `a` must leave before the direct move of mover `b`, in words; empty where it need not."""
+    first, second = table.movers[a], table.movers[b]
+    bit = table.bit(a, 0)
+    masks = [w.mask for g in second.goals for w in table.ways(b, 0, g)]
+    bodies = [table.arrive(b, g) or 0 for g in second.goals]
+    if not all(m & bit for m in masks) or (not masks and not all(m & bit for m in bodies)):
+        return ""
+    depth = max(body_overlap(table, (b, g), (a, 0)) for g in second.goals)
+    if all(m & bit for m in bodies):
+        how = f"bodies overlap by {depth:.3g} mm" if depth > 0 else f"bodies come within {-depth:.3g} mm"
+    else:
+        how = f"a finger of the gripper would touch {first.name}, every grasp yaw tried"
+    return f"{first.name} must leave before {second.name} arrives ({how})"
+
+
+def _cycle(nodes: Sequence[int], arcs: dict[tuple[int, int], str]) -> list[int]:
+    """Return a shortest ring of arcs, or nothing."""
+    best: list[int] = []
+    for root in nodes:
+        trails = [[root]]
+        seen = {root}
+        while trails and not best:
+            trail = trails.pop(0)
+            if (trail[-1], root) in arcs and len(trail) > 1:
+                best = trail
+                break
+            for n in nodes:
+                if n not in seen and (trail[-1], n) in arcs:
+                    seen.add(n)
+                    trails.append([*trail, n])
+        if best:
+            break
+    return best
+
+
+def _storage_line(table: Conflicts, i: int) -> str:
+    """Return why a component can't be put down in storage meanwhile."""
+    mover = table.movers[i]
+    if table.setup.lab.inventory[mover.name].stage == "never":
+        return f"{mover.name}: stage: never"
+    if not mover.staging:
+        return f"{mover.name}: {'only a person can move it' if not mover.holds[0].robot else 'no slot takes it'}"
+    free = [p for p in mover.staging if table.arrive(i, p) is not None]
+    if not free:
+        return f"{mover.name}: every slot that takes it is occupied"
+    held = [p for p in free if any(table.grip(i, p, h) is not None for h in mover.holds)]
+    slots = sorted({mover.places[p].slot or "" for p in held or free})
+    if not held:
+        why = _first_reach(table, i, free, mover)
+        return f"{mover.name}: the free slots {_list(slots)} are {why}"
+    return f"{mover.name}: {_list(slots)} would take it, but others need {'it' if len(slots) == 1 else 'them'} too"
+
+
+def _first_reach(table: Conflicts, i: int, places: Sequence[int], mover: Mover) -> str:
+    reach = any(table.unreachable(i, p, h) for p in places for h in mover.holds)
+    return "out of reach" if reach else "without room for the fingers"
+
+
+def _list(names: Sequence[str], word: str = "and") -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}" if names else "nothing"

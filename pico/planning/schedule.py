@@ -1,0 +1,75 @@
+"""When each operation starts: the arms take theirs in order, motors and set-points find the earliest gap beside."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pico.model.operation import Operation
+
+Span = tuple[float, float]
+
+
+def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
+    """Return the operations with start times and ids `op1`, `op2`, ... sorted by start.
+
+    List scheduling: an operation starts when all in `after` are done and each of its resources is free for as long as
+    it takes. Operations of robots and people keep their order; the others come after them, the longest chain first.
+    `after` holds indices into `operations` as text, and holds ids afterwards.
+    """
+    busy: dict[str, list[Span]] = {}
+    ends: dict[int, float] = {}
+    starts: dict[int, float] = {}
+    for n in _priorities(operations):
+        operation = operations[n]
+        ready = max((ends[int(e)] for e in operation.after), default=0.0)
+        spans = sorted(s for r in operation.resources for s in busy.get(r, ()))
+        if operation.robot:  # an arm takes its operations in order: no gap before what it already has
+            ready = max([ready, *(end for _, end in busy.get(operation.robot, ()))])
+        starts[n] = _gap(spans, ready, operation.seconds)
+        ends[n] = starts[n] + operation.seconds
+        for resource in operation.resources:
+            busy.setdefault(resource, []).append((starts[n], ends[n]))
+    return _numbered(operations, starts)
+
+
+def _priorities(operations: Sequence[Operation]) -> list[int]:
+    """Return the order in which operations are given their time; what one waits for comes before it."""
+    first = [n for n, o in enumerate(operations) if o.robot or o.primitive == "operator"]
+    rest = [n for n in range(len(operations)) if n not in set(first)]
+    tails = {n: operations[n].seconds for n in rest}
+    for n in reversed(rest):
+        for e in operations[n].after:
+            if int(e) in tails:
+                tails[int(e)] = max(tails[int(e)], operations[int(e)].seconds + tails[n])
+    return first + sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
+
+
+def _gap(spans: Sequence[Span], ready: float, seconds: float) -> float:
+    """Return the earliest start, from `ready` on, of a gap of so many seconds between busy spans."""
+    start = ready
+    for begin, end in spans:
+        if begin >= start + seconds - 1e-9 and begin > start - 1e-9:
+            return start
+        start = max(start, end)
+    return start
+
+
+def _numbered(operations: Sequence[Operation], starts: dict[int, float]) -> tuple[Operation, ...]:
+    order = sorted(range(len(operations)), key=lambda n: (round(starts[n], 6), n))
+    ids = {n: f"op{k}" for k, n in enumerate(order, 1)}
+    return tuple(
+        replace(
+            operations[n],
+            id=ids[n],
+            start=round(starts[n], 6),
+            seconds=round(operations[n].seconds, 6),
+            after=tuple(ids[m] for m in sorted((int(e) for e in operations[n].after), key=order.index)),
+        )
+        for n in order
+    )
+
+
+def makespan(operations: Sequence[Operation]) -> float:
+    """Return when the last operation ends [s]."""
+    return round(max((o.start + o.seconds for o in operations), default=0.0), 6)

@@ -1,0 +1,218 @@
+"""Best-first search for an order of moves, staging where it must; knows spots and masks, nothing of a table.
+
+f = cost so far + weight * components that are not where they should be. The work is limited by the number of
+configurations expanded, never by time, so that the same problem always has the same answer.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from pico.planning.conflicts import Conflicts, Way
+from pico.planning.movers import Hold
+
+Configuration = tuple[int, ...]
+"""The place of each mover, by index."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One move of the answer; `mask`: the bits of the spots that must be empty."""
+
+    mover: int
+    start: int
+    goal: int
+    hold: Hold
+    mask: int
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How hard to search. `commit`: make a move at once that hinders nobody's direct move. `slots`: how many storage
+    places to try for each component (None: all). `everyone`: stage any component, not only those in the way."""
+
+    weight: float
+    limit: int
+    commit: bool = False
+    slots: int | None = None
+    everyone: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a search came to: the steps, or None and whether every configuration was seen (`exhausted`); `closest` is
+    the configuration with the fewest components out of place."""
+
+    steps: tuple[Step, ...] | None
+    exhausted: bool
+    closest: Configuration
+    expanded: int
+
+
+@dataclass(slots=True)
+class Work:
+    """A limit on expansions that several searches share."""
+
+    left: int
+
+
+@dataclass(slots=True)
+class _Search:
+    table: Conflicts
+    who: tuple[int, ...]
+    effort: Effort
+    finished: tuple[frozenset[int], ...]
+    _storage: dict[int, tuple[int, ...]] = field(default_factory=dict)
+
+    def taken(self, places: Configuration) -> int:
+        union = 0
+        for i in self.who:
+            union |= self.table.bit(i, places[i])
+        return union
+
+    def pending(self, places: Configuration) -> list[int]:
+        return [i for i in self.who if places[i] not in self.finished[i]]
+
+    def direct(self, i: int, places: Configuration, taken: int) -> Iterator[tuple[int, Way]]:
+        """Yield the goals that a component can go to now."""
+        for goal in self.table.movers[i].goals:
+            if goal != places[i]:
+                way = self.table.way(i, places[i], goal, taken)
+                if way:
+                    yield goal, way
+                    if not self.effort.everyone:
+                        return
+
+    def moves(self, places: Configuration, taken: int) -> Iterator[tuple[Step, float]]:
+        """Yield the moves from a configuration that are worth trying, with their costs."""
+        pending, stuck = self.pending(places), []
+        homing: list[Step] = []
+        for i in pending:
+            before = len(homing)
+            homing += [Step(i, places[i], g, w.hold, w.mask) for g, w in self.direct(i, places, taken)]
+            if len(homing) == before:
+                stuck.append(i)
+        if self.effort.commit:
+            for step in homing:
+                if self._harmless(step, pending, places):
+                    yield step, 1.0
+                    return
+        yield from ((step, 1.0) for step in homing)
+        for i in self.who if self.effort.everyone else self._in_the_way(stuck, pending, places, taken):
+            yield from self._stagings(i, places, taken)
+
+    def _harmless(self, step: Step, pending: Sequence[int], places: Configuration) -> bool:
+        """Whether a component at its goal hinders no direct move of those still to go."""
+        bit = self.table.bit(step.mover, step.goal)
+        return not any(
+            way.mask & bit
+            for j in pending if j != step.mover
+            for goal in self.table.movers[j].goals
+            for way in self.table.ways(j, places[j], goal)
+        )  # fmt: skip
+
+    def _in_the_way(self, stuck: list[int], pending: list[int], places: Configuration, taken: int) -> list[int]:
+        """Return the components that can't go where they should, those that hinder somebody, and those that hinder
+        these from being picked."""
+        found: dict[int, None] = dict.fromkeys(stuck)
+        for i in pending:
+            found.update(dict.fromkeys(self._hindering(i, places, taken, self.table.movers[i].goals)))
+        queue = list(found)
+        while queue:
+            i = queue.pop()
+            for hold in self.table.movers[i].holds:
+                for j, _ in self.table.at((self.table.grip(i, places[i], hold) or 0) & taken):
+                    if j not in found:
+                        found[j] = None
+                        queue.append(j)
+        return sorted(found)
+
+    def _hindering(self, i: int, places: Configuration, taken: int, goals: Sequence[int]) -> Iterator[int]:
+        for goal in goals:
+            union = self._body(i, goal)
+            for way in self.table.ways(i, places[i], goal):
+                union |= way.mask
+            for j, _ in self.table.at(union & taken & ~self.table.bit(i, places[i])):
+                yield j
+
+    def _stagings(self, i: int, places: Configuration, taken: int) -> Iterator[tuple[Step, float]]:
+        mover, tried = self.table.movers[i], 0
+        for place in self.storage(i):
+            if place == places[i]:
+                continue
+            way = self.table.way(i, places[i], place, taken)
+            if way is None:
+                continue
+            yield Step(i, places[i], place, way.hold, way.mask), 1.0 + mover.penalty
+            tried += 1
+            if self.effort.slots is not None and tried >= self.effort.slots:
+                return
+
+    def storage(self, i: int) -> tuple[int, ...]:
+        """Return the storage places of a component, those first that nobody needs and that hinder least, then near
+        ones."""
+        if i not in self._storage:
+            mover = self.table.movers[i]
+            wanted = {self.table.movers[j].goal.slot for j in self.who}
+
+            def rank(place: int) -> tuple[bool, int, float]:
+                spot = mover.places[place]
+                crowd = sum(
+                    self.table.movers[j].places[p].slot != spot.slot for j, p in self.table.at(self._body(i, place))
+                )
+                return spot.slot in wanted, crowd, spot.pose.distance(mover.goal.pose)
+
+            usable = [p for p in mover.staging if self.table.arrive(i, p) is not None]
+            self._storage[i] = tuple(sorted(usable, key=rank))
+        return self._storage[i]
+
+    def _body(self, i: int, place: int) -> int:
+        return self.table.arrive(i, place) or 0
+
+
+def search(table: Conflicts, effort: Effort, who: Sequence[int] | None = None, work: Work | None = None) -> Found:
+    """Return the steps that bring the movers `who` (all where None; the others are left out of the world) to their
+    goals, or None. `work` takes the place of the effort's own limit."""
+    names = tuple(range(len(table.movers))) if who is None else tuple(who)
+    hunt = _Search(table, names, effort, tuple(m.finished for m in table.movers))
+    work = work or Work(effort.limit)
+    start: Configuration = (0,) * len(table.movers)
+    closest, fewest = start, len(hunt.pending(start))
+    costs: dict[Configuration, float] = {start: 0.0}
+    parents: dict[Configuration, tuple[Configuration, Step]] = {}
+    heap: list[tuple[float, int, int, Configuration, float]] = [(effort.weight * fewest, fewest, 0, start, 0.0)]
+    expanded = pushed = 0
+    while heap:
+        _, left, _, places, cost = heapq.heappop(heap)
+        if cost > costs[places]:
+            continue
+        if left < fewest:
+            closest, fewest = places, left
+        if left == 0:
+            return Found(_trace(parents, places), False, closest, expanded)
+        if work.left <= 0:
+            return Found(None, False, closest, expanded)
+        work.left -= 1
+        expanded += 1
+        taken = hunt.taken(places)
+        for step, price in hunt.moves(places, taken):
+            after = (*places[: step.mover], step.goal, *places[step.mover + 1 :])
+            total = cost + price
+            if total >= costs.get(after, float("inf")):
+                continue
+            costs[after], parents[after] = total, (places, step)
+            pushed += 1
+            done = hunt.finished[step.mover]
+            remaining = left - (step.goal in done) + (step.start in done)
+            heapq.heappush(heap, (total + effort.weight * remaining, remaining, pushed, after, total))
+    return Found(None, True, closest, expanded)
+
+
+def _trace(parents: dict[Configuration, tuple[Configuration, Step]], places: Configuration) -> tuple[Step, ...]:
+    steps = []
+    while places in parents:
+        places, step = parents[places]
+        steps.append(step)
+    return tuple(reversed(steps))

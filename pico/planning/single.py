@@ -1,0 +1,128 @@
+"""One operation at a time, as `pico do` asks for it, through the same checks as a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.model.lab import Setup
+from pico.model.observation import Observation, live_state
+from pico.model.operation import Operation, Reason
+from pico.model.plan import Base, LabRef, Plan, Target
+from pico.model.pose import Pose
+from pico.model.quantities import Value
+from pico.model.state import ComponentState, LabState
+from pico.motion.types import Motion
+from pico.planning.compile import Request, compiled_plan
+from pico.planning.schedule import makespan, schedule
+from pico.planning.values import home_operation, value_operations
+
+ASKED = Reason(kind="asked")
+
+
+def move_one(
+    setup: Setup, seen: Observation, component: str, to: Pose | str, *, motion: Motion | None, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that takes `component` to a pose or a slot and moves nothing else.
+
+    The plan is errored where that is not possible without moving something else first. Raises PicoError for a
+    component that the lab does not have or that is not seen, and for an unknown slot.
+    """
+    _part(setup, seen, component)
+    if isinstance(to, str) and to not in setup.lab.slots:
+        raise PicoError(error("unknown-slot", f"there is no slot `{to}`", hint=did_you_mean(to, setup.lab.slots)))
+    place = ComponentState(slot=to) if isinstance(to, str) else ComponentState(pose=to)
+    wanted = _live_with(setup, seen, component, place)
+    request = Request(setup, seen, wanted, motion, exact=not isinstance(to, str), alone=True, reason=ASKED)
+    plan = compiled_plan(
+        request, backend=backend, fidelity=fidelity, base=base or Base(state=live_state(setup, seen).as_json()),
+        target=Target(state=wanted.as_json()),
+    )  # fmt: skip
+    return replace(plan, changes=tuple(c for c in plan.changes if c.component == component)).sealed()
+
+
+def set_one(
+    setup: Setup, seen: Observation, component: str, tunable: str, value: Value, *, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that brings one tunable to a value.
+
+    The value is taken as it is. Raises PicoError for a component or tunable that there is not.
+    """
+    _tunable(setup, seen, component, tunable)
+    live = _live_with(setup, seen, component, None, {tunable: value})
+    changes = tuple(
+        c for c in diff_observed(setup, seen, live, exact=True) if c.component == component and c.tunable == tunable
+    )
+    operations, notes = value_operations(setup, seen, changes, ASKED)
+    return _sealed(setup, seen, operations, notes, backend, fidelity, base, live, changes)
+
+
+def home_one(
+    setup: Setup, seen: Observation, component: str, tunable: str, *, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that homes the axis of one tunable.
+
+    Raises PicoError for a component or tunable that there is not, and for one without an axis that can be homed.
+    """
+    _tunable(setup, seen, component, tunable)
+    kind = setup.type_of(component).tunables[tunable]
+    if kind.axis is None or kind.axis.kind != "homed":
+        raise PicoError(error(
+            "unsupported", f"{component}.{tunable} has no axis to home", address=f"{component}.{tunable}",
+        ))  # fmt: skip
+    live = seen.components[component].values.get(tunable)
+    operation = home_operation(component, tunable, kind, live.value if live else None, ASKED)
+    return _sealed(setup, seen, [operation], [], backend, fidelity, base, live_state(setup, seen), ())
+
+
+def _sealed(
+    setup: Setup, seen: Observation, operations: list[Operation], notes: list[Diagnostic], backend: str, fidelity: str,
+    base: Base | None, wanted: LabState, changes: tuple[Any, ...],
+) -> Plan:  # fmt: skip
+    timed = schedule(operations)
+    return Plan(
+        lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
+        base=base or Base(state=live_state(setup, seen).as_json()), target=Target(state=wanted.as_json()),
+        changes=changes, operations=timed, makespan=makespan(timed), diagnostics=tuple(notes),
+    ).sealed()  # fmt: skip
+
+
+def _live_with(
+    setup: Setup, seen: Observation, component: str, place: ComponentState | None,
+    values: Mapping[str, Value] | None = None,
+) -> LabState:  # fmt: skip
+    """Return the live state with one component's place or some of its values replaced."""
+    live = live_state(setup, seen)
+    now = live.components.get(component, ComponentState())
+    changed = ComponentState(
+        slot=place.slot if place else now.slot,
+        pose=place.pose if place else now.pose,
+        values={**now.values, **(values or {})},
+    )
+    return LabState(lab=live.lab, components={**live.components, component: changed})
+
+
+def _part(setup: Setup, seen: Observation, component: str) -> None:
+    if component not in setup.lab.inventory:
+        hint = did_you_mean(component, setup.lab.inventory)
+        raise PicoError(error("unknown-component", f"the lab has no component `{component}`", hint=hint))
+    part = seen.components.get(component)
+    if part is None or part.presence != "seen" or part.pose is None:
+        what = part.presence if part else "missing"
+        raise PicoError(error("missing", f"{component} is {what}: it must be seen standing on the table first"))
+
+
+def _tunable(setup: Setup, seen: Observation, component: str, tunable: str) -> None:
+    _part(setup, seen, component)
+    known = setup.type_of(component).tunables
+    if tunable not in known:
+        raise PicoError(error(
+            "unknown-tunable", f"{component} has no tunable `{tunable}`", hint=did_you_mean(tunable, known), address=component,
+        ))  # fmt: skip
+    if tunable not in seen.components[component].values:
+        raise PicoError(error("unsupported", f"the backend does not model {component}.{tunable}"))

@@ -1,0 +1,78 @@
+"""The physical diff of a bench as seen against the state wanted, and what about the bench itself needs a word."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from pico.diagnostics import Diagnostic, warning
+from pico.model.diff import Change, diff_observed
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent
+from pico.model.state import LabState, place_of
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """What must change, which of it by moving, and the robots whose gripper is free."""
+
+    changes: tuple[Change, ...]
+    moving: tuple[str, ...]
+    robots: tuple[str, ...]
+    diagnostics: tuple[Diagnostic, ...]
+
+
+def read_situation(setup: Setup, seen: Observation, wanted: LabState, *, exact: bool = False) -> Situation:
+    """Return what differs, and warnings about parts that can't be planned for."""
+    changes = diff_observed(setup, seen, wanted, exact=exact)
+    moving = tuple(c.component for c in changes if c.tunable == "pose" and not c.tolerated)
+    robots = tuple(n for n in sorted(setup.lab.robots) if not _holding(seen, n))
+    found = [*_absences(setup, seen, wanted), *_hands(seen), *_doubts(setup, seen)]
+    return Situation(changes, moving, robots, tuple(found))
+
+
+def _holding(seen: Observation, robot: str) -> str | None:
+    return seen.robots[robot].holding if robot in seen.robots else None
+
+
+def _absences(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Diagnostic]:
+    for name in sorted(setup.lab.inventory):
+        part = seen.components.get(name)
+        if part is not None and part.presence == "toppled":
+            yield warning(
+                "toppled", f"{name} lies on its side; nothing is moved near it",
+                hint="set it upright by hand, then plan again", address=name,
+            )  # fmt: skip
+        elif (part is None or part.presence == "missing" or part.pose is None) and name in wanted.components:
+            if part is not None and part.presence == "held":
+                continue
+            slot, pose = place_of(setup, wanted, name)
+            yield warning(
+                "missing", f"nobody sees {name}, which belongs {f'in {slot}' if slot else f'at {pose}'}",
+                hint="put it where a camera sees it, then plan again; the rest is planned without it", address=name,
+            )  # fmt: skip
+
+
+def _hands(seen: Observation) -> Iterator[Diagnostic]:
+    for robot, state in sorted(seen.robots.items()):
+        if state.holding:
+            yield warning(
+                "held", f"{robot} holds {state.holding}, so it can't pick anything else",
+                hint=f"take {state.holding} out of the gripper, then plan again", address=state.holding,
+            )  # fmt: skip
+
+
+def _doubts(setup: Setup, seen: Observation) -> Iterator[Diagnostic]:
+    for name, part in sorted(seen.components.items()):
+        if name in setup.lab.inventory and part.pose is not None and _doubtful(setup, name, part):
+            yield warning(
+                "uncertain",
+                f"{name} was seen at {part.pose} only to within {part.uncertainty.position:.2g} mm and "
+                f"{part.uncertainty.yaw:.2g}°, less exactly than it must stand",
+                hint="look again from nearer, or uncover its marker", address=name,
+            )  # fmt: skip
+
+
+def _doubtful(setup: Setup, name: str, part: ObservedComponent) -> bool:
+    tolerance = setup.type_of(name).pose.tolerance
+    return part.uncertainty.position > tolerance.position or part.uncertainty.yaw > tolerance.yaw

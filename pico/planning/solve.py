@@ -1,0 +1,188 @@
+"""From movers and obstacles to an order of moves with paths: search harder, or move more, only where it must."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.motion.types import Blocked, Motion, MovePath
+from pico.planning.conflicts import Conflicts
+from pico.planning.movers import Mover, Obstacle
+from pico.planning.order import arranged, precedence
+from pico.planning.paths import NoPath, Paths, find_paths
+from pico.planning.search import Configuration, Effort, Found, Step, search
+
+COMPLETE = 7
+"""Up to so many movers nothing solvable is refused: the last search prunes nothing."""
+
+EFFORTS = (
+    Effort(weight=1.0, limit=300, commit=True, slots=3),
+    Effort(weight=2.0, limit=600, commit=True, slots=3),
+    Effort(weight=3.0, limit=1500, slots=6),
+)
+EVERYTHING = Effort(weight=2.0, limit=200_000, everyone=True)
+PROOF = Effort(weight=2.0, limit=3000, everyone=True)
+PATH_ROUNDS = 200
+"""How often the search may start again because a path was blocked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """The moves in order, with the tables that they were found in and their paths (None without motion)."""
+
+    table: Conflicts
+    steps: tuple[Step, ...]
+    paths: Paths | None
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why there is no order: movers that can't all reach their goals whatever the others do (`core`, proven), or none
+    known; the configuration that came closest; the paths that were blocked on the way."""
+
+    table: Conflicts
+    core: tuple[int, ...]
+    closest: Configuration
+    proven: bool
+    blocked: tuple[NoPath, ...] = ()
+
+
+@dataclass(slots=True)
+class Problem:
+    """One planning problem. `asides`: components that are right but may be moved to make room, as movers; `direct`:
+    only moves straight to the goal, of nobody else."""
+
+    setup: Setup
+    seen: Observation
+    movers: tuple[Mover, ...]
+    obstacles: tuple[Obstacle, ...]
+    asides: tuple[Mover, ...]
+    motion: Motion | None
+    expanded: int = field(default=0)
+
+    def widened(self, names: frozenset[str]) -> Problem:
+        """Return the problem in which these components may be moved aside."""
+        movers = (*self.movers, *(m for m in self.asides if m.name in names))
+        rest = tuple(o for o in self.obstacles if o.name not in names)
+        return Problem(self.setup, self.seen, movers, rest, (), self.motion)
+
+
+def solve(problem: Problem) -> Solution | Refusal:
+    """Return an order of moves, moving what is right only where there is none without; or why there is none."""
+    first = attempt(problem)
+    if isinstance(first, Solution):
+        return first
+    for names in _asides(problem, first):
+        answer = attempt(problem.widened(names))
+        if isinstance(answer, Solution):
+            return answer
+    return first
+
+
+def attempt(problem: Problem) -> Solution | Refusal:
+    """Return an order for exactly these movers, every path of it checked, or why there is none."""
+    table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion)
+    blocked: list[NoPath] = []
+    while True:
+        found, core = hunt(table)
+        if found.steps is None:
+            return Refusal(table, core, found.closest, bool(core) or found.exhausted, tuple(blocked))
+        steps = arranged(problem.setup, table, found.steps, precedence(table, found.steps, {}))
+        if problem.motion is None:
+            return Solution(table, steps, None)
+        paths = find_paths(table, steps, problem.seen, problem.motion)
+        if isinstance(paths, Paths):
+            return Solution(table, steps, paths)
+        blocked.append(paths)
+        if len(blocked) > PATH_ROUNDS:
+            return Refusal(table, (), found.closest, False, tuple(blocked))
+        table.forbid(paths.step.mover, paths.step.start, paths.step.goal, paths.step.hold, paths.spot)
+
+
+def hunt(table: Conflicts) -> tuple[Found, tuple[int, ...]]:
+    """Search with growing effort. Returns the last search, and movers that are proven not to get home, if any."""
+    everyone = range(len(table.movers))
+    for i in everyone:
+        if not any(table.ways(i, 0, g) for g in table.movers[i].goals) and not table.movers[i].right:
+            alone = search(table, PROOF, (i,))
+            if alone.exhausted:
+                return alone, (i,)
+    for effort in EFFORTS:
+        found = search(table, effort)
+        if found.steps is not None:
+            return found, ()
+    core = _core(table)
+    if not core and len(table.movers) <= COMPLETE:
+        return search(table, EVERYTHING), ()
+    return found, core
+
+
+def _core(table: Conflicts) -> tuple[int, ...]:
+    """Return two or three movers that can't get home even where all others are taken off the table."""
+    who = [i for i, m in enumerate(table.movers) if not m.right]
+    for size in (2, 3) if len(who) <= COMPLETE else (2,):
+        for group in combinations(who, size):
+            if _linked(table, group) and search(table, PROOF, group).exhausted:
+                return group
+    return ()
+
+
+def _linked(table: Conflicts, group: Sequence[int]) -> bool:
+    """Whether each of the group needs a spot empty that another of it starts from or goes to."""
+    for i in group:
+        others = [table.bit(j, p) for j in group if j != i for p in (0, *table.movers[j].goals)]
+        masks = [w.mask for g in table.movers[i].goals for w in table.ways(i, 0, g)] or [-1]
+        bodies = [table.arrive(i, g) or 0 for g in table.movers[i].goals]
+        if not any((m | b) & bit for m in masks for b in bodies for bit in others):
+            return False
+    return True
+
+
+def _asides(problem: Problem, refused: Refusal) -> Iterator[frozenset[str]]:
+    """Yield growing sets of components that might make room: those that hinder a mover, those that hinder these, and
+    for a small table all of them."""
+    by_name = {m.name: m for m in problem.asides}
+    ring: frozenset[str] = frozenset()
+    front: list[Mover] = list(problem.movers)
+    everything = frozenset(by_name) if len(problem.movers) + len(by_name) <= COMPLETE else frozenset()
+    for _ in range(3):
+        names = ring | {n for m in front for n in _near(refused.table, m) if n in by_name}
+        if names == ring:
+            break
+        front, ring = [by_name[n] for n in sorted(names - ring)], frozenset(names)
+        yield ring
+    if everything and everything != ring:
+        yield everything
+
+
+def _near(table: Conflicts, mover: Mover) -> Iterator[str]:
+    """Yield the obstacles that fingers or body of a mover may meet where it starts or should end."""
+    lab = table.setup.lab
+    reach = max(_finger_reach(table, mover), mover.geometry.footprint.radius) + max(
+        lab.margins.body, lab.margins.fingers
+    )
+    for place in (0, *mover.goals):
+        pose = mover.places[place].pose
+        for name, o in table.obstacles.items():
+            if pose.distance(o.standing.pose) <= reach + o.shape.radius:
+                yield name
+
+
+def _finger_reach(table: Conflicts, mover: Mover) -> float:
+    grasp = mover.geometry.grasp
+    if grasp is None:
+        return 0.0
+    reaches = [0.0]
+    for robot in table.setup.lab.robots.values():
+        fingers = robot.gripper.fingers
+        if fingers != "none":
+            reaches.append(grasp.width / 2 + fingers.opening + fingers.thickness + fingers.breadth / 2)
+    return max(reaches)
+
+
+def seconds_of(path: MovePath | Blocked | None, nominal: float) -> float:
+    """Return how long a path takes [s], or the nominal time where there is none."""
+    return path.seconds if isinstance(path, MovePath) else nominal

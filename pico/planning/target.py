@@ -1,0 +1,170 @@
+"""Is the state wanted possible at all? What would overlap, by how much, and where there is room instead."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from pico.diagnostics import Diagnostic, SourceRange, error
+from pico.geometry import Grid, Shape, conflict, fits, moved, outline, overhang, placed, reaches, separation
+from pico.model.lab import Setup
+from pico.planning.movers import Mover, Obstacle, Place
+
+Source = Callable[[str], SourceRange | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Standpoint:
+    """Where something stands in the end: a mover at its goal, or what stays."""
+
+    name: str
+    shape: Shape
+    moves: bool
+
+
+def no_source(_: str) -> SourceRange | None:
+    """Know no place in any file."""
+    return None
+
+
+def located(source: Source, mover: Mover) -> SourceRange | None:
+    """Return where a manifest says where a mover belongs."""
+    return source(f"{mover.name}.slot" if mover.goal.slot else f"{mover.name}.pose.x")
+
+
+def check_target(
+    setup: Setup, movers: Sequence[Mover], obstacles: Sequence[Obstacle], source: Source = no_source
+) -> list[Diagnostic]:
+    """Return an error for each mover that can't stand at its goal, whatever the order: beside what stays and the
+    goals of the others, on the table, outside of keep-outs, in its slot."""
+    ends = {o.name: Standpoint(o.name, o.shape, False) for o in obstacles}
+    ends |= {m.name: Standpoint(m.name, goal_shape(m, m.goal), True) for m in movers}
+    grid = Grid.of({name: end.shape for name, end in ends.items()})
+    found: list[Diagnostic] = []
+    told: set[frozenset[str]] = set()
+    for mover in movers:
+        found += _where(setup, mover, source)
+        for other in _overlaps(setup, mover, grid):
+            if frozenset((mover.name, other)) not in told:
+                told.add(frozenset((mover.name, other)))
+                found.append(_overlap(setup, mover, ends[other], grid, source))
+    return found
+
+
+def goal_shape(mover: Mover, place: Place) -> Shape:
+    """Return the footprint of a mover at a place."""
+    return placed(mover.geometry.footprint, place.pose)
+
+
+def _overlaps(setup: Setup, mover: Mover, grid: Grid[str]) -> list[str]:
+    """Return what is in the way of the mover at its goal: nothing if a turn of the part in its slot avoids it."""
+    margin = setup.lab.margins.body
+    fewest: list[str] | None = None
+    for goal in mover.goals:
+        hits = sorted(n for n in grid.conflicts(goal_shape(mover, mover.places[goal]), margin) if n != mover.name)
+        if not hits:
+            return []
+        fewest = fewest or hits
+    return fewest or []
+
+
+def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], source: Source) -> Diagnostic:
+    margin = setup.lab.margins.body
+    shape = goal_shape(mover, mover.goal)
+    gap = separation(shape, other.shape)
+    apart, axis = room_between(shape, other.shape, margin)
+    stands = "is to stand" if other.moves else "stands"
+    where = f"{other.name} {stands} at ({other.shape.x:.4g}, {other.shape.y:.4g})"
+    need = f"the bases need {apart:.4g} mm between centers along {axis}"
+    if gap <= 0:
+        what = f"it would overlap {other.name} by {-gap:.3g} mm" if gap < 0 else f"it would touch {other.name}"
+    else:
+        what = f"it would come within {gap:.3g} mm of {other.name}, and {margin:.3g} mm must stay free"
+    return error(
+        "impossible", f"{mover.name} cannot stand at {_spot(mover.goal)}: {what}", detail=f"{where}; {need}",
+        hint=_way_out(setup, mover, other, grid), address=f"{mover.name}.pose", label=f"{where}; {need}",
+        source=located(source, mover),
+    )  # fmt: skip
+
+
+def _spot(place: Place) -> str:
+    return f"{place.pose} ({place.slot})" if place.slot else str(place.pose)
+
+
+def room_between(a: Shape, b: Shape, margin: float) -> tuple[float, str]:
+    """Return how far the centers must lie apart along x or y, whichever axis they lie apart along now [mm]."""
+    axis = "x" if abs(a.x - b.x) >= abs(a.y - b.y) else "y"
+    side = 1.0 if (a.x >= b.x if axis == "x" else a.y >= b.y) else -1.0
+    low, high = 0.0, 2 * (a.radius + b.radius + margin)
+    for _ in range(40):
+        middle = (low + high) / 2
+        dx, dy = (b.x + side * middle - a.x, 0.0) if axis == "x" else (0.0, b.y + side * middle - a.y)
+        if conflict(moved(a, dx, dy), b, margin):
+            low = middle
+        else:
+            high = middle
+    return round(high, 2), axis
+
+
+def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str]) -> str:
+    free = nearest_free(setup, mover, grid)
+    move = f"move {other.name} first" if not other.moves else f"move {other.name} elsewhere"
+    if mover.goal.slot:
+        return f"choose a free slot; or {move}"
+    return f"nearest free place along {free[0]} is {free[0]} = {free[1]:g}; or {move}" if free else move
+
+
+def nearest_free(setup: Setup, mover: Mover, grid: Grid[str]) -> tuple[str, float] | None:
+    """Return the axis and the coordinate [mm] of the nearest free place for a mover along x or y, in whole mm; x wins
+    a tie. None where there is none on the table."""
+    pose, shape = mover.goal.pose, goal_shape(mover, mover.goal)
+    for step in range(1, int(max(setup.lab.table.size)) + 1):
+        for axis, sign in (("x", -1), ("x", 1), ("y", -1), ("y", 1)):
+            value = round((pose.x if axis == "x" else pose.y) + sign * step)
+            dx, dy = (value - pose.x, 0.0) if axis == "x" else (0.0, value - pose.y)
+            if _free(setup, mover, moved(shape, dx, dy), grid):
+                return axis, float(value)
+    return None
+
+
+def _free(setup: Setup, mover: Mover, shape: Shape, grid: Grid[str]) -> bool:
+    if overhang(setup.lab.table, shape) > 0 or _forbidden(setup, mover, shape):
+        return False
+    margin = setup.lab.margins.body
+    return all(n == mover.name for n in grid.conflicts(shape, margin))
+
+
+def _forbidden(setup: Setup, mover: Mover, shape: Shape) -> list[str]:
+    zones: Iterable[str] = sorted(setup.lab.keep_out)
+    keep_out = setup.lab.keep_out
+    height = mover.geometry.height
+    return [z for z in zones if reaches(keep_out[z], 0.0, height) and conflict(shape, outline(keep_out[z]))]
+
+
+def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
+    """Return what is wrong with the goal itself, whatever else stands on the table."""
+    found = []
+    shape, name, spot = goal_shape(mover, mover.goal), mover.name, _spot(mover.goal)
+    address = f"{name}.pose"
+    blame = located(source, name)
+    out = overhang(setup.lab.table, shape)
+    if out > 0:
+        width, depth = setup.lab.table.size
+        found.append(error(
+            "impossible", f"{name} cannot stand at {spot}: it would stick out {out:.3g} mm over the table's edge",
+            hint=f"the table ends at x = {width:g} and y = {depth:g}", address=address, source=blame,
+        ))  # fmt: skip
+    for zone in _forbidden(setup, mover, shape):
+        why = setup.lab.keep_out[zone].reason
+        found.append(error(
+            "impossible", f"{name} cannot stand at {spot}: it would reach into keep-out {zone}",
+            detail=why, hint="choose a place outside of it", address=address, source=blame,
+        ))  # fmt: skip
+    slot = mover.goal.slot
+    if slot and not fits(setup.lab.slots[slot], mover.geometry.footprint):
+        most, needs = setup.lab.slots[slot].fits, mover.geometry.footprint.radius
+        found.append(error(
+            "impossible", f"{name} does not fit in {slot}: it reaches {needs:.3g} mm from its center, the slot takes "
+            f"{most:g} mm", hint="choose a larger slot", address=address, source=blame,
+        ))  # fmt: skip
+    return found

@@ -1,0 +1,91 @@
+"""Operations that drive motors and set-points; they run beside the arm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from pico.diagnostics import Diagnostic, warning
+from pico.model.catalog import Tunable
+from pico.model.diff import Change, value_distance
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, Reason
+from pico.model.quantities import Value
+
+OPERATOR_SECONDS = 60.0
+"""What a plan reckons with for something that a person does by hand [s]."""
+
+
+def value_operations(
+    setup: Setup, seen: Observation, changes: tuple[Change, ...], reason: Reason | None = None
+) -> tuple[list[Operation], list[Diagnostic]]:
+    """Return the operations that bring every tunable other than a pose to its value, homing first where nobody knows
+    where a homed axis stands; ids are given later. `after` holds indices as text, into the list returned."""
+    operations: list[Operation] = []
+    found: list[Diagnostic] = []
+    for change in changes:
+        if change.tunable == "pose" or change.tolerated:
+            continue
+        kind = setup.type_of(change.component).tunables[change.tunable]
+        why = reason or Reason(kind="changed", text=change.text)
+        if kind.mover in ("motor", "electronics"):
+            for operation in _drive(seen, change, kind, why):
+                after = (str(len(operations) - 1),) if operation.after else ()
+                operations.append(replace(operation, after=after))
+        elif kind.mover == "none":
+            found.append(warning(
+                "unsupported", f"nothing moves {change.tunable} of {change.component} ({change.text})",
+                hint="its type says `mover: none`", address=f"{change.component}.{change.tunable}",
+            ))  # fmt: skip
+        else:
+            operations.append(_by_hand(setup, change))
+    return operations, found
+
+
+def _drive(seen: Observation, change: Change, kind: Tunable, reason: Reason) -> Iterator[Operation]:
+    name, tunable = change.component, change.tunable
+    resource = f"motor/{name}.{tunable}" if kind.mover == "motor" else f"{name}.{tunable}"
+    live = seen.components[name].values[tunable]
+    homing = live.status == "unknown" and kind.axis is not None and kind.axis.kind == "homed"
+    before: Value | None = change.before
+    if homing and kind.axis:
+        before = kind.axis.home
+        yield home_operation(name, tunable, kind, None, Reason(kind=reason.kind, text="nobody knows where its axis is"))
+    yield Operation(
+        id="", primitive="set", component=name, arguments={"tunable": tunable, "from": before, "to": change.after},
+        resources=(resource, name), after=("home",) if homing else (), reason=reason,
+        seconds=set_seconds(kind, before, change.after),
+    )  # fmt: skip
+
+
+def home_operation(name: str, tunable: str, kind: Tunable, live: Value | None, reason: Reason) -> Operation:
+    """Return the operation that homes the axis of a tunable."""
+    home = kind.axis.home if kind.axis else 0.0
+    return Operation(
+        id="", primitive="home", component=name, arguments={"tunable": tunable},
+        resources=(f"motor/{name}.{tunable}", name), reason=reason, seconds=set_seconds(kind, live, home),
+    )  # fmt: skip
+
+
+def set_seconds(kind: Tunable, before: Value | None, after: Value | None) -> float:
+    """Return how long a value takes: the way over the axis' speed, and settling [s]. The whole range, or one period,
+    where it is not known where it starts."""
+    settle = kind.settle / 1000
+    if kind.axis is None or kind.axis.speed <= 0:
+        return settle
+    if before is None or after is None:
+        way = kind.range[1] - kind.range[0] if kind.range else kind.period or 0.0
+    else:
+        way = value_distance(kind, before, after)
+    return (way if way < float("inf") else 0.0) / kind.axis.speed + settle
+
+
+def _by_hand(setup: Setup, change: Change) -> Operation:
+    text = f"set {change.tunable} of {change.component}: {change.text}"
+    return Operation(
+        id="", primitive="operator", component=change.component,
+        arguments={"text": text, "tunable": change.tunable, "to": change.after},
+        resources=(change.component, *sorted(setup.lab.robots)),
+        reason=Reason(kind="operator", text="only a person can do this"), seconds=OPERATOR_SECONDS,
+    )  # fmt: skip
