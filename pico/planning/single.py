@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.model.diff import Change, describe_value
 from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, Reason
@@ -54,9 +54,11 @@ def set_one(
     """
     _tunable(setup, seen, component, tunable)
     live = _live_with(setup, seen, component, None, {tunable: value})
-    changes = tuple(
-        c for c in diff_observed(setup, seen, live, exact=True) if c.component == component and c.tunable == tunable
-    )
+    known = seen.components[component].values[tunable]
+    before = None if known.status == "unknown" else known.value
+    text = describe_value(setup.type_of(component).tunables[tunable], before, value)
+    change = Change(component=component, tunable=tunable, before=before, after=value, text=text)
+    changes = () if before == value else (change,)
     operations, notes = value_operations(setup, seen, changes, ASKED)
     return _sealed(setup, seen, operations, notes, backend, fidelity, base, live, changes)
 
@@ -82,7 +84,7 @@ def home_one(
 
 def _sealed(
     setup: Setup, seen: Observation, operations: list[Operation], notes: list[Diagnostic], backend: str, fidelity: str,
-    base: Base | None, wanted: LabState, changes: tuple[Any, ...],
+    base: Base | None, wanted: LabState, changes: tuple[Change, ...],
 ) -> Plan:  # fmt: skip
     timed = schedule(operations)
     return Plan(
@@ -122,7 +124,8 @@ def _tunable(setup: Setup, seen: Observation, component: str, tunable: str) -> N
     known = setup.type_of(component).tunables
     if tunable not in known:
         raise PicoError(error(
-            "unknown-tunable", f"{component} has no tunable `{tunable}`", hint=did_you_mean(tunable, known), address=component,
+            "unknown-tunable", f"{component} has no tunable `{tunable}`", hint=did_you_mean(tunable, known),
+            address=component,
         ))  # fmt: skip
     if tunable not in seen.components[component].values:
         raise PicoError(error("unsupported", f"the backend does not model {component}.{tunable}"))

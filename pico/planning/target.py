@@ -146,7 +146,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
     found = []
     shape, name, spot = goal_shape(mover, mover.goal), mover.name, _spot(mover.goal)
     address = f"{name}.pose"
-    blame = located(source, name)
+    blame = located(source, mover)
     out = overhang(setup.lab.table, shape)
     if out > 0:
         width, depth = setup.lab.table.size
