@@ -114,7 +114,7 @@ class Robot:
     gripper: Gripper = Gripper()
     transit_height: Length = 250.0
     speed: float = 0.5
-    park: tuple[Angle, ...] = (0.0, -45.0, 0.0, 30.0, 0.0, 75.0, 0.0)
+    park: tuple[Angle, ...] = (0.0, -60.0, 0.0, 30.0, 0.0, 90.0, 0.0)
 
 
 @record

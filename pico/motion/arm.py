@@ -57,6 +57,8 @@ def build_arm(robot: Robot) -> mujoco.MjSpec:
         _add_servo(spec, index)
     _add_gripper(spec, parent, robot)
     for first, second in _NEIGHBORS:
+        if robot.gripper.fingers == "none" and "finger" in second:
+            continue
         spec.add_exclude(bodyname1=first, bodyname2=second)
     return spec
 
@@ -75,14 +77,17 @@ _NEIGHBORS = (  # touch by construction; parent and child never collide in MuJoC
 )
 
 
-def attach_arm(spec: mujoco.MjSpec, name: str, robot: Robot) -> None:
-    """Add `robot` to `spec` at its mount, its names prefixed with `name/`; z = 0 is the top of the table."""
+def attach_arm(spec: mujoco.MjSpec, name: str, robot: Robot, arm: mujoco.MjSpec | None = None) -> None:
+    """Add `robot` to `spec` at its mount, its names prefixed with `name/`; z = 0 is the top of the table.
+
+    `arm` is its model where the caller has built and changed one.
+    """
     mount = robot.mount
     half = math.radians(mount.yaw) / 2
     frame = spec.worldbody.add_frame(
         pos=[mount.x / 1000, mount.y / 1000, mount.z / 1000], quat=[math.cos(half), 0, 0, math.sin(half)]
     )
-    frame.attach_body(build_arm(robot).body("base"), f"{name}/", "")
+    frame.attach_body((arm or build_arm(robot)).body("base"), f"{name}/", "")
 
 
 def _add_link(parent: Any, index: int) -> Any:
@@ -125,10 +130,13 @@ def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
     palm = flange.add_body(name="gripper", quat=[0, 0, 0, 1], gravcomp=1)
     _add_shapes(palm, PALM, PALM_MASS)
     palm.add_site(name="tcp", pos=[0, 0, gripper.tool / 1000], size=[0.003, 0, 0], group=SITE_GROUP)
-    fingers = gripper.fingers if gripper.fingers != "none" else Fingers()
+    if gripper.fingers == "none":
+        cup = Shape("cylinder", (0, 0, PALM_LENGTH), (0, 0, gripper.tool - 1), 14, DARK, True)
+        _geom(palm, cup, "cup", FINGER_MASS)
+        return
     travel = gripper.stroke / 2000
     for name, side in zip(FINGERS, (1, -1), strict=True):
-        _add_finger(palm, name, side, fingers, gripper.tool, travel)
+        _add_finger(palm, name, side, gripper.fingers, gripper.tool, travel)
     spec.add_equality(
         type=mujoco.mjtEq.mjEQ_JOINT,
         objtype=mujoco.mjtObj.mjOBJ_JOINT,

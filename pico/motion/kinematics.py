@@ -13,10 +13,12 @@ at most two elbows for each of two bearings of joint 1.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from functools import cache, lru_cache
 
 from pico.model.lab import Robot
 from pico.motion.types import Joints
-from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS, within_limits
+from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]
@@ -64,29 +66,80 @@ def tool_pose(robot: Robot, joints: Joints) -> tuple[float, float, float, float]
     return mount.x + c * x - s * y, mount.y + s * x + c * y, mount.z + z, math.remainder(yaw, 360.0)
 
 
-def ik(robot: Robot, x: float, y: float, z: float, yaw: float) -> tuple[Joints, ...]:
-    """Return every joint vector within limits that holds the tool vertical at (x, y, z) [mm, table frame].
+@dataclass(frozen=True, slots=True)
+class Column:
+    """The vertical line over a point of the table, in one posture of the arm: joints 1 and 7 [rad] hold still on it.
 
-    `yaw` [deg, table frame] is the direction in which the jaws close; the part in hand turns with it, so `yaw` and
-    `yaw` + 180 are different answers here. Whole turns of joints 1 and 7 are listed; joints 3 and 5 are zero.
-    The nearest to an outstretched, unwound arm comes first. Empty where the point is out of reach.
+    `reach` is the signed distance of the line from joint 1's axis along the arm's plane, `base` what the flange is
+    above the tool center point less the mount's height [mm]; `elbow` says which solution of the triangle.
+    """
+
+    q1: float
+    q7: float
+    reach: float
+    elbow: int
+    base: float
+
+    def at(self, z: float) -> Joints | None:
+        """Return the joints that hold the tool center point `z` mm above the table, or None where limits forbid."""
+        solutions = planar(self.reach, z + self.base)
+        if not solutions:
+            return None
+        q2, q4 = solutions[self.elbow]
+        return (self.q1, q2, 0.0, q4, 0.0, q4 - q2, self.q7) if _bends(q2, q4) else None
+
+
+def columns(robot: Robot, x: float, y: float, yaw: float) -> tuple[Column, ...]:
+    """Return every posture over (x, y) [mm] with the jaws closing along `yaw` [deg], heights not looked at.
+
+    Bearings towards the point and away from it, both elbows, whole turns of joints 1 and 7; the least turned first.
     """
     mount = robot.mount
     dx, dy = x - mount.x, y - mount.y
     radius, bearing = math.hypot(dx, dy), math.atan2(dy, dx) - math.radians(mount.yaw)
     turn = math.radians(yaw - mount.yaw) - math.pi / 2
-    height = z - mount.z + robot.gripper.tool
-    found = []
-    for reach, q1 in ((radius, bearing), (-radius, bearing + math.pi)):
-        for q2, q4 in planar(reach, height):
-            for a in _turns(q1, 0):
-                for b in _turns(a - turn, 6):
-                    joints = (a, q2, 0.0, q4, 0.0, q4 - q2, b)
-                    if within_limits(joints):
-                        found.append(joints)
+    base = robot.gripper.tool - mount.z
+    found = [
+        Column(q1, q7, reach, elbow, base)
+        for reach, angle in ((radius, bearing), (-radius, bearing + math.pi))
+        for q1 in _turns(angle, 0)
+        for q7 in _turns(q1 - turn, 6)
+        for elbow in (0, 1)
+    ]
     return tuple(sorted(found, key=_unwound))
 
 
+def column_of(robot: Robot, joints: Joints) -> Column | None:
+    """Return the column that an arm with these `joints` stands on, or None where its tool is not vertical (1e-3)."""
+    q1, q2, q3, q4, q5, q6, q7 = joints
+    if max(abs(q3), abs(q5), abs(q4 - q2 - q6)) > 1e-3:
+        return None
+    (x, y, z), _ = fk(joints, robot.gripper.tool)
+    base = robot.gripper.tool - robot.mount.z
+    reach = x * math.cos(q1) + y * math.sin(q1)
+    for elbow, (b2, b4) in enumerate(planar(reach, z + robot.gripper.tool)):
+        if max(abs(b2 - q2), abs(b4 - q4)) < 1e-3:
+            return Column(q1, q7, reach, elbow, base)
+    return None
+
+
+def ik(robot: Robot, x: float, y: float, z: float, yaw: float) -> tuple[Joints, ...]:
+    """Return every joint vector within limits that holds the tool vertical at (x, y, z) [mm, table frame].
+
+    `yaw` [deg, table frame] is the direction in which the jaws close; the part in hand turns with it, so `yaw` and
+    `yaw` + 180 are different answers here. Joints 3 and 5 are zero; see `columns` for the rest and the order. Empty
+    where the point is out of reach.
+    """
+    return tuple(joints for column in columns(robot, x, y, yaw) if (joints := column.at(z)) is not None)
+
+
+def reaches(robot: Robot, x: float, y: float, z: float) -> bool:
+    """Return whether a vertical tool reaches (x, y, z) [mm]; its yaw never matters, joint 7 turns twice around."""
+    radius = math.hypot(x - robot.mount.x, y - robot.mount.y)
+    return _reaches(robot, radius, z) or _reaches(robot, -radius, z)
+
+
+@lru_cache(maxsize=8192)
 def planar(reach: float, height: float) -> tuple[tuple[float, float], ...]:
     """Return joints 2 and 4 [rad] that bring the vertical tool's flange to `reach`, `height` [mm] in the arm's plane,
     seen from the base; limits are not looked at."""
@@ -110,21 +163,26 @@ def planar(reach: float, height: float) -> tuple[tuple[float, float], ...]:
     return tuple(found)
 
 
-def farthest(robot: Robot, z: float) -> float:
-    """Return how far from the base's axis a vertical tool reaches at height `z` [mm] above the table; 0 where it
-    doesn't."""
+@cache
+def span(robot: Robot, z: float) -> tuple[float, float]:
+    """Return the least and the greatest distance from the base's axis [mm] that a vertical tool reaches at height `z`
+    [mm], to 0.5 mm; (0, 0) where it reaches nothing."""
     height = z - robot.mount.z + robot.gripper.tool - _WRIST[1] - _SHOULDER
     length = _UPPER_LENGTH + _FORE_LENGTH
-    if abs(height) >= length:
-        return 0.0
-    outer = math.sqrt(length**2 - height**2) + _WRIST[0]
-    reached = [r for r in (outer - 0.1 * i for i in range(int(outer * 10))) if _reaches(robot, r, z)]
-    return reached[0] if reached else 0.0
+    outer = math.sqrt(max(0.0, length**2 - height**2)) + _WRIST[0]
+    radii = [i / 2 for i in range(int(2 * outer) + 1)]
+    least = next((r for r in radii if _reaches(robot, r, z)), 0.0)
+    return least, next((r for r in reversed(radii) if _reaches(robot, r, z)), 0.0)
 
 
 def _reaches(robot: Robot, reach: float, z: float) -> bool:
-    solutions = planar(reach, z - robot.mount.z + robot.gripper.tool)
-    return any(within_limits((0.0, q2, 0.0, q4, 0.0, q4 - q2, 0.0)) for q2, q4 in solutions)
+    return any(_bends(q2, q4) for q2, q4 in planar(reach, z - robot.mount.z + robot.gripper.tool))
+
+
+def _bends(q2: float, q4: float) -> bool:
+    """Whether joints 2, 4 and 6 of a vertical tool are within limits."""
+    (a2, b2), (a4, b4), (a6, b6) = LIMITS[1], LIMITS[3], LIMITS[5]
+    return a2 <= q2 <= b2 and a4 <= q4 <= b4 and a6 <= q4 - q2 <= b6
 
 
 def _turns(angle: float, joint: int) -> list[float]:
@@ -134,8 +192,8 @@ def _turns(angle: float, joint: int) -> list[float]:
     return sorted((a for a in (angle - _TURN, angle, angle + _TURN) if low <= a <= high), key=abs)
 
 
-def _unwound(joints: Joints) -> tuple[float, ...]:
-    return (round(abs(joints[0]) + abs(joints[6]), 9), *joints)
+def _unwound(column: Column) -> tuple[float, ...]:
+    return (round(abs(column.q1) + abs(column.q7), 9), column.q1, column.q7, column.elbow)
 
 
 def _scaled(v: Vector, f: float) -> Vector:

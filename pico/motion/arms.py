@@ -1,0 +1,111 @@
+"""The arms of a bench as the planner asks them: implements `pico.motion.types.Motion` for every robot of a lab.
+
+`reach` is plain Python. MuJoCo is imported and a scene compiled when a motion is first asked for; a scene is compiled
+again only when more components of a type stand within reach than ever before.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from pico.model.catalog import Geometry
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.motion import gantry
+from pico.motion.reach import check_grip, check_reach, check_table
+from pico.motion.types import Blocked, Joints, MovePath, Standing
+
+if TYPE_CHECKING:
+    from pico.motion.scene import Scene
+
+ARM_REACH = 850.0
+"""No part of an arm or its gripper comes farther from the base's axis than this [mm]."""
+SMALL_LAB = 60
+"""Up to so many parts the whole inventory is compiled at once."""
+
+
+class ArmMotion:
+    """The arms of `setup`. Not thread-safe: scenes are rearranged for each question."""
+
+    def __init__(self, setup: Setup) -> None:
+        self.setup = setup
+        self._scenes: dict[str, Scene] = {}
+
+    def reach(self, robot: str, component: str, pose: Pose, grasp_yaw: float) -> Blocked | None:
+        """See `Motion.reach`. Raises KeyError for a robot or component that the lab does not have.
+
+        Joint 7 turns twice around, so `grasp_yaw` decides nothing here; fingers and neighbors are the move's matter.
+        """
+        arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
+        found = check_grip(robot, arm, component, geometry) or check_table(self.setup.lab, component, geometry, pose)
+        if found or arm.model == "gantry":
+            return found
+        return check_reach(robot, arm, component, geometry, pose)
+
+    def move(
+        self,
+        robot: str,
+        component: str,
+        start: Pose,
+        goal: Pose,
+        grasp_yaw: float,
+        standing: Mapping[str, Standing],
+        joints: Joints | None = None,
+    ) -> MovePath | Blocked:
+        """See `Motion.move`; the other arms are taken to be parked."""
+        found = self.reach(robot, component, start, grasp_yaw) or self.reach(robot, component, goal, grasp_yaw)
+        if found:
+            return found
+        arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
+        now = joints or self.park_joints(robot)
+        if arm.model == "gantry":
+            return gantry.move(robot, arm, component, geometry, start, goal, grasp_yaw, standing, now)
+        from pico.motion.moves import Move
+
+        near = self._near(robot, standing, geometry)
+        scene = self._scene(robot, near | {component: Standing(start, geometry)})
+        return Move(scene, component, geometry, start, goal, grasp_yaw, near, now).find()
+
+    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+        """See `Motion.park`; no `joints` at all means that the arm is parked already."""
+        arm = self.setup.lab.robots[robot]
+        now = joints or self.park_joints(robot)
+        if arm.model == "gantry":
+            return gantry.park(robot, arm, now)
+        from pico.motion.moves import find_park
+
+        near = self._near(robot, standing, None)
+        return find_park(self._scene(robot, near), now, near)
+
+    def park_joints(self, robot: str) -> Joints:
+        """Return the joints of the robot's park pose [rad]; of a gantry [m, rad]."""
+        arm = self.setup.lab.robots[robot]
+        return gantry.park_joints(arm) if arm.model == "gantry" else tuple(math.radians(q) for q in arm.park)
+
+    def _near(self, robot: str, standing: Mapping[str, Standing], held: Geometry | None) -> dict[str, Standing]:
+        from pico.motion.scene import within_reach
+
+        return within_reach(self.setup, robot, standing, ARM_REACH + (held.footprint.radius if held else 0.0))
+
+    def _scene(self, robot: str, standing: Mapping[str, Standing]) -> Scene:
+        """Return the robot's scene, with a place for everything in `standing`."""
+        from pico.motion.scene import Scene
+
+        scene = self._scenes.get(robot)
+        if scene is None:
+            scene = self._scenes[robot] = Scene(self.setup, robot, self._pool(standing))
+        lacking = scene.lacks(standing.values())
+        if lacking:
+            pool = scene.pool | {geometry: count + count // 2 for geometry, count in lacking.items()}
+            scene = self._scenes[robot] = Scene(self.setup, robot, pool)
+        return scene
+
+    def _pool(self, standing: Mapping[str, Standing]) -> dict[Geometry, int]:
+        """How many places of each geometry a new scene gets."""
+        pool = Counter(thing.geometry for thing in standing.values())
+        if len(self.setup.lab.inventory) <= SMALL_LAB:
+            pool |= Counter(self.setup.type_of(name).geometry for name in self.setup.lab.inventory)
+        return dict(pool)

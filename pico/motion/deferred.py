@@ -1,0 +1,44 @@
+"""The arms of a bench, loaded when something must move: a plan without moves then stays quick."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.motion.types import Blocked, Joints, Motion, MovePath, Standing
+
+
+class DeferredMotion:
+    """A `Motion` that makes the real one at the first question."""
+
+    def __init__(self, setup: Setup) -> None:
+        self._setup = setup
+
+    @cached_property
+    def _arms(self) -> Motion:
+        from pico.motion.arms import ArmMotion
+
+        return ArmMotion(self._setup)
+
+    def reach(self, robot: str, component: str, pose: Pose, grasp_yaw: float) -> Blocked | None:
+        """See `Motion.reach`."""
+        return self._arms.reach(robot, component, pose, grasp_yaw)
+
+    def move(
+        self,
+        robot: str,
+        component: str,
+        start: Pose,
+        goal: Pose,
+        grasp_yaw: float,
+        standing: Mapping[str, Standing],
+        joints: Joints | None = None,
+    ) -> MovePath | Blocked:
+        """See `Motion.move`."""
+        return self._arms.move(robot, component, start, goal, grasp_yaw, standing, joints)
+
+    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+        """See `Motion.park`."""
+        return self._arms.park(robot, joints, standing)

@@ -1,0 +1,98 @@
+"""A gantry: reaches every place of its table from above and collides with nothing but what stands at the goal.
+
+Its joints are x, y, z of the tool center point [m] and its yaw [rad] in the table frame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from pico.geometry.shape import placed, separation
+from pico.model.catalog import Geometry
+from pico.model.lab import Robot
+from pico.model.pose import Pose
+from pico.motion import timing
+from pico.motion.reach import opening
+from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
+
+SPEED, ACCELERATION = 1.0, 4.0  # m/s, m/s2 at full speed; a turn of 1 rad counts as 0.3 m
+_ARM = 0.3
+
+
+def park_joints(robot: Robot) -> Joints:
+    """Return where the gantry waits: over its mount, at transit height."""
+    return (robot.mount.x / 1000, robot.mount.y / 1000, robot.transit_height / 1000, 0.0)
+
+
+def move(
+    name: str,
+    robot: Robot,
+    component: str,
+    geometry: Geometry,
+    start: Pose,
+    goal: Pose,
+    grasp_yaw: float,
+    standing: Mapping[str, Standing],
+    joints: Joints,
+) -> MovePath | Blocked:
+    """Return the way over the top; blocked where the footprint at `goal` overlaps another."""
+    shape = placed(geometry.footprint, goal)
+    for other, thing in sorted(standing.items()):
+        gap = separation(shape, placed(thing.geometry.footprint, thing.pose))
+        if other != component and gap < 0:
+            text = f"{component} would hit {other} by {-gap:.1f} mm, setting it down at {goal}"
+            return Blocked("collision", text, "lower", other, round(-gap, 3))
+    assert geometry.grasp is not None  # the caller asked `check_grip`
+    width, opened = geometry.grasp.width, opening(robot, geometry)
+    high, low = robot.transit_height / 1000, geometry.grasp.height / 1000
+    over_start, at_start = (_at(start, grasp_yaw, z) for z in (high, low))
+    over_goal, at_goal = (_at(goal, grasp_yaw, z) for z in (high, low))
+    jaws = timing.jaw_seconds(opened, width)
+    risen = (joints[0], joints[1], max(joints[2], high), joints[3])
+    first, second = _straight(robot, joints, risen), _straight(robot, risen, over_start)
+    approach = (*first[0], *(first[0][-1] + t for t in second[0][1:])), (*first[1], *second[1][1:])
+    segments = (
+        Segment("approach", *approach, opened),
+        Segment("descend", *_straight(robot, over_start, at_start), opened),
+        Segment("grip", (0.0, jaws), (at_start, at_start), width),
+        Segment("lift", *_straight(robot, at_start, over_start), width),
+        Segment("transit", *_straight(robot, over_start, over_goal), width),
+        Segment("lower", *_straight(robot, over_goal, at_goal), width),
+        Segment("release", (0.0, jaws), (at_goal, at_goal), opened),
+        Segment("retreat", *_straight(robot, at_goal, over_goal), opened),
+    )
+    return MovePath(name, component, segments)
+
+
+def park(name: str, robot: Robot, joints: Joints) -> MovePath:
+    """Return the way to where the gantry waits."""
+    segment = Segment("park", *_straight(robot, joints, park_joints(robot)), robot.gripper.stroke / 2)
+    return MovePath(name, None, (segment,))
+
+
+def _at(pose: Pose, grasp_yaw: float, z: float) -> Joints:
+    return pose.x / 1000, pose.y / 1000, z, math.radians(pose.yaw + grasp_yaw)
+
+
+def _straight(robot: Robot, start: Joints, end: Joints) -> timing.Timed:
+    """A trapezoid of speed along the straight line, as waypoints; a triangle where the way is short."""
+    way = max(math.dist(start[:3], end[:3]), _ARM * abs(end[3] - start[3]))
+    if way < 1e-9:
+        return (0.0, 0.0), (start, end)
+    speed, acceleration = SPEED * robot.speed, ACCELERATION * robot.speed**2
+    peak = min(speed, math.sqrt(acceleration * way))
+    ramp = peak / acceleration
+    seconds = way / peak + ramp
+    count = max(2, math.ceil(seconds / timing.PERIOD))
+    times = tuple(seconds * i / count for i in range(count + 1))
+
+    def gone(t: float) -> float:
+        if t < ramp:
+            return acceleration * t * t / 2
+        if t > seconds - ramp:
+            return way - acceleration * (seconds - t) ** 2 / 2
+        return peak * (t - ramp / 2)
+
+    shares = (gone(t) / way for t in times)
+    return times, tuple(tuple(a + s * (b - a) for a, b in zip(start, end, strict=True)) for s in shares)

@@ -1,0 +1,80 @@
+"""What can be said about a pick or a place without looking at collisions: pure Python, some 30 us a question."""
+
+from __future__ import annotations
+
+import math
+
+from pico.geometry import table as tabletop
+from pico.geometry.shape import placed, separation
+from pico.model.catalog import Geometry
+from pico.model.lab import Lab, Robot
+from pico.model.pose import Pose
+from pico.motion.arm import PALM_LENGTH
+from pico.motion.kinematics import reaches, span
+from pico.motion.types import Blocked
+
+
+def opening(robot: Robot, geometry: Geometry) -> float:
+    """Return the distance between the pads before they close on a part of `geometry`, and after they let go [mm]."""
+    if robot.gripper.fingers == "none" or geometry.grasp is None:
+        return 0.0
+    return geometry.grasp.width + 2 * robot.gripper.fingers.opening
+
+
+def check_grip(name: str, robot: Robot, component: str, geometry: Geometry) -> Blocked | None:
+    """Return why the gripper of the robot called `name` can't hold `component`, or None where it can."""
+    gripper, grasp = robot.gripper, geometry.grasp
+    if grasp is None:
+        return Blocked("width", f"{component} has no place where a gripper may hold it")
+    if gripper.fingers == "none":
+        return None
+    needed = opening(robot, geometry)
+    if needed > gripper.stroke:
+        text = (
+            f"{component} is {grasp.width:.4g} mm wide where it is held; with {gripper.fingers.opening:.4g} mm to spare"
+            f" on each side {name}'s gripper would have to open {needed:.4g} mm, it opens {gripper.stroke:.4g} mm"
+        )
+        return Blocked("width", text, by=needed - gripper.stroke)
+    room = gripper.tool - PALM_LENGTH
+    above = geometry.height - grasp.height
+    if above > room:
+        text = f"{component} stands {above:.4g} mm above where it is held; {name}'s fingers have room for {room:.4g} mm"
+        return Blocked("width", text, by=above - room)
+    return None
+
+
+def check_table(lab: Lab, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:
+    """Return why `component` can't stand at `pose`: over the table's edge, or in a keep-out zone."""
+    shape = placed(geometry.footprint, pose)
+    over = tabletop.overhang(lab.table, shape)
+    if over > 1e-6:
+        text = f"{component} at {pose} would stick out over the edge of the table by {over:.4g} mm"
+        return Blocked("table_edge", text, obstacle="table", by=over)
+    for name, zone in lab.keep_out.items():
+        gap = separation(shape, tabletop.outline(zone))
+        if gap < 0 and tabletop.reaches(zone, 0.0, geometry.height):
+            why = f" ({zone.reason})" if zone.reason else ""
+            text = f"{component} at {pose} would stand {-gap:.4g} mm inside the keep-out zone {name}{why}"
+            return Blocked("keep_out", text, obstacle=name, by=-gap)
+    return None
+
+
+def check_reach(name: str, robot: Robot, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:
+    """Return why the arm can't hold its tool vertical over `pose` at the height of the grasp and of the transit."""
+    grasp = geometry.grasp
+    assert grasp is not None  # check_grip comes first
+    for height in (grasp.height, robot.transit_height):
+        if not reaches(robot, pose.x, pose.y, height):
+            return Blocked("reach", _too_far(name, robot, component, pose, height))
+    return None
+
+
+def _too_far(name: str, robot: Robot, component: str, pose: Pose, height: float) -> str:
+    distance = math.hypot(pose.x - robot.mount.x, pose.y - robot.mount.y)
+    least, greatest = span(robot, height)
+    where = f"{component} at {pose} is {math.ceil(distance)} mm from {name}'s base"
+    if greatest == 0.0:
+        return f"{name} can't hold its tool vertical at {height:.0f} mm height anywhere"
+    if distance < greatest:
+        return f"{where}; it comes no nearer than {math.ceil(least)} mm at {height:.0f} mm height"
+    return f"{where}; it reaches {math.floor(greatest)} mm at {height:.0f} mm height"
