@@ -1,0 +1,172 @@
+"""The simulated bench: the world that persists beside the lab, behind the protocol of every backend."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncGenerator, Callable
+from pathlib import Path
+from typing import Any
+
+from pico.backends.lease import BenchLock
+from pico.backends.protocol import Capabilities, Lease
+from pico.backends.sim import judge
+from pico.backends.sim.session import Session
+from pico.backends.sim.store import load_world
+from pico.backends.sim.world import observe
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.journal import Journal, utc_now
+from pico.model.event import Event
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult, Primitive
+from pico.motion.types import Motion
+
+PRIMITIVES: frozenset[Primitive] = frozenset({"move", "stow", "set", "home", "park"})
+
+
+class SimBackend:
+    """Executes operations on the simulated table of the lab in folder `root`.
+
+    `motion` finds the paths (that of the lab's arms where None); `clock` gives the wall time as ISO 8601, UTC. Without
+    a lease it reads the table as it is stored; with one it is the only one that changes it.
+    """
+
+    def __init__(
+        self,
+        setup: Setup,
+        root: Path,
+        fidelity: str = "kinematic",
+        *,
+        motion: Motion | None = None,
+        clock: Callable[[], str] = utc_now,
+    ) -> None:
+        self.setup, self.root, self.fidelity = setup, root, fidelity
+        self.diagnostics: tuple[Diagnostic, ...] = ()
+        self._lock, self._clock = BenchLock(root, clock), clock
+        self._motion = motion
+        self._session: Session | None = None
+        self._halted = False
+        self._journal: Journal | None = None
+        self._listeners: list[asyncio.Queue[Event | None]] = []
+
+    # looking
+
+    @property
+    def journal(self) -> Journal:
+        """The journal of the bench, opened when it is first needed; raises PicoError."""
+        if self._journal is None:
+            self._journal = Journal(self.root / ".pico" / "journal.sqlite", self._clock)
+        return self._journal
+
+    async def describe(self) -> Capabilities:
+        """Return what the simulator can do."""
+        return Capabilities(
+            name="sim",
+            fidelity=self.fidelity,
+            evidence=self.fidelity,
+            lab_digest=self.setup.digest(),
+            primitives=PRIMITIVES,
+            robots=tuple(sorted(self.setup.lab.robots)),
+        )
+
+    async def observe(self) -> Observation:
+        """Return the table exactly as it is; raises PicoError where its file can't be read."""
+        if self._session is not None:
+            return observe(self._session.world(), "sim", self._clock())
+        world, self.diagnostics = load_world(self.setup, self.root)
+        return observe(world, "sim", self._clock())
+
+    async def measure(self, component: str, measurable: str) -> Any:
+        """Raises PicoError: light is not simulated yet."""
+        raise PicoError(judge.not_simulated(component, measurable))
+
+    def events(self) -> AsyncGenerator[Event, None]:
+        """Yield start and progress of the operations in execution, from now on until the backend is closed."""
+        queue: asyncio.Queue[Event | None] = asyncio.Queue()
+        self._listeners.append(queue)
+        return self._listen(queue)
+
+    async def _listen(self, queue: asyncio.Queue[Event | None]) -> AsyncGenerator[Event, None]:
+        try:
+            while (event := await queue.get()) is not None:
+                yield event
+        finally:
+            self._listeners.remove(queue)
+
+    # who may move it
+
+    async def acquire(self, holder: str) -> Lease:
+        """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
+        lease = self._lock.acquire(holder)
+        try:
+            world, self.diagnostics = load_world(self.setup, self.root)
+            self._session = Session(
+                self.setup, self.root, world, fidelity=self.fidelity, journal=self.journal, token=lease.token,
+                motion=self._paths, tell=self._tell,
+            )  # fmt: skip
+        except BaseException:
+            self._lock.release()
+            raise
+        self._halted = False
+        return lease
+
+    async def release(self, lease: Lease) -> None:
+        """Give the bench back, once everything under way has ended."""
+        if self._session is not None and lease.token == self._session.token:
+            await self._leave(self._session)
+
+    async def _leave(self, session: Session) -> None:
+        await session.idle()
+        self._session = None
+        self._lock.release()
+
+    async def close(self) -> None:
+        """Wait for what is under way, give the bench back, end the streams of events."""
+        self._halted = True
+        if self._session is not None:
+            await self._leave(self._session)
+        if self._journal is not None:
+            self._journal.close()
+            self._journal = None
+        for queue in self._listeners:
+            queue.put_nowait(None)
+
+    # moving
+
+    async def execute(self, operation: Operation, key: str, lease: Lease) -> OperationResult:
+        """Execute one operation in simulated time and return when it has ended.
+
+        Cancelling the wait does not cancel the motion. Raises PicoError: exit code LOCKED without the current lease,
+        INTERRUPTED on a halted bench, ERROR for a known key with other content or a journal that can't be written.
+        """
+        session = self._session
+        if session is None or lease.token != session.token:
+            text = f"the lease {lease.token} of {lease.holder} is not the current one"
+            raise PicoError(error("lease", text), ExitCode.LOCKED)
+        if self._halted:
+            raise PicoError(judge.HALTED, ExitCode.INTERRUPTED)
+        return await session.execute(operation, key)
+
+    async def halt(self) -> None:
+        """Start nothing more, and wait until what is under way has reached its end: an arm then stands above the place
+        where it put its component down, which is a safe waypoint."""
+        self._halted = True
+        if self._session is not None:
+            await self._session.idle()
+
+    async def stop(self) -> None:
+        """Stop everything where it is; grippers hold what they hold. Nothing starts until the bench is taken anew."""
+        self._halted = True
+        if self._session is not None:
+            await self._session.stop()
+
+    def _tell(self, event: Event) -> None:
+        for queue in self._listeners:
+            queue.put_nowait(event)
+
+    def _paths(self) -> Motion:
+        if self._motion is None:
+            from pico.motion.template import ArmMotion
+
+            self._motion = ArmMotion(self.setup)
+        return self._motion

@@ -1,0 +1,121 @@
+"""What a simulated operation is checked for before it moves and after, and what is said where it fails."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from pico.backends.sim.mover import MoveFailed
+from pico.backends.sim.world import Body, World
+from pico.diagnostics import Diagnostic, error
+from pico.model.catalog import Geometry, Tunable
+from pico.model.lab import Setup
+from pico.model.observation import slot_at
+from pico.model.operation import Operation
+from pico.model.pose import Pose, angle_between
+from pico.model.quantities import Value
+from pico.model.setpoint import refusal
+from pico.motion.types import Blocked, Standing
+
+_PRESENCE = {"missing": "is not on the table", "held": "is in the gripper", "toppled": "lies on its side"}
+_AGAIN = "plan again: it starts from what stands on the table now"
+
+
+def places(operation: Operation) -> tuple[Pose, Pose, str | None]:
+    """Return from where and to where an operation moves its component, and the slot that is its goal, if any."""
+    try:
+        start, goal = operation.arguments["from"], operation.arguments["to"]
+        return Pose(**start["pose"]), Pose(**goal["pose"]), goal.get("slot")
+    except (KeyError, TypeError) as exc:
+        text = f"{operation.id} does not say from where to where {operation.component} is to be moved"
+        raise MoveFailed(error("bad-plan", text, hint="plan again", address=operation.component)) from exc
+
+
+def require_ready(setup: Setup, world: World, operation: Operation, start: Pose) -> Pose:
+    """Return where the component of a move stands, within tolerance of `start`; raises MoveFailed where it doesn't,
+    or where the robot is not free."""
+    name, robot = operation.component, operation.robot or "(none)"
+    if robot not in setup.lab.robots:
+        raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}", address=name))
+    holding = world.robots[robot].holding
+    if holding:
+        hint = "a hand takes it out with `pico sim nudge " + holding + "`"
+        raise MoveFailed(error("hand-full", f"{robot} still holds {holding}", hint=hint, address=name))
+    pose = standing_pose(world, name)
+    tolerance = setup.type_of(name).pose.tolerance
+    away, turned = pose.distance(start), abs(angle_between(start.yaw, pose.yaw))
+    if away > tolerance.position or turned > tolerance.yaw:
+        text = f"{name} stands {away:.3g} mm and {turned:.3g}° from where it was to be picked, {start}"
+        raise MoveFailed(error("not-there", text, hint=_AGAIN, address=name))
+    return pose
+
+
+def standing_pose(world: World, name: str) -> Pose:
+    """Return where a component stands; raises MoveFailed where it doesn't."""
+    body = world.components.get(name, Body(type="", presence="missing"))
+    if body.presence != "seen" or body.pose is None:
+        text = f"{name} {_PRESENCE.get(body.presence, 'is not on the table')}"
+        raise MoveFailed(error(body.presence, text, hint=_AGAIN, address=name))
+    return body.pose
+
+
+def standing(setup: Setup, world: World) -> dict[str, Standing]:
+    """Return everything that stands on the table with its shape; a toppled part as if it stood there."""
+    found = {
+        name: Standing(body.pose, setup.type_of(name).geometry)
+        for name, body in world.components.items()
+        if body.pose is not None and body.presence in ("seen", "toppled")
+    }
+    for name, thing in world.unknown.items():
+        found[name] = Standing(thing.pose, Geometry(footprint=thing.footprint, height=thing.height, mass=0.0))
+    return found
+
+
+def blocked(name: str, why: Blocked) -> MoveFailed:
+    """Return the failure of a motion that has no path on the table as it is."""
+    return MoveFailed(error("blocked", f"{name} cannot be moved: {why.text}", hint=_AGAIN, address=name))
+
+
+def require_placed(setup: Setup, world: World, name: str, goal: Pose, slot: str | None) -> None:
+    """Raise MoveFailed where a component that was put down does not stand where it should, within its tolerance."""
+    pose, tolerance = standing_pose(world, name), setup.type_of(name).pose.tolerance
+    away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
+    right = slot_at(setup, pose) == slot if slot else away <= tolerance.position and turned <= tolerance.yaw
+    if not right:
+        text = f"{name} stands {away:.3g} mm and {turned:.3g}° from its goal {slot or goal}"
+        raise MoveFailed(error("misplaced", text, hint=_AGAIN, address=name))
+
+
+def setpoint(setup: Setup, operation: Operation) -> tuple[str, Tunable]:
+    """Return the tunable that an operation sets or homes; raises MoveFailed where the component has none such."""
+    name, tunable = operation.component, str(operation.arguments.get("tunable"))
+    if name not in setup.lab.inventory or tunable not in setup.type_of(name).tunables:
+        raise MoveFailed(error("bad-plan", f"{name} has no tunable {tunable}", address=f"{name}.{tunable}"))
+    return tunable, setup.type_of(name).tunables[tunable]
+
+
+def require_value(name: str, tunable: str, kind: Tunable, value: Any) -> Value:
+    """Return `value`; raises MoveFailed where the tunable does not take it."""
+    why = refusal(kind, value)
+    if why:
+        raise MoveFailed(error("range", f"{name}.{tunable} {why}", address=f"{name}.{tunable}"))
+    return cast(Value, value)
+
+
+def refused(operation: Operation) -> MoveFailed:
+    """Return why the simulator does not do a primitive."""
+    name = operation.component
+    if operation.primitive == "operator":
+        what = operation.arguments.get("text") or f"only a person can move {name}"
+        hint = f"the hand of the simulated bench is `pico sim nudge {name}`"
+        return MoveFailed(error("operator", f"{name} needs a person: {what}", hint=hint, address=name))
+    return MoveFailed(not_simulated(name, operation.primitive))
+
+
+def not_simulated(component: str, what: str) -> Diagnostic:
+    """Return why nothing can be measured."""
+    text = f"{what} of {component} is not simulated yet: light is not traced"
+    return error("not-simulated", text, hint="poses and set-points are simulated", address=component)
+
+
+STOPPED = error("stopped", "it was stopped on the way; the gripper holds what it held", hint=_AGAIN)
+HALTED = error("halted", "the bench is halted: nothing more is started")

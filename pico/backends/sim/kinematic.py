@@ -1,0 +1,97 @@
+"""The kinematic world: robots follow their paths exactly, and what they carry follows them."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Generator
+from dataclasses import replace
+
+from pico.backends.sim.mover import InProgress
+from pico.backends.sim.world import World
+from pico.model.lab import Setup
+from pico.model.observation import ObservedRobot
+from pico.model.operation import Operation
+from pico.model.pose import Pose
+from pico.motion.kinematics import tool_pose
+from pico.motion.types import Joints, MovePath, Segment
+
+STEP = 0.5
+"""Seconds of a path that are walked in one go."""
+
+
+class KinematicWorld:
+    """Moves robots and components of `world` without dynamics: a component ends exactly at its goal."""
+
+    def __init__(self, setup: Setup, world: World) -> None:
+        self._setup = setup
+        self._joints = {name: robot.joints for name, robot in world.robots.items()}
+        self._held: dict[str, tuple[str, Pose]] = {}  # by robot: the component, and its pose seen from the tool
+        for name, robot in world.robots.items():
+            body = world.components.get(robot.holding or "")
+            if robot.holding and body and body.pose:
+                self._held[name] = (robot.holding, self._tool(name).inverse().compose(body.pose))
+        self._placed: dict[str, Pose] = {}  # what was put down since
+
+    def advance(self, seconds: float) -> None:
+        """Nothing happens between the moments at which operations are resumed."""
+
+    def move(self, operation: Operation, path: MovePath) -> InProgress:
+        """Walk `path`: the component goes with the tool from the end of `grip` to that of `release`."""
+        robot, goal = path.robot, Pose(**operation.arguments["to"]["pose"])
+        start = Pose(**operation.arguments["from"]["pose"])
+        for segment in path.segments:
+            yield from self._walk(robot, segment)
+            if segment.name == "grip":
+                self._held[robot] = (operation.component, self._tool(robot).inverse().compose(start))
+            elif segment.name == "release":
+                del self._held[robot]
+                self._placed[operation.component] = goal
+        return {"error_mm": 0.0, "error_deg": 0.0}
+
+    def park(self, path: MovePath) -> InProgress:
+        """Walk `path`."""
+        for segment in path.segments:
+            yield from self._walk(path.robot, segment)
+        return {}
+
+    def carried(self, robot: str) -> Pose | None:
+        """Return where the component in the gripper is, or None."""
+        if robot not in self._held:
+            return None
+        return self._tool(robot).compose(self._held[robot][1])
+
+    def world(self, world: World) -> World:
+        """Return `world` as it is now."""
+        components = dict(world.components)
+        for name, pose in self._placed.items():
+            components[name] = replace(components[name], presence="seen", pose=pose, free=None)
+        robots = {
+            name: ObservedRobot(joints=joints, holding=self._held[name][0] if name in self._held else None)
+            for name, joints in self._joints.items()
+        }
+        for robot, (name, _) in self._held.items():
+            components[name] = replace(components[name], presence="held", pose=self.carried(robot), free=None)
+        return replace(world, components=components, robots=robots)
+
+    def _tool(self, robot: str) -> Pose:
+        x, y, _, yaw = tool_pose(self._setup.lab.robots[robot], self._joints[robot])
+        return Pose(x, y, yaw)
+
+    def _walk(self, robot: str, segment: Segment) -> Generator[float, None, None]:
+        elapsed = 0.0
+        while elapsed < segment.seconds:
+            step = min(STEP, segment.seconds - elapsed)
+            yield step
+            elapsed += step
+            self._joints[robot] = joints_at(segment, elapsed)
+        self._joints[robot] = segment.joints[-1]
+
+
+def joints_at(segment: Segment, seconds: float) -> Joints:
+    """Return the joints [rad] of a segment `seconds` after its start, straight between its waypoints."""
+    i = bisect_right(segment.times, seconds)
+    if i == 0 or i == len(segment.times):
+        return segment.joints[max(0, i - 1)]
+    t0, t1 = segment.times[i - 1], segment.times[i]
+    share = (seconds - t0) / (t1 - t0)
+    return tuple(a + share * (b - a) for a, b in zip(segment.joints[i - 1], segment.joints[i], strict=True))

@@ -1,0 +1,212 @@
+"""The table while somebody holds the bench: each operation from its first record in the journal to its last."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Generator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from pico.backends.sim import judge
+from pico.backends.sim.kinematic import KinematicWorld
+from pico.backends.sim.mover import InProgress, MoveFailed, Mover
+from pico.backends.sim.store import save_world
+from pico.backends.sim.timeline import Timeline
+from pico.backends.sim.world import World, observe
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.journal import Journal, run_of
+from pico.model.event import Event, EventKind
+from pico.model.lab import Setup
+from pico.model.observation import ObservedComponent, ObservedValue
+from pico.model.operation import Operation, OperationResult
+from pico.model.quantities import Value
+from pico.model.record import as_json
+from pico.model.setpoint import home_seconds, set_seconds
+from pico.motion.types import Blocked, Motion, MovePath
+
+PROGRESS = 0.25
+"""Simulated seconds between two reports of an operation's progress, at least."""
+
+
+class Session:
+    """Executes operations on `world`. `motion` finds paths; `tell` hears of starts and progress."""
+
+    def __init__(
+        self,
+        setup: Setup,
+        root: Path,
+        world: World,
+        *,
+        fidelity: str,
+        journal: Journal,
+        token: int,
+        motion: Callable[[], Motion],
+        tell: Callable[[Event], None],
+    ) -> None:
+        self.token = token
+        self._setup, self._root, self._world, self._journal = setup, root, world, journal
+        self._motion, self._tell_all = motion, tell
+        self._mover = new_mover(setup, world, fidelity)
+        self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
+        self._running: dict[str, asyncio.Future[OperationResult]] = {}
+        self._told = 0
+
+    def world(self) -> World:
+        """Return the table as it is at this moment."""
+        return replace(self._mover.world(self._world), clock=self._time.now)
+
+    async def execute(self, operation: Operation, key: str) -> OperationResult:
+        """Execute an operation, once for each key; cancelling the wait does not cancel the motion.
+
+        Raises PicoError (exit code INTERRUPTED) where it was stopped before it began.
+        """
+        if key not in self._running:
+            known = self._journal.intend(key, operation, self.token)
+            if known is not None:
+                return known
+            self._running[key] = self._time.start(key, self._perform(operation, key))
+            self._running[key].add_done_callback(lambda _: self._running.pop(key, None))
+        try:
+            return await asyncio.shield(self._running[key])
+        except MoveFailed as exc:
+            raise PicoError(exc.diagnostic, ExitCode.INTERRUPTED) from exc
+
+    async def idle(self) -> None:
+        """Wait until nothing is under way."""
+        await self._time.idle()
+
+    async def stop(self) -> None:
+        """Stop everything under way where it is."""
+        self._time.interrupt(MoveFailed(judge.STOPPED))
+        await self._time.idle()
+
+    def _perform(self, operation: Operation, key: str) -> Generator[float, None, OperationResult]:
+        """Do one operation from its first record to its last; stores the world before it says how it ended."""
+        before, begun = self._seen(operation.component), self._time.now
+        self._journal.started(key, before, self.token)
+        self._tell(
+            "operation_started", operation, key, {"primitive": operation.primitive, "seconds": operation.seconds}
+        )
+        data: Mapping[str, Any] = {}
+        failure: Diagnostic | None = None
+        try:
+            data = yield from self._act(operation, key)
+        except MoveFailed as exc:
+            failure = exc.diagnostic
+        self._world = self.world()
+        save_world(self._root, self._world)
+        result = OperationResult(
+            key=key,
+            outcome="failed" if failure else "done",
+            error=failure,
+            before=before,
+            after=self._seen(operation.component),
+            seconds=self._time.now - begun,
+            ended=self._time.now,
+            data=data,
+        )
+        self._journal.ended(result, self.token)
+        return result
+
+    def _act(self, operation: Operation, key: str) -> InProgress:
+        if operation.primitive in ("move", "stow"):
+            return (yield from self._move(operation, key))
+        if operation.primitive == "park":
+            return (yield from self._park(operation, key))
+        if operation.primitive in ("set", "home"):
+            return (yield from self._set(operation))
+        raise judge.refused(operation)
+
+    def _move(self, operation: Operation, key: str) -> InProgress:
+        """Pick and place on the table as it is now: the path is found anew, from where arm and component really are."""
+        name, robot = operation.component, operation.robot or ""
+        planned, goal, slot = judge.places(operation)
+        start = judge.require_ready(self._setup, self.world(), operation, planned)
+        path = self._motion().move(
+            robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)),
+            judge.standing(self._setup, self.world()), self.world().robots[robot].joints,
+        )  # fmt: skip
+        if isinstance(path, Blocked):
+            raise judge.blocked(name, path)
+        actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
+        data = yield from self._reported(operation, key, path, self._mover.move(actual, path))
+        judge.require_placed(self._setup, self.world(), name, goal, slot)
+        return data
+
+    def _park(self, operation: Operation, key: str) -> InProgress:
+        robot = operation.robot or operation.component
+        if robot not in self._setup.lab.robots:
+            raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
+        joints = self.world().robots[robot].joints
+        path = self._motion().park(robot, joints, judge.standing(self._setup, self.world()))
+        if isinstance(path, Blocked):
+            raise judge.blocked(robot, path)
+        return (yield from self._reported(operation, key, path, self._mover.park(path)))
+
+    def _set(self, operation: Operation) -> InProgress:
+        """Drive a tunable to a value, or its axis to its home; while it moves nobody knows its value."""
+        name, (tunable, kind) = operation.component, judge.setpoint(self._setup, operation)
+        judge.standing_pose(self.world(), name)
+        live = self._world.components[name].values[tunable]
+        before = None if live.status == "unknown" else live.value
+        if operation.primitive == "home":
+            goal: Value = kind.axis.home if kind.axis else 0.0
+            seconds = home_seconds(kind, before)
+        else:
+            goal = judge.require_value(name, tunable, kind, operation.arguments.get("to"))
+            seconds = set_seconds(kind, before, goal)
+        self._world = self._world.with_value(name, tunable, ObservedValue(value=None, status="unknown"))
+        yield seconds
+        self._world = self._world.with_value(name, tunable, ObservedValue(value=goal))
+        return {"value": goal}
+
+    def _reported(self, operation: Operation, key: str, path: MovePath, work: InProgress) -> InProgress:
+        """Pass an operation on, and say how far it is at most every PROGRESS seconds."""
+        begun, told = self._time.now, self._time.now
+        try:
+            wait = next(work)
+            while True:
+                if self._time.now - told >= PROGRESS:
+                    told = self._time.now
+                    self._tell("operation_progress", operation, key, self._progress(path, told - begun))
+                try:
+                    yield wait
+                except MoveFailed as exc:
+                    wait = work.throw(exc)
+                else:
+                    wait = next(work)
+        except StopIteration as stop:
+            data: dict[str, Any] = stop.value
+            return data
+
+    def _progress(self, path: MovePath, elapsed: float) -> dict[str, Any]:
+        phase, ends = path.segments[-1].name, 0.0
+        for segment in path.segments:
+            ends += segment.seconds
+            if elapsed < ends:
+                phase = segment.name
+                break
+        pose = self._mover.carried(path.robot)
+        found = {"phase": phase, "fraction": min(1.0, elapsed / path.seconds) if path.seconds else 1.0}
+        return found | ({"pose": as_json(pose)} if pose else {})
+
+    def _seen(self, component: str) -> ObservedComponent | None:
+        return observe(self.world(), "sim", "").components.get(component)
+
+    def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:
+        self._told += 1
+        event = Event(
+            run=run_of(key), seq=self._told, kind=kind, time=self._time.now, operation=operation.id,
+            component=operation.component, data=data,
+        )  # fmt: skip
+        self._tell_all(event)
+
+
+def new_mover(setup: Setup, world: World, fidelity: str) -> Mover:
+    """Return what moves the bodies of `world` at a fidelity: `kinematic` or `physics`."""
+    if fidelity == "kinematic":
+        return KinematicWorld(setup, world)
+    from pico.backends.sim.physics import PhysicsWorld
+
+    return PhysicsWorld(setup, world)

@@ -1,0 +1,95 @@
+"""The synchronous side: coroutines on one private thread with an event loop, and a run that scripts iterate over."""
+
+from __future__ import annotations
+
+import asyncio
+import queue
+import threading
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import Future
+from typing import Any, TypeVar
+
+from pico.execution.watched import AsyncRun
+from pico.model.event import Event
+from pico.model.plan import Plan
+from pico.model.report import RunReport
+
+T = TypeVar("T")
+
+
+class LoopThread:
+    """A thread that runs coroutines; started when it is first needed."""
+
+    def __init__(self) -> None:
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    def submit(self, work: Coroutine[Any, Any, T]) -> Future[T]:
+        """Start a coroutine and return its future."""
+        if self._loop is None:
+            self._loop = asyncio.new_event_loop()
+            threading.Thread(target=self._loop.run_forever, name="pico bench", daemon=True).start()
+        return asyncio.run_coroutine_threadsafe(work, self._loop)
+
+    def wait(self, work: Coroutine[Any, Any, T]) -> T:
+        """Run a coroutine and return its result, or raise what it raises."""
+        return self.submit(work).result()
+
+    def close(self) -> None:
+        """End the thread."""
+        if self._loop is not None:
+            self._loop.call_soon_threadsafe(self._loop.stop)
+            self._loop = None
+
+
+class Run:
+    """A plan under way: an iterator over its events; `report` once it is `over`.
+
+    An exception in the caller between two events (Ctrl-C) does not end the run: go on iterating, or `halt` it first.
+    """
+
+    def __init__(self, run: AsyncRun, thread: LoopThread) -> None:
+        self._run, self._thread = run, thread
+        self._queue: queue.SimpleQueue[Event | BaseException | None] = queue.SimpleQueue()
+        self.over = False
+        thread.submit(self._pump())
+
+    @property
+    def plan(self) -> Plan:
+        """The plan that is run."""
+        return self._run.plan
+
+    @property
+    def report(self) -> RunReport:
+        """What became of the run; raises RuntimeError before it is over."""
+        return self._run.report
+
+    async def _pump(self) -> None:
+        end: BaseException | None = None
+        try:
+            async for event in self._run:
+                self._queue.put(event)
+        except BaseException as exc:
+            end = exc
+        self._queue.put(end)
+
+    def __iter__(self) -> Iterator[Event]:
+        return self
+
+    def __next__(self) -> Event:
+        if self.over:
+            raise StopIteration
+        item = self._queue.get()
+        if isinstance(item, Event):
+            return item
+        self.over = True
+        if item is not None:
+            raise item
+        raise StopIteration
+
+    def halt(self) -> None:
+        """Start nothing more, and bring every robot to a safe waypoint; then go on iterating to the end."""
+        self._thread.wait(self._run.halt())
+
+    def stop(self) -> None:
+        """Stop all motion now; then go on iterating to the end."""
+        self._thread.wait(self._run.stop())

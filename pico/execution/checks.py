@@ -1,0 +1,78 @@
+"""What must hold before the first operation of a plan starts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pico.backends.protocol import Capabilities
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation
+from pico.model.plan import Plan
+from pico.model.pose import Pose, angle_between
+from pico.model.stale import require_fresh
+
+
+def require_applicable(plan: Plan, able: Capabilities) -> None:
+    """Raise PicoError where `plan` must not be executed by this backend, saying everything that is in the way.
+
+    Exit codes: IMPOSSIBLE for a plan with errors, STALE for another lab, else ERROR.
+    """
+    if plan.errored:
+        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
+    if plan.lab.digest != able.lab_digest:
+        text = "the plan is stale: the lab or its component types were edited since"
+        raise PicoError(error("stale", text, hint="plan again"), ExitCode.STALE)
+    found = list(_missing(plan, able))
+    if found:
+        raise PicoError(found)
+
+
+def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
+    if plan.backend != able.name:
+        text = f"the plan was made for {plan.backend}, not for {able.name}"
+        yield error("backend", text, hint=f"plan again with `--backend {able.name}`")
+    for op in plan.operations:
+        if op.primitive == "operator":
+            yield _for_a_person(op, able)
+        elif op.primitive not in able.primitives:
+            text = f"{able.name} ({able.fidelity}) cannot {op.primitive} {op.component}"
+            yield error("capability", text, detail=f"{op.id} of the plan asks for it", address=op.component)
+    for name in sorted({op.robot for op in plan.operations if op.robot} - set(able.robots)):
+        here = ", ".join(able.robots) or "none"
+        yield error("capability", f"the plan needs the robot {name}; {able.name} has: {here}")
+
+
+def _for_a_person(op: Operation, able: Capabilities) -> Diagnostic:
+    what = op.arguments.get("text") or f"only a person can move {op.component}"
+    hint = "do it by hand, then plan again"
+    if able.name == "sim":
+        hint = f"the hand of the simulated bench is `pico sim nudge {op.component}`; then plan again"
+    return error("operator", f"{op.component} needs a person: {what}", hint=hint, address=op.component)
+
+
+def require_current(setup: Setup, plan: Plan, seen: Observation) -> None:
+    """Raise PicoError (exit code STALE) where the bench is not any more as `plan` assumes, saying what moved and by
+    how much. A part that is to be picked must stand where the plan picks it, within its tolerance, slot or not."""
+    require_fresh(setup, plan, seen)
+    found = list(_moved(setup, plan, seen))
+    if found:
+        raise PicoError(found, ExitCode.STALE)
+
+
+def _moved(setup: Setup, plan: Plan, seen: Observation) -> Iterator[Diagnostic]:
+    checked = set()
+    for op in plan.operations:
+        if op.primitive not in ("move", "stow") or op.component in checked:
+            continue
+        checked.add(op.component)
+        part, start = seen.components.get(op.component), Pose(**op.arguments["from"]["pose"])
+        if part is None or part.pose is None or op.component not in setup.lab.inventory:
+            yield error("stale", f"the plan is stale: {op.component} is not on the table", hint="plan again")
+            continue
+        tolerance = setup.type_of(op.component).pose.tolerance
+        away, turned = part.pose.distance(start), abs(angle_between(start.yaw, part.pose.yaw))
+        if away > tolerance.position or turned > tolerance.yaw:
+            text = f"the plan is stale: {op.component} was moved by {away:.3g} mm and {turned:.3g}° from {start}"
+            yield error("stale", text, hint="plan again; what moved it is not known", address=op.component)

@@ -1,0 +1,73 @@
+"""`run`: a plan, a backend, and events."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncGenerator, Callable
+from contextlib import aclosing
+
+from pico.backends.protocol import Backend
+from pico.execution.checks import require_applicable, require_current
+from pico.execution.walk import Walk
+from pico.journal import Journal
+from pico.model.event import Event
+from pico.model.lab import Setup
+from pico.model.plan import Plan
+
+
+async def run(
+    plan: Plan,
+    backend: Backend,
+    *,
+    run_id: str,
+    holder: str,
+    setup: Setup | None = None,
+    cancelled: Callable[[], bool] = lambda: False,
+) -> AsyncGenerator[Event, None]:
+    """Execute `plan` on `backend` and yield what happens; the last event is `run_finished`, with the tally.
+
+    The bench is locked for `holder` meanwhile. `setup` says the tolerances; the backend's own where None. Before the
+    first operation raises PicoError: exit code IMPOSSIBLE for a plan with errors, STALE where the bench or the lab
+    changed since it was made, LOCKED where somebody else has the bench, ERROR where the backend can't do what the plan
+    asks. A failure of an operation is an event.
+
+    Once `cancelled()` is true, or the task that iterates is cancelled, nothing more starts; what is under way goes on
+    to its safe end, and the events end with `run_finished`, outcome `interrupted`. Cancelled twice, it stops at once.
+    """
+    require_applicable(plan, await backend.describe())
+    lease = await backend.acquire(holder)
+    try:
+        seen = await backend.observe()
+        require_current(setup or backend.setup, plan, seen)  # type: ignore[attr-defined]
+        journal: Journal | None = getattr(backend, "journal", None)  # one at the far end of a network keeps its own
+        walk = Walk(plan, backend, lease, run=run_id, now=seen.time, cancelled=cancelled, journal=journal)
+        async with aclosing(_events(walk, backend)) as events:
+            async for event in events:
+                yield event
+    finally:
+        await backend.release(lease)
+
+
+async def _events(walk: Walk, backend: Backend) -> AsyncGenerator[Event, None]:
+    """Yield the events of a walk in a task of its own, so that neither a slow nor a cancelled reader harms it."""
+    task = asyncio.create_task(walk.run())
+    pressed = 0
+    try:
+        while True:
+            try:
+                event = await walk.events.get()
+            except asyncio.CancelledError:
+                pressed += 1
+                walk.interrupt()
+                if pressed > 1:
+                    await backend.stop()
+                continue
+            if event is None:
+                break
+            yield event
+    finally:
+        walk.interrupt()
+        await asyncio.wait([task])
+    task.result()
+    if pressed:
+        raise asyncio.CancelledError

@@ -1,0 +1,114 @@
+"""A run that somebody watches: its events one by one, and in the end a report of the bench as it then is."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from collections.abc import AsyncIterator, Sequence
+from datetime import UTC, datetime
+
+from pico.backends.protocol import Backend
+from pico.diagnostics import Diagnostic
+from pico.execution.result import RunResult
+from pico.execution.run import run
+from pico.model.diff import Change, diff_observed
+from pico.model.event import Event
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.plan import Plan
+from pico.model.report import RunReport
+from pico.model.state import state_from_json
+
+
+class AsyncRun:
+    """A plan under way: iterate over it for its events, then read its `report`."""
+
+    def __init__(self, setup: Setup, plan: Plan, backend: Backend, holder: str = "pico apply") -> None:
+        self.plan, self.id = plan, new_run_id()
+        self._setup, self._backend, self._holder = setup, backend, holder
+        self._report: RunReport | None = None
+        self._cancelled = False
+
+    @property
+    def report(self) -> RunReport:
+        """What became of the run; raises RuntimeError before it is over."""
+        if self._report is None:
+            raise RuntimeError("the run is not over: iterate over it to the end")
+        return self._report
+
+    async def halt(self) -> None:
+        """Start nothing more, and bring every robot to a safe waypoint; the events then come to their end."""
+        self._cancelled = True
+        await self._backend.halt()
+
+    async def stop(self) -> None:
+        """Stop all motion now; the events then come to their end."""
+        self._cancelled = True
+        await self._backend.stop()
+
+    async def __aiter__(self) -> AsyncIterator[Event]:
+        """Yield the events; raises PicoError, before anything moves, where the plan must not be run (see `run`)."""
+        started = time.monotonic()
+        events: list[Event] = []
+        async for event in run(
+            self.plan, self._backend, run_id=self.id, holder=self._holder, setup=self._setup,
+            cancelled=lambda: self._cancelled,
+        ):  # fmt: skip
+            if event.kind != "operation_progress":
+                events.append(event)
+            yield event
+        evidence = (await self._backend.describe()).evidence
+        wall = time.monotonic() - started
+        seen = await self._backend.observe()
+        self._report = run_report(self._setup, self.plan, RunResult.of(events), seen, wall=wall, evidence=evidence)
+
+
+def new_run_id() -> str:
+    """Return the id of a run: the time in UTC, and six random characters."""
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(3)}"
+
+
+def run_report(
+    setup: Setup, plan: Plan, result: RunResult, seen: Observation, *, wall: float, evidence: str
+) -> RunReport:
+    """Return the report of a run that ended with `result`, and then was observed as `seen`."""
+    whole = not all(op.reason.kind in ("asked", "parked") for op in plan.operations)
+    return RunReport(
+        run=result.run,
+        goal=plan.target.revision or ("the manifest" if whole else "what was asked"),
+        outcome=result.outcome,
+        done=result.done,
+        failed=result.failed,
+        unknown=result.unknown,
+        skipped=result.skipped,
+        seconds=result.seconds,
+        clock="simulated" if plan.backend == "sim" else "on the bench",
+        wall=wall,
+        evidence=evidence,
+        whole=whole,
+        remaining=_remaining(setup, plan, seen, whole),
+        absent=_absent(setup, plan, seen),
+        diagnostics=tuple(_diagnostics(result)),
+    )
+
+
+def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tuple[Change, ...]:
+    """Return what still differs from the goal beyond tolerance; of one operation, only what it was to change."""
+    wanted = state_from_json(plan.lab.name, plan.target.state)
+    asked = {(c.component, c.tunable) for c in plan.changes}
+    return tuple(
+        change
+        for change in diff_observed(setup, seen, wanted)
+        if not change.tolerated and (whole or (change.component, change.tunable) in asked)
+    )
+
+
+def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
+    """Return the components of the goal that do not stand where they are seen."""
+    parts = {n: seen.components.get(n) for n in setup.lab.inventory if n in plan.target.state}
+    return tuple(sorted(n for n, part in parts.items() if part is None or part.presence != "seen"))
+
+
+def _diagnostics(result: RunResult) -> Sequence[Diagnostic]:
+    found = [report.data.get("diagnostic") for report in result.operations.values()]
+    return [Diagnostic(**{**d, "source": None}) for d in found if isinstance(d, dict)]
