@@ -1,0 +1,136 @@
+"""`pico fmt`: one way to lay a manifest out, so that diffs show what changed and nothing else. Comments stay."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from typing import Any
+
+from pico.diagnostics import PicoError, error
+from pico.manifest.kinds import kind_of
+from pico.manifest.layout import Entry, Layout, comments
+from pico.manifest.source import Source
+from pico.manifest.tree import Document, List, Map, Node, Scalar, parse
+
+_HEADER = {"apiVersion": 0, "kind": 1, "metadata": 2}
+_STATE = {**_HEADER, "components": 3, "expect": 4}
+_POSE = {"x": 0, "y": 1, "yaw": 2}
+_PLACE = {"slot": 0, "pose": 1}
+_STEP = 2
+
+
+def format_text(text: str) -> str:
+    """Return a manifest in its normal form: two spaces a level, components and tunables by name, one tunable a line.
+
+    What the manifest says, its comments and its line ends stay. Text that is not PICO's is returned as it is. Raises
+    PicoError for text that is not valid YAML.
+    """
+    content = text.removeprefix("\ufeff")
+    documents, found = parse(Source("manifest", content))
+    if found:
+        raise PicoError(found)
+    if not documents or any(kind_of(d)[0] is None or not isinstance(d.root, Map) for d in documents):
+        return text
+    result = _documents(content, documents)
+    _verify(content, documents, result)
+    newline = re.search(r"\r\n|\n", content)
+    return result.replace("\n", newline[0]) if newline else result
+
+
+def _documents(content: str, documents: list[Document]) -> str:
+    layout = Layout(content)
+    blocks: list[str] = []
+    for i, document in enumerate(documents):
+        state = kind_of(document)[0] == "LabState"
+        head, entries = layout.entries(document, spread=frozenset({"components"} if state else ()))
+        tail = layout.tail(entries, len(content)) if i == len(documents) - 1 else []
+        lines = _stripped(head) + _lines(_in_order(entries, state), 0) + _stripped(tail, foot=True)
+        blocks.append("\n".join(lines) + "\n")
+    return "---\n".join(blocks)
+
+
+def _stripped(lines: list[str], *, foot: bool = False) -> list[str]:
+    while lines and not lines[-1]:
+        lines = lines[:-1]
+    while lines and not lines[0] and not foot:
+        lines = lines[1:]
+    return lines
+
+
+def _in_order(entries: list[Entry], state: bool) -> list[Entry]:
+    ranks = _STATE if state else _HEADER
+    entries = sorted(entries, key=lambda e: ranks.get(_name(e), 9))
+    for entry in entries:
+        if state and entry.key is not None and _name(entry) == "components":
+            entry.below = _first_flush(sorted(entry.below, key=_name))
+            for component in entry.below:
+                component.below = sorted(component.below, key=lambda e: (_PLACE.get(_name(e), 2), _name(e)))
+    for entry in entries:
+        _order_poses(entry)
+    return _first_flush(entries)
+
+
+def _order_poses(entry: Entry) -> None:
+    if entry.key is not None and _name(entry) == "pose" and {_name(e) for e in entry.below} <= _POSE.keys():
+        entry.below = sorted(entry.below, key=lambda e: _POSE[_name(e)])
+    for below in entry.below:
+        _order_poses(below)
+
+
+def _first_flush(entries: list[Entry]) -> list[Entry]:
+    """Take blank lines off the first entry, where sorting may have put one."""
+    if entries:
+        entries[0].lead = _stripped(entries[0].lead[:1]) + entries[0].lead[1:] if entries[0].lead else []
+    return entries
+
+
+def _name(entry: Entry) -> str:
+    return (entry.key or "").strip("'\"")
+
+
+def _lines(entries: list[Entry], indent: int) -> list[str]:
+    lines: list[str] = []
+    for entry in entries:
+        lines += [f"{' ' * indent}{line}" if line else "" for line in entry.lead]
+        lines += _item(entry, indent) if entry.key is None else _entry(entry, indent)
+        lines += [f"{' ' * (indent + _STEP)}{line}" for line in entry.foot]
+    return lines
+
+
+def _entry(entry: Entry, indent: int) -> list[str]:
+    pad = " " * indent
+    if entry.below:
+        return [f"{pad}{entry.key}:{entry.trail}", *_lines(entry.below, indent + _STEP)]
+    first, *more = entry.value.split("\n")
+    head = f"{pad}{entry.key}: {first}" if first else f"{pad}{entry.key}:"
+    return [head + entry.trail, *(f"{pad}  {line}" if line else "" for line in more)]
+
+
+def _item(entry: Entry, indent: int) -> list[str]:
+    pad = " " * indent
+    if entry.below:
+        first, *more = _lines(entry.below, indent + _STEP)
+        return [f"{pad}- {first.lstrip(' ')}", *more]
+    first, *more = entry.value.split("\n")
+    return [f"{pad}- {first}{entry.trail}".rstrip(), *(f"{pad}  {line}" if line else "" for line in more)]
+
+
+def _verify(content: str, documents: list[Document], result: str) -> None:
+    again, found = parse(Source("manifest", result))
+    same = not found and [_leaves(d.root) for d in again] == [_leaves(d.root) for d in documents]
+    if not same or _remarks(content, documents) != _remarks(result, again):
+        hint = "move comments that stand inside of values to lines of their own"
+        raise PicoError(error("fmt", "this manifest can't be laid out without losing something", hint=hint))
+
+
+def _remarks(content: str, documents: list[Document]) -> Counter[str]:
+    return Counter(comments(content, 0, len(content), *(d.root for d in documents)))
+
+
+def _leaves(node: Node) -> Any:
+    """A node as data in which 1, 1.0 and "1" differ, so that nothing changes its type."""
+    if isinstance(node, Scalar):
+        return type(node.value), node.value
+    if isinstance(node, List):
+        return [_leaves(item) for item in node.items]
+    return {key: _leaves(value) for key, (_, value) in node.entries.items()}

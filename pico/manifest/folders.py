@@ -1,0 +1,112 @@
+"""What is asked of a whole folder of manifests: is it valid, bring it into the normal form, which types does it know."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.manifest.catalog import catalog_names, load_catalog, unknown_type
+from pico.manifest.files import read_folder, shown_path
+from pico.manifest.load import find_lab, load_folder
+from pico.model.catalog import Catalog, ComponentType
+from pico.model.record import record
+
+
+@record
+class Checked:
+    """The verdict on a folder's manifests."""
+
+    folder: str
+    lab: str = ""
+    files: int = 0
+    parts: int = 0
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def exit_code(self) -> ExitCode:
+        """What `pico validate` ends with."""
+        wrong = any(d.severity == "error" for d in self.diagnostics)
+        return ExitCode.ERROR if wrong else ExitCode.DONE
+
+
+def check_folder(start: Path) -> Checked:
+    """Return the verdict on the lab that `start` lies in; on `start` itself where no lab is found."""
+    try:
+        root = find_lab(start)
+    except PicoError:
+        if not any(start.glob("**/*.yaml")):
+            raise
+        root = start
+    manifests = load_folder(root)
+    lab = manifests.setup.lab if manifests.setup else None
+    return Checked(
+        folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
+        lab=lab.name if lab else "",
+        files=len(read_folder(root)[0]),
+        parts=len(lab.inventory) if lab else 0,
+        diagnostics=manifests.diagnostics,
+    )
+
+
+def format_folder(start: Path, files: Sequence[Path] = (), *, write: bool = True) -> tuple[str, ...]:
+    """Bring manifests (`files`, or all of the lab that `start` lies in) into the normal form; return which changed.
+
+    Raises PicoError, before anything is written, for files that are no manifests.
+    """
+    texts = {str(path): _read(path) for path in files} if files else _manifests(find_lab(start))
+    changed: dict[str, str] = {}
+    found: list[Diagnostic] = []
+    for path, text in texts.items():
+        try:
+            formatted = _format(path, text)
+        except PicoError as exc:
+            found += exc.diagnostics
+            continue
+        if formatted != text:
+            changed[path] = formatted
+    if found:
+        raise PicoError(found)
+    if write:
+        for path, text in changed.items():
+            Path(path).write_bytes(text.encode())
+    return tuple(sorted(shown_path(Path(path)) for path in changed))
+
+
+def _format(path: str, text: str) -> str:
+    from pico.manifest.fmt import format_text
+
+    return format_text(text, path)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_bytes().decode()
+    except (OSError, UnicodeDecodeError) as exc:
+        reason = exc.strerror if isinstance(exc, OSError) and exc.strerror else "it is not UTF-8 text"
+        raise PicoError(error("file", f"{path} can't be read: {reason.lower()}")) from exc
+
+
+def _manifests(root: Path) -> dict[str, str]:
+    files, found = read_folder(root)
+    if found:
+        raise PicoError(found)
+    return {path: data.decode() for path, data in files.items() if b"apiVersion" in data}
+
+
+def catalog_of(start: Path) -> Catalog:
+    """Return the packaged component types, and the own ones of the lab that `start` lies in, where there is one."""
+    try:
+        setup = load_folder(find_lab(start)).setup
+    except PicoError:
+        setup = None
+    own = {n: kind for n, kind in setup.catalog.items() if n not in catalog_names()} if setup else {}
+    return load_catalog(extra=own)
+
+
+def component_type(start: Path, name: str) -> ComponentType:
+    """Return one component type; raises PicoError for a name that neither catalog nor lab has."""
+    catalog = catalog_of(start)
+    if name not in catalog:
+        raise PicoError(unknown_type(name, catalog))
+    return catalog[name]
