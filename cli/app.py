@@ -13,7 +13,7 @@ import typer
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
-from .commands import REGISTER
+from .commands import register
 from .session import Session
 from .summary import COMMANDS
 
@@ -45,9 +45,7 @@ def root(
     ] = False,
     backend: Annotated[
         str | None,
-        typer.Option(
-            "--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=_remember
-        ),
+        typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=_remember),
     ] = None,
     version: Annotated[bool, typer.Option("--version", help="Show the version.", callback=_version)] = False,
 ) -> None:
@@ -60,8 +58,7 @@ def build() -> Any:
         name="pico", rich_markup_mode=None, pretty_exceptions_enable=False, no_args_is_help=True, add_completion=False
     )
     app.callback()(root)
-    for register in REGISTER:
-        register(app)
+    register(app)
     group = typer.main.get_command(app)
     shared = [_hidden_from_function(p) for p in group.params if p.name in SHARED]
     _share(group, shared)
@@ -121,6 +118,9 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
     path = context.command_path if context else "pico"
     message = exc.format_message().rstrip(".")
     hint = f"`{path} --help` shows how it is used"
+    if " (Possible options: " in message:
+        message, _, near = message.removesuffix(")").partition(" (Possible options: ")
+        hint = f"did you mean `{near.split(',')[0]}`? {hint}"
     if message.startswith("No such command"):
         from pico.diagnostics import did_you_mean
 

@@ -40,11 +40,11 @@ class Session:
         """Return the session of a command, from the options given before and after its name."""
         return cls(**context.meta.get("pico.session", {}))
 
-    def bench(self, fidelity: str | None = None) -> Bench:
+    def bench(self, fidelity: str | None = None, speed: float | None = None) -> Bench:
         """Open the lab of this session; raises PicoError."""
         from pico.bench import Bench
 
-        return Bench.open(self.folder, backend=self.backend, fidelity=fidelity)
+        return Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
 
     def show(self, view: View, *args: Any, **options: Any) -> None:
         """Print an answer, for people or as one JSON document."""

@@ -61,4 +61,6 @@ def help_text() -> str:
         lines += [f"{title}:", *(f"  {name:<11} {line}" for name, line in commands.items()), ""]
     lines += ["Options, before or after the command:"]
     lines += [f"  {option:<15} {line}" for option, line in OPTIONS.items()]
-    return "\n".join([*lines, "", "Start with `pico init --example shel bench`. Help of a command: `pico COMMAND --help`."])
+    return "\n".join(
+        [*lines, "", "Start with `pico init --example shel bench`. Help of a command: `pico COMMAND --help`."]
+    )

@@ -43,12 +43,16 @@ def _snippet(d: Diagnostic, source: SourceRange) -> list[str]:
     end = source.end.column - source.start.column if source.end.line == source.start.line else 1000
     length = max(1, min(end, len(line) - column))
     caret = paint(_COLORS[d.severity], "^" * length + (f" {d.label}" if d.label else ""))
-    return [
-        where,
-        bar,
-        f"{paint('blue', str(source.start.line) + ' |')} {line}",
-        f"{bar} {' ' * column}{caret}" if width(caret) + column < 110 else f"{bar} {' ' * column}{'^' * length}",
-    ] + ([f"{bar} {d.label}"] if d.label and width(caret) + column >= 110 else []) + ([bar] if d.detail or d.hint else [])
+    return (
+        [
+            where,
+            bar,
+            f"{paint('blue', str(source.start.line) + ' |')} {line}",
+            f"{bar} {' ' * column}{caret}" if width(caret) + column < 110 else f"{bar} {' ' * column}{'^' * length}",
+        ]
+        + ([f"{bar} {d.label}"] if d.label and width(caret) + column >= 110 else [])
+        + ([bar] if d.detail or d.hint else [])
+    )
 
 
 def _window(line: str, column: int, room: int = 88) -> tuple[str, int]:

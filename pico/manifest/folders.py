@@ -1,8 +1,9 @@
-"""What is asked of a whole folder of manifests: is it valid, bring it into the normal form, which types does it know."""
+"""What is asked of a whole folder of manifests: is it valid, its normal form, which types it knows."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
@@ -76,7 +77,12 @@ def format_folder(start: Path, files: Sequence[Path] = (), *, write: bool = True
 def _format(path: str, text: str) -> str:
     from pico.manifest.fmt import format_text
 
-    return format_text(text, path)
+    try:
+        return format_text(text)
+    except PicoError as exc:
+        raise PicoError(
+            replace(d, source=replace(d.source, path=path) if d.source else None) for d in exc.diagnostics
+        ) from exc
 
 
 def _read(path: Path) -> str:

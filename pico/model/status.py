@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
+from pico.diagnostics import PicoError, error
 from pico.model.diff import Change, diff_observed, place_json
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, slot_at
@@ -155,3 +156,12 @@ def _note(part: ObservedComponent | None) -> str:
 def _deviation(goal: Pose, live: Pose) -> str:
     turned = angle_between(goal.yaw, live.yaw)
     return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
+
+
+def refuse_unapplied(status: Status) -> None:
+    """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied."""
+    edits = [row for row in status.rows if row.edited and row.off]
+    if edits:
+        names = ", ".join(row.address for row in edits[:6]) + (" and others" if len(edits) > 6 else "")
+        hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the edit is committed, unproven"
+        raise PicoError(error("unapplied", f"the manifest holds edits that were never applied: {names}", hint=hint))

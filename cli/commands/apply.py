@@ -1,0 +1,53 @@
+"""`pico apply`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import typer
+
+from pico.diagnostics import ExitCode, PicoError, error
+
+from ..arguments import Exact, Fidelity, PlanOrRevision, Yes
+from ..running import execute, question
+from ..session import Session
+from ..views import plan as view
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+    from pico.model.plan import Plan
+
+
+def apply(
+    context: typer.Context,
+    what: PlanOrRevision = None,
+    auto_approve: Yes = False,
+    exact: Exact = False,
+    fidelity: Fidelity = None,
+) -> int:
+    """Move what the plan says.
+
+    Without an argument the bench becomes equal to the manifest. A name that is both a file and a revision is an
+    error; ./NAME is the file. With --json: the plan, each event and the report, a line each.
+    """
+    session = Session.of(context)
+    bench = session.bench(fidelity)
+    return approve(session, bench, bench.plan_of(what, folder=session.folder, exact=exact), auto_approve)
+
+
+def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool) -> int:
+    """Show a plan, ask, run it, and return the exit code."""
+    if plan.operations and not auto_approve and session.json:
+        raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
+    session.show(view, plan, head=bench.head_name(), goal=bench.goal_name(plan))
+    if not session.json:
+        session.report(plan.diagnostics)
+    if plan.errored:
+        return ExitCode.IMPOSSIBLE
+    if not plan.operations:
+        return ExitCode.DONE
+    session.say("")
+    if not auto_approve and not session.confirm(question(plan)):
+        session.say("Nothing moved.")
+        return ExitCode.ERROR
+    return execute(session, bench, plan)

@@ -1,0 +1,27 @@
+"""`pico init`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..session import Session
+from ..views import started as view
+
+
+def init(
+    context: typer.Context,
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet.")],
+    example: Annotated[
+        str | None, typer.Option("--example", metavar="NAME", help="minimal, shel or crowded, with its history.")
+    ] = None,
+) -> int:
+    """Make a new lab, or an example with its history."""
+    from pico.bench import new_lab
+
+    session = Session.of(context)
+    new_lab(session.folder / folder, example)
+    session.show(view, session.folder / folder, example, shown=folder)
+    return 0

@@ -1,0 +1,42 @@
+"""`pico plan`."""
+
+from __future__ import annotations
+
+import typer
+
+from pico.diagnostics import ExitCode
+
+from ..arguments import DetailedExit, Exact, Fidelity, Out, Revision
+from ..session import Session
+from ..views import plan as view
+
+
+def plan(
+    context: typer.Context,
+    revision: Revision = None,
+    out: Out = None,
+    detailed_exitcode: DetailedExit = False,
+    exact: Exact = False,
+    fidelity: Fidelity = None,
+) -> int:
+    """Show what would move to make the bench equal to the manifest or a revision.
+
+    Nothing moves. Exits with 3 where the revision is physically impossible, with 1 on other errors.
+    """
+    session = Session.of(context)
+    bench = session.bench(fidelity)
+    found = bench.plan(revision, exact=exact)
+    saved = None
+    if out and not found.errored:
+        saved = session.folder / out
+        saved.write_text(found.to_json() + "\n")
+    apply = f"pico apply {revision}" if revision else "pico apply"
+    step = f"Saved. Apply with `pico apply ./{out}`." if saved else (
+        f"Apply with `{apply}`, or save with `{apply.replace('apply', 'plan')} --out {revision or 'my'}.plan`."
+    )  # fmt: skip
+    session.show(view, found, head=bench.head_name(), goal=bench.goal_name(found), next_step=step)
+    if not session.json:
+        session.report(found.diagnostics)
+    if found.errored:
+        return ExitCode.IMPOSSIBLE
+    return ExitCode.CHANGES if detailed_exitcode and found.operations else ExitCode.DONE

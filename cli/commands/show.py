@@ -1,0 +1,24 @@
+"""`pico show`."""
+
+from __future__ import annotations
+
+import typer
+
+from pico.model.plan import Plan
+
+from ..arguments import PlanOrRevision
+from ..session import Session
+from ..views import plan as plan_view
+from ..views import revision as revision_view
+
+
+def show(context: typer.Context, what: PlanOrRevision = None) -> int:
+    """Show a revision (what it changed, and the state it holds) or a saved plan. Without an argument: HEAD."""
+    session = Session.of(context)
+    bench = session.bench()
+    found = bench.find(what or "HEAD", folder=session.folder)
+    if isinstance(found, Plan):
+        session.show(plan_view, found, goal=bench.goal_name(found), next_step=f"Apply with `pico apply {what}`.")
+    else:
+        session.show(revision_view, bench.entry(found), bench.setup, bench.state_at(found))
+    return 0

@@ -1,0 +1,50 @@
+"""`pico sim`: the hand of somebody in the simulated laboratory."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..arguments import Component
+from ..session import Session
+from ..views import simulated as view
+
+app = typer.Typer(
+    rich_markup_mode=None,
+    no_args_is_help=True,
+    help="Act on the simulated world: reset it, nudge or remove a component.",
+)
+
+
+@app.command()
+def reset(context: typer.Context) -> int:
+    """Put every part of the simulated bench home, as in a new world."""
+    session = Session.of(context)
+    session.bench().sim.reset()
+    session.show(view, "every part of the simulated bench is at home")
+    return 0
+
+
+@app.command()
+def nudge(
+    context: typer.Context,
+    name: Component,
+    dx: Annotated[float, typer.Option("--dx", help="Millimetres to the right.")] = 0.0,
+    dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
+    dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
+) -> int:
+    """Push a component, as somebody bumping the table would."""
+    session = Session.of(context)
+    pose = session.bench().sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
+    session.show(view, f"{name} now stands at {pose}", pose=pose)
+    return 0
+
+
+@app.command()
+def remove(context: typer.Context, name: Component) -> int:
+    """Take a component off the simulated table: it is then missing."""
+    session = Session.of(context)
+    session.bench().sim.remove(name)
+    session.show(view, f"{name} is off the table; `pico sim reset` brings everything back")
+    return 0

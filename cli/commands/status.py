@@ -1,0 +1,23 @@
+"""`pico status`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..session import Session
+from ..views import status as view
+
+
+def status(
+    context: typer.Context,
+    every: Annotated[bool, typer.Option("--all", help="Show equal rows of a large bench, too.")] = False,
+) -> int:
+    """Show what is committed, desired and live, side by side.
+
+    `*` marks what the manifest changes against the last commit, `!` what stands elsewhere than the manifest says.
+    """
+    session = Session.of(context)
+    session.show(view, session.bench().status(), every=every)
+    return 0

@@ -1,0 +1,14 @@
+"""`pico version`."""
+
+from __future__ import annotations
+
+import typer
+
+from ..session import Session
+from ..views import version as view
+
+
+def version(context: typer.Context) -> int:
+    """Show the versions of PICO and what it stands on."""
+    Session.of(context).show(view)
+    return 0

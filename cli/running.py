@@ -1,0 +1,75 @@
+"""Shows a run while it goes on; Ctrl-C once ends it at a safe waypoint, twice at once."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from pico.model.record import as_json
+
+from .session import Session, colored, write
+from .views import report as report_view
+from .views.run import Progress
+from .views.style import plain
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+    from pico.model.event import Event
+    from pico.model.plan import Plan
+
+STOPPING = "Stopping: finishing what is under way up to a safe waypoint (press again to stop at once)"
+AT_ONCE = "Stopping at once: arms decelerate, grippers hold what they hold"
+
+
+class Screen:
+    """Lines that stay, and on a terminal one that is overwritten."""
+
+    def __init__(self, session: Session, progress: Progress) -> None:
+        self.session, self.progress = session, progress
+        self.terminal = sys.stdout.isatty() and not session.json
+        self.last = 0.0
+
+    def show(self, event: Event) -> None:
+        if self.session.json:
+            self.session.document(as_json(event))
+            return
+        if line := self.progress.line(event):
+            self.stay(line)
+        elif self.terminal and (live := self.progress.live(event)) and time.monotonic() - self.last > 0.05:
+            self.last = time.monotonic()
+            write(sys.stdout, f"\r{live if colored(sys.stdout) else plain(live)}\x1b[K", end="")
+
+    def stay(self, line: str) -> None:
+        if self.terminal:
+            sys.stdout.write("\r\x1b[K")
+        self.session.say(line)
+
+
+def execute(session: Session, bench: Bench, plan: Plan) -> int:
+    """Run a plan, show how it goes and what became of it; return the exit code."""
+    run = bench.run(plan)
+    screen = Screen(session, Progress(plan))
+    presses = 0
+    while not run.over:
+        try:
+            for event in run:
+                screen.show(event)
+        except KeyboardInterrupt:
+            presses += 1
+            screen.stay("^C\n" + (STOPPING if presses == 1 else AT_ONCE))
+            run.halt() if presses == 1 else run.stop()
+    session.show(report_view, run.report)
+    if not session.json:
+        session.report(run.report.diagnostics)
+    return int(run.report.exit_code)
+
+
+def question(plan: Plan) -> str:
+    """Return what is asked before anything moves."""
+    moved = len({op.component for op in plan.operations if op.primitive in ("move", "stow")})
+    where = f"on {plan.backend} ({plan.fidelity})"
+    if moved:
+        return f"Move {moved} {'component' if moved == 1 else 'components'} {where}?"
+    steps = len(plan.operations)
+    return f"Run {steps} {'operation' if steps == 1 else 'operations'} {where}?"

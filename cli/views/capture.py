@@ -1,0 +1,27 @@
+"""What `pico capture` wrote."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.model.record import as_json
+from pico.model.report import Captured
+
+from .diff import lines
+from .style import count, listed
+
+
+def text(captured: Captured) -> str:
+    """Return which tunables changed in which files."""
+    if not captured.changes:
+        return "Nothing to capture: the manifest already says what stands on the bench."
+    where = listed(captured.files)
+    head = f"Captured {count(len(captured.changes), 'tunable')} into {where}:"
+    return "\n".join(
+        [head, "", *lines(captured.changes), "", '`git diff` shows the lines; `pico commit -m "why"` keeps it.']
+    )
+
+
+def data(captured: Captured) -> dict[str, Any]:
+    """Return schema `pico.capture/v1`: `files` and `changes`."""
+    return {"schema": "pico.capture/v1", **as_json(captured)}

@@ -1,0 +1,30 @@
+"""A commit that was just made."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.model.record import as_json
+from pico.model.report import Committed
+
+from .diff import lines
+from .style import count, paint
+
+
+def text(made: Committed) -> str:
+    """Return the commit as `git commit` would show it, with what it changed on the table."""
+    branch = made.branch or "detached HEAD"
+    head = f"[{branch} {paint('yellow', made.commit[:7])}] {made.message.splitlines()[0]}"
+    block = [head, *lines(made.changes)]
+    if made.captured:
+        block.append(f"{count(len(made.captured), 'tunable')} taken from the bench.")
+    if not made.realized:
+        block.append("This state was never on the bench; the commit says so.")
+    if not made.branch:
+        block.append("No branch points here: `git switch -c NAME` keeps it findable.")
+    return "\n".join(block)
+
+
+def data(made: Committed) -> dict[str, Any]:
+    """Return schema `pico.commit/v1`."""
+    return {"schema": "pico.commit/v1", **as_json(made)}

@@ -1,0 +1,45 @@
+"""What became of a run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.model.record import as_json
+from pico.model.report import RunReport
+
+from .diff import brief
+from .style import count, listed, paint, seconds
+
+
+def text(report: RunReport) -> str:
+    """Return the tally, and whether the bench now equals what was wanted."""
+    parts = [f"{report.done} done", f"{report.failed} failed"]
+    parts += [f"{report.unknown} with unknown outcome"] if report.unknown else []
+    parts += [f"{report.skipped} not started"] if report.skipped else []
+    head = {
+        "done": paint("green", "Done"),
+        "failed": paint("red", "Failed"),
+        "interrupted": paint("yellow", "Interrupted"),
+    }
+    took = f"{seconds(report.seconds)} {report.clock}, {seconds(report.wall)} here"
+    return "\n".join([f"{head[report.outcome]}: {', '.join(parts)} · {took}", *_bench(report)])
+
+
+def _bench(report: RunReport) -> list[str]:
+    if not report.remaining and not report.absent:
+        return [f"The bench equals {report.goal}."] if report.whole else ["The bench is as asked."]
+    lines = []
+    if report.remaining:
+        verb = "differs" if len(report.remaining) == 1 else "differ"
+        lines.append(
+            f"{count(len(report.remaining), 'tunable')} still {verb} from {report.goal}: {brief(report.remaining)}."
+        )
+    if report.absent:
+        lines.append(f"Not seen where it should stand: {listed(report.absent)}.")
+    return [*lines, "Continue with the same command: it plans from what is observed now."]
+
+
+def data(report: RunReport) -> dict[str, Any]:
+    """Return schema `pico.report/v1`: outcome, tally, seconds, `remaining` changes, diagnostics."""
+    found: dict[str, Any] = as_json(report)
+    return found

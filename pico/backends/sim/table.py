@@ -1,0 +1,40 @@
+"""What somebody in the simulated laboratory can do to its table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pico.backends.sim.hand import nudge, remove
+from pico.backends.sim.store import change_world, load_world, reset_world
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.model.request import require_component
+
+
+class SimulatedTable:
+    """The simulated table of the lab in folder `root`. Changing it while it moves raises PicoError (code LOCKED)."""
+
+    def __init__(self, setup: Setup, root: Path) -> None:
+        self._setup, self._root = setup, root
+
+    def reset(self) -> None:
+        """Put every part home, as in a new world, whatever the world's file holds."""
+        reset_world(self._setup, self._root, "sim reset")
+
+    def nudge(self, name: str, *, dx: float = 0.0, dy: float = 0.0, dyaw: float = 0.0) -> Pose:
+        """Push a component by (dx, dy) [mm], turn it by dyaw [deg], and return where it then stands."""
+        require_component(self._setup, name)
+        change_world(
+            self._setup, self._root, f"sim nudge {name}",
+            lambda world: nudge(self._setup, world, name, dx=dx, dy=dy, dyaw=dyaw),
+        )  # fmt: skip
+        pose = load_world(self._setup, self._root)[0].components[name].pose
+        assert pose is not None  # it was just put there
+        return pose
+
+    def remove(self, name: str) -> None:
+        """Take a component off the table: it is then missing."""
+        require_component(self._setup, name)
+        change_world(
+            self._setup, self._root, f"sim remove {name}", lambda world: remove(self._setup, world, name)
+        )  # fmt: skip

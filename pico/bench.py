@@ -1,0 +1,411 @@
+"""The facade: `pico.open(path)` gives a `Bench`, which command line, scripts and server use. Composes everything else.
+
+`AsyncBench` is the thing itself; `Bench` is its synchronous face over one private thread with an event loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.execution.blocking import LoopThread, Run
+from pico.execution.watched import AsyncRun
+from pico.history.folder import Entry, LabFolder
+from pico.model.diff import Change, diff_observed
+from pico.model.lab import Setup
+from pico.model.observation import Observation, live_state
+from pico.model.plan import Base, Plan, Target, plan_from_json
+from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
+from pico.model.request import Request, asked, read_values, require_seen
+from pico.model.state import LabState
+from pico.model.status import Status, compare, refuse_unapplied
+from pico.motion.deferred import DeferredMotion
+
+if TYPE_CHECKING:
+    from pico.backends.protocol import Backend
+    from pico.backends.sim.table import SimulatedTable
+
+CommitMode = Literal["strict", "capture", "planned"]
+
+
+class _Readable:
+    """What both faces offer that asks no backend: the manifests and their history."""
+
+    folder: LabFolder
+
+    @property
+    def root(self) -> Path:
+        """The lab's folder."""
+        return self.folder.root
+
+    @property
+    def setup(self) -> Setup:
+        """The bench as it is now: lab and component types."""
+        return self.folder.setup
+
+    @property
+    def state(self) -> LabState:
+        """The desired state: what the manifests in the working tree say."""
+        return self.folder.state
+
+    def state_at(self, revision: str) -> LabState:
+        """Return the state that a revision holds; raises PicoError."""
+        return self.folder.state_at(revision)
+
+    def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
+        """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
+        return self.folder.diff(a, b)
+
+    def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
+        """Yield the commits that changed the lab, newest first, with their physical diffs; raises PicoError."""
+        return self.folder.log(revision, every=every, limit=limit)
+
+    def entry(self, revision: str) -> Entry:
+        """Return the commit that a revision names, with its physical diff; raises PicoError."""
+        return self.folder.entry(self.folder.history().resolve(revision))
+
+    def head_name(self) -> str:
+        """Return what is checked out as a person calls it; empty without Git."""
+        head = self.folder.head()
+        return head.label if head else ""
+
+    def name_of(self, revision: str) -> str:
+        """Return `e1 (E1-3 "p2 tilted")` for a revision; raises PicoError."""
+        commit = self.folder.history().resolve(revision)
+        label = commit.label if revision in ("HEAD", commit.id) else revision
+        known = "" if label == commit.label or revision in commit.refs else f"{commit.label} "
+        return f'{label} ({known}"{commit.summary}")'
+
+    def goal_name(self, plan: Plan) -> str:
+        """Return what a plan leads to, as a person calls it."""
+        return self.name_of(plan.target.revision) if plan.target.revision else ""
+
+    def find(self, word: str, folder: Path = Path()) -> Plan | str:
+        """Return the saved plan that `word` names as a file in `folder`, or `word` where it names a revision.
+
+        Raises PicoError where it names both (`./NAME` is the file), or a file that is no plan.
+        """
+        path = folder / word
+        is_file = path.is_file()
+        if not is_file or word.startswith(("./", "../", "/")):
+            if is_file:
+                return plan_from_json(path.read_bytes())
+            return word
+        if self._is_revision(word):
+            hint = f"`./{word}` is the file; rename it to mean the revision"
+            raise PicoError(error("ambiguous", f"`{word}` is both a file and a revision", hint=hint))
+        return plan_from_json(path.read_bytes())
+
+    def _is_revision(self, word: str) -> bool:
+        try:
+            return self.folder.repository is not None and bool(self.folder.repository.resolve(word))
+        except PicoError:
+            return False
+
+
+class AsyncBench(_Readable):
+    """One bench: its lab's folder, and the backend that sees and moves it. Open it with `AsyncBench.open`."""
+
+    def __init__(self, folder: LabFolder, fidelity: str | None = None) -> None:
+        self.folder = folder
+        self.backend_name = "sim"
+        self.fidelity = fidelity or folder.setup.lab.sim.fidelity
+        self._backend: Backend | None = None
+
+    @classmethod
+    def open(
+        cls, path: str | Path = ".", *, backend: str = "sim", fidelity: str | None = None, speed: float | None = None
+    ) -> AsyncBench:
+        """Open the lab that `path` lies in. Nothing is contacted yet.
+
+        `backend`: `sim`. `fidelity`: `kinematic` or `physics`, the lab's own word where None. `speed`: share of the
+        joint limits for every robot, instead of the lab's. Raises PicoError.
+        """
+        _require_backend(backend, fidelity, speed)
+        folder = LabFolder(Path(path))
+        if speed is not None:
+            robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
+            folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
+        return cls(folder, fidelity)
+
+    def _adopt(self, plan: Plan) -> None:
+        """Run a saved plan in the fidelity that it was made for."""
+        if plan.backend == self.backend_name and plan.fidelity != self.fidelity:
+            self.fidelity, self._backend = plan.fidelity, None
+
+    @property
+    def backend(self) -> Backend:
+        """The backend, made when it is first needed."""
+        if self._backend is None:
+            from pico.backends.sim.backend import SimBackend
+
+            self._backend = SimBackend(self.setup, self.root, self.fidelity)
+        return self._backend
+
+    async def close(self) -> None:
+        """Let go of the backend."""
+        if self._backend is not None:
+            await self._backend.close()
+            self._backend = None
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen."""
+        return await self.backend.observe()
+
+    async def plan(self, revision: str | None = None, *, exact: bool = False) -> Plan:
+        """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
+
+        The state comes from the revision, the bench as it is now. Raises PicoError for a revision that can't be read;
+        what is physically impossible is in the plan's diagnostics.
+        """
+        from pico.planning import plan
+
+        manifests = self.folder.manifests_at(revision) if revision else self.folder.manifests
+        commit = self.folder.history().resolve(revision).id if revision else None
+        _, wanted = manifests.require()
+        seen = await self.observe()
+        return plan(
+            self.setup,
+            seen,
+            wanted,
+            motion=DeferredMotion(self.setup),
+            backend=self.backend_name,
+            fidelity=self.fidelity,
+            base=self._base(seen),
+            target=Target(revision=revision, commit=commit, state=wanted.as_json()),
+            exact=exact,
+            source=manifests.source,
+        )
+
+    def _base(self, seen: Observation) -> Base:
+        head = self.folder.head()
+        state = live_state(self.setup, seen).as_json()
+        return Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
+
+    async def plan_of(self, word: str | None, *, folder: Path = Path(), exact: bool = False) -> Plan:
+        """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None)."""
+        found = self.find(word, folder) if word else None
+        return found if isinstance(found, Plan) else await self.plan(found, exact=exact)
+
+    async def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision that is about to be checked out; raises PicoError where edits would be lost."""
+        self.folder.refuse_edits()
+        return await self.plan(revision, exact=exact)
+
+    def checkout_files(self, revision: str) -> None:
+        """Check a revision out with git. Moves nothing; raises PicoError."""
+        self.folder.history().checkout(revision)
+        self.folder.reload()
+
+    async def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
+        """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
+        seen = await self.observe()
+        return self._one(seen, asked(self.setup, seen, component, primitive, arguments or {}))
+
+    async def place(self, component: str, *, after: str, distance: float) -> Plan:
+        """Return the plan that places a component `distance` mm after another along its beam; raises PicoError."""
+        from pico.planning import place_after
+
+        seen = await self.observe()
+        require_seen(self.setup, seen, component, after)
+        pose = place_after(self.setup, seen, component, after, distance)
+        return self._one(seen, Request(component=component, primitive="move", pose=pose))
+
+    def _one(self, seen: Observation, request: Request) -> Plan:
+        from pico import planning
+
+        name, options = request.component, {"backend": self.backend_name, "fidelity": self.fidelity}
+        base = self._base(seen)
+        if request.primitive == "set":
+            assert request.tunable is not None and request.value is not None
+            return planning.set_one(self.setup, seen, name, request.tunable, request.value, base=base, **options)
+        if request.primitive == "home":
+            assert request.tunable is not None
+            return planning.home_one(self.setup, seen, name, request.tunable, base=base, **options)
+        goal = request.slot or request.pose
+        assert goal is not None
+        return planning.move_one(self.setup, seen, name, goal, motion=DeferredMotion(self.setup), base=base, **options)
+
+    def run(self, plan: Plan) -> AsyncRun:
+        """Return the run of a plan: iterate over it for its events, then read its `report`."""
+        self._adopt(plan)
+        return AsyncRun(self.setup, plan, self.backend)
+
+    async def apply(self, what: Plan | str | None = None) -> RunReport:
+        """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it."""
+        run = self.run(what if isinstance(what, Plan) else await self.plan(what))
+        async for _ in run:
+            pass
+        return run.report
+
+    async def status(self) -> Status:
+        """Return committed, desired and live side by side."""
+        return compare(self.setup, self.folder.committed(), self.state, await self.observe(), self.head_name())
+
+    async def drift(self) -> tuple[Change, ...]:
+        """Return where the bench differs from HEAD: `before` is live, `after` committed; raises PicoError."""
+        return diff_observed(self.setup, await self.observe(), self.state_at("HEAD"))
+
+    async def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
+        """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""
+        return parts_of(self.setup, self.state, await self.observe(), free=free)
+
+    async def read(self, component: str, tunable: str | None = None) -> dict[str, dict[str, Any]]:
+        """Return the tunables of a component as observed: `value`, `unit`, `status` of each; raises PicoError."""
+        return read_values(self.setup, await self.observe(), component, tunable)
+
+    async def capture(self) -> Captured:
+        """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest."""
+        return self.folder.capture(live_state(self.setup, await self.observe()))
+
+    async def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
+        """Capture and commit the manifests.
+
+        `strict` refuses edits that were never applied; `capture`: the bench wins; `planned`: the manifest wins, and
+        the commit says where it was never realized. Raises PicoError.
+        """
+        seen = await self.observe()
+        status = compare(self.setup, self.folder.committed(), self.state, seen)
+        if mode == "strict":
+            refuse_unapplied(status)
+        if mode == "planned":
+            never = any(row.off or row.note for row in status.rows)
+            return self.folder.commit(message, (), "planned" if never else self.fidelity)
+        captured = self.folder.capture(live_state(self.setup, seen))
+        return self.folder.commit(message, captured.changes, self.fidelity)
+
+    async def render(self, revision: str | None = None, *, view: str = "perspective", plan: bool = False) -> bytes:
+        """Return a PNG of the bench as it is, or as a revision wants it; with `plan`, of what would move there."""
+        from pico.twin import picture
+
+        raise NotImplementedError(picture)
+
+    @property
+    def sim(self) -> SimulatedTable:
+        """The simulated world, to be changed as a hand would; raises PicoError for another backend."""
+        from pico.backends.sim.table import SimulatedTable
+
+        return SimulatedTable(self.setup, self.root)
+
+
+class Bench(_Readable):
+    """The synchronous face of `AsyncBench`: same methods, same results, no `await`. Open it with `pico.open`."""
+
+    def __init__(self, bench: AsyncBench) -> None:
+        self._bench, self.folder = bench, bench.folder
+        self._thread = LoopThread()
+
+    @classmethod
+    def open(
+        cls, path: str | Path = ".", *, backend: str = "sim", fidelity: str | None = None, speed: float | None = None
+    ) -> Bench:
+        """Open the lab that `path` lies in; see `AsyncBench.open`."""
+        return cls(AsyncBench.open(path, backend=backend, fidelity=fidelity, speed=speed))
+
+    def close(self) -> None:
+        """Let go of the backend and end the private thread."""
+        self._thread.wait(self._bench.close())
+        self._thread.close()
+
+    def __enter__(self) -> Bench:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def sim(self) -> SimulatedTable:
+        """The simulated world, to be changed as a hand would."""
+        return self._bench.sim
+
+    def observe(self) -> Observation:
+        """Look, and return what was seen."""
+        return self._thread.wait(self._bench.observe())
+
+    def plan(self, revision: str | None = None, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision, or to the manifest; see `AsyncBench.plan`."""
+        return self._thread.wait(self._bench.plan(revision, exact=exact))
+
+    def plan_of(self, word: str | None, *, folder: Path = Path(), exact: bool = False) -> Plan:
+        """Return the saved plan that `word` names, or the plan to the revision that it names."""
+        return self._thread.wait(self._bench.plan_of(word, folder=folder, exact=exact))
+
+    def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision that is about to be checked out; refused where edits would be lost."""
+        return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
+
+    def checkout_files(self, revision: str) -> None:
+        """Check a revision out with git. Moves nothing."""
+        self._bench.checkout_files(revision)
+
+    def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
+        """Return the plan of one primitive; see `AsyncBench.single`."""
+        return self._thread.wait(self._bench.single(component, primitive, arguments))
+
+    def place(self, component: str, *, after: str, distance: float) -> Plan:
+        """Return the plan that places a component `distance` mm after another along its beam."""
+        return self._thread.wait(self._bench.place(component, after=after, distance=distance))
+
+    def run(self, plan: Plan) -> Run:
+        """Start a plan and return its run: iterate over it for its events."""
+        return Run(self._bench.run(plan), self._thread)
+
+    def apply(self, what: Plan | str | None = None) -> RunReport:
+        """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it."""
+        return self._thread.wait(self._bench.apply(what))
+
+    def status(self) -> Status:
+        """Return committed, desired and live side by side."""
+        return self._thread.wait(self._bench.status())
+
+    def drift(self) -> tuple[Change, ...]:
+        """Return where the bench as observed differs from HEAD."""
+        return self._thread.wait(self._bench.drift())
+
+    def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
+        """Return the inventory with where each part is."""
+        return self._thread.wait(self._bench.parts(free=free))
+
+    def read(self, component: str, tunable: str | None = None) -> dict[str, dict[str, Any]]:
+        """Return the tunables of a component as observed."""
+        return self._thread.wait(self._bench.read(component, tunable))
+
+    def capture(self) -> Captured:
+        """Write what the bench shows otherwise than the manifest into the manifest."""
+        return self._thread.wait(self._bench.capture())
+
+    def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
+        """Capture and commit the manifests; see `AsyncBench.commit`."""
+        return self._thread.wait(self._bench.commit(message, mode))
+
+    def render(self, revision: str | None = None, *, view: str = "perspective", plan: bool = False) -> bytes:
+        """Return a PNG of the bench; see `AsyncBench.render`."""
+        return self._thread.wait(self._bench.render(revision, view=view, plan=plan))
+
+
+def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:
+    if backend == "hardware":
+        detail = "An arm, cameras and stages need drivers, and PICO has none yet; today it moves a simulated bench."
+        raise PicoError(error("backend", "there is no hardware backend yet", detail=detail, hint="leave out --backend"))
+    if backend != "sim":
+        raise PicoError(
+            error("backend", f"there is no backend `{backend}`", hint=did_you_mean(backend, ["sim", "hardware"]))
+        )
+    if fidelity not in (None, "kinematic", "physics"):
+        known = ["kinematic", "physics"]
+        raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))
+    if speed is not None and not 0 < speed <= 1:
+        raise PicoError(error("speed", f"a speed of {speed:g} is no share of the joint limits", hint="0.01 to 1"))
+
+
+def new_lab(folder: Path, example: str | None = None) -> None:
+    """Make a lab in `folder`: a skeleton to edit, or an example with its history; raises PicoError."""
+    from pico.history.example import init_empty, make_example
+
+    if example is None:
+        init_empty(folder)
+    else:
+        make_example(example, folder)

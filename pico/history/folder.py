@@ -1,0 +1,165 @@
+"""A lab's folder: its manifests as they are in the working tree, and its states at any revision."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.history.commit import Commit, Head
+from pico.manifest.files import read_folder
+from pico.manifest.load import Manifests, find_lab, load_files, load_folder
+from pico.model.diff import Change, diff_states
+from pico.model.record import record
+from pico.model.report import Captured, Committed
+from pico.model.state import LabState, home_state
+
+if TYPE_CHECKING:
+    from pico.history.repository import Repository
+
+
+@record
+class Entry:
+    """One commit with what it changed on the table against its first parent, or why that can't be told."""
+
+    commit: Commit
+    changes: tuple[Change, ...] = ()
+    unreadable: str = ""
+
+
+class LabFolder:
+    """The lab that `path` lies in. Raises PicoError where there is none, or where its manifests are wrong."""
+
+    def __init__(self, path: Path) -> None:
+        self.root = find_lab(path)
+        self.reload()
+
+    def reload(self) -> None:
+        """Read the manifests again, after somebody wrote them; raises PicoError where they are wrong.
+
+        `setup`: the bench as it is now, with its types; `state`: the desired state, what the working tree says.
+        """
+        self.manifests = load_folder(self.root)
+        self.setup, self.state = self.manifests.require()
+
+    @cached_property
+    def repository(self) -> Repository | None:
+        """The Git repository around the lab, or None."""
+        from pico.history.repository import Repository
+
+        return Repository.discover(self.root)
+
+    def history(self) -> Repository:
+        """Return the repository; raises PicoError that says how to get one."""
+        if self.repository is None:
+            hint = 'make one here: `git init && git add . && git commit -m "the lab as it is"`'
+            raise PicoError(
+                error("git-none", f"{self.root} is in no Git repository, so there is no history", hint=hint)
+            )
+        return self.repository
+
+    def head(self) -> Head | None:
+        """Return what is checked out; None outside a repository."""
+        return self.repository.head() if self.repository else None
+
+    def state_at(self, revision: str) -> LabState:
+        """Return the state that a revision holds, read against the bench as it is now.
+
+        Raises PicoError for an unknown revision and for manifests that don't fit this bench.
+        """
+        return self.manifests_at(revision).require()[1]
+
+    def manifests_at(self, revision: str) -> Manifests:
+        """Return the manifests of a revision, its states read against the bench as it is now."""
+        files = self.history().files(revision, self.root)
+        return load_files({f"{revision}:{path}": data for path, data in files.items()}, setup=self.setup)
+
+    def committed(self) -> LabState | None:
+        """Return the state at HEAD; None outside a repository, before the first commit of the lab, or if unreadable."""
+        head = self.head()
+        if head is None or head.commit is None:
+            return None
+        try:
+            return self.state_at("HEAD")
+        except PicoError:
+            return None
+
+    def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
+        """Return what differs from revision `a` (HEAD) to revision `b` (the working tree), exactly."""
+        before = self.state_at(a or "HEAD")
+        return diff_states(self.setup, before, self.state_at(b) if b else self.state)
+
+    def entry(self, commit: Commit) -> Entry:
+        """Return a commit with its physical diff. What a first commit is compared with is every part at home."""
+        try:
+            before = self.state_at(commit.parents[0]) if commit.parents else home_state(self.setup)
+        except PicoError:
+            before = home_state(self.setup)
+        try:
+            return Entry(commit=commit, changes=diff_states(self.setup, before, self.state_at(commit.id)))
+        except PicoError as exc:
+            return Entry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
+
+    def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
+        """Yield the commits that changed the lab, newest first: of a revision (HEAD), or of `every` branch and tag."""
+        repository = self.history()
+        tips = repository.tips() if every else (revision or "HEAD",)
+        for commit in repository.log(tips, folder=self.root, limit=limit):
+            yield self.entry(commit)
+
+    def refuse_edits(self) -> None:
+        """Raise PicoError where the manifests hold edits that a checkout would lose."""
+        edited = self.history().changed(self.root)
+        if edited:
+            raise PicoError(_edited(edited))
+
+    def capture(self, live: LabState) -> Captured:
+        """Write what `live` says otherwise than the manifests, beyond tolerance, into them; raises PicoError."""
+        from pico.manifest.edit import capture
+
+        before = self.state
+        files, _ = read_folder(self.root)
+        written = capture(files, self.setup, before, live)
+        for path, data in written.items():
+            _replace(Path(path), data)
+        self.reload()
+        return Captured(changes=diff_states(self.setup, before, self.state), files=tuple(sorted(written)))
+
+    def commit(self, message: str, captured: tuple[Change, ...], evidence: str) -> Committed:
+        """Commit the manifests as they are, with the digest of their state and the evidence for it as trailers."""
+        repository = self.history()
+        paths = repository.changed(self.root)
+        if not paths:
+            hint = "`pico status` shows the bench, `pico log` what there is"
+            raise PicoError(error("nothing-to-commit", "nothing to commit: the manifests are as in HEAD", hint=hint))
+        digest = self.state.digest()
+        made = repository.commit(paths, f"{message.strip()}\n\nPico-State: {digest}\nPico-Evidence: {evidence}\n")
+        return Committed(
+            commit=made.id,
+            message=message.strip(),
+            branch=repository.head().branch,
+            state=digest,
+            changes=self.entry(made).changes,
+            captured=captured,
+            realized=evidence != "planned",
+        )
+
+
+def _replace(path: Path, data: bytes) -> None:
+    """Write a file so that a reader sees the old one or the new one; its permissions stay."""
+    fresh = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    fresh.write_bytes(data)
+    shutil.copymode(path, fresh)
+    fresh.replace(path)
+
+
+def _edited(paths: tuple[str, ...]) -> Diagnostic:
+    return error(
+        "edited",
+        f"{', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''} differ from the last commit",
+        hint='`pico commit -m "why"` keeps the edits, `git stash` shelves them, `git restore .` drops them',
+    )

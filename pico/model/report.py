@@ -1,0 +1,109 @@
+"""What became of a run: the tally, and what still differs from what was wanted."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pico.diagnostics import Diagnostic, ExitCode
+from pico.model.diff import Change
+from pico.model.lab import Setup
+from pico.model.observation import Observation, slot_at
+from pico.model.record import record
+from pico.model.state import LabState, place_of
+
+
+@record
+class RunReport:
+    """The end of a run.
+
+    `seconds`: on the backend's clock, `clock` says whose; `wall`: here. `remaining`: what differs from the goal beyond
+    tolerance, observed after the run; `absent`: components that are missing, held or toppled. `whole`: the plan was
+    for the whole bench, not for one operation. `evidence`: what the run counts as.
+    """
+
+    schema: str = "pico.report/v1"
+    run: str
+    goal: str
+    outcome: Literal["done", "failed", "interrupted"]
+    done: int = 0
+    failed: int = 0
+    unknown: int = 0
+    skipped: int = 0
+    seconds: float = 0.0
+    clock: str = "simulated"
+    wall: float = 0.0
+    evidence: str = ""
+    whole: bool = True
+    remaining: tuple[Change, ...] = ()
+    absent: tuple[str, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def exit_code(self) -> ExitCode:
+        """What a command ends with."""
+        if self.outcome == "interrupted":
+            return ExitCode.INTERRUPTED
+        return ExitCode.DONE if self.outcome == "done" and not self.remaining else ExitCode.ERROR
+
+
+@record
+class Captured:
+    """What a capture wrote: the changes from the manifest as it was to the live state, and the files, sorted."""
+
+    changes: tuple[Change, ...] = ()
+    files: tuple[str, ...] = ()
+
+
+@record
+class Committed:
+    """A commit that was made: its id and message, what it changed against its parent, and the digest of its state.
+
+    `captured`: what was taken from the bench for it. `realized`: the bench stood as the commit says when it was made.
+    """
+
+    commit: str
+    message: str
+    branch: str | None = None
+    state: str = ""
+    changes: tuple[Change, ...] = ()
+    captured: tuple[Change, ...] = ()
+    realized: bool = True
+
+
+@record
+class PartRow:
+    """One part of the inventory: its type, where it is (None where nobody sees it), and whether it is free: at rest
+    in storage and not used by the manifest."""
+
+    name: str
+    type: str
+    title: str
+    marker: int | None = None
+    serial: str = ""
+    home: str | None = None
+    where: str | None = None
+    free: bool = False
+
+
+def parts_of(setup: Setup, desired: LabState, seen: Observation, *, free: bool = False) -> tuple[PartRow, ...]:
+    """Return the inventory by name with where each part is; only free ones where `free`."""
+    rows = []
+    for name, part in sorted(setup.lab.inventory.items()):
+        live = seen.components.get(name)
+        pose = live.pose if live and live.presence == "seen" else None
+        slot = slot_at(setup, pose) if pose else None
+        where = slot or (str(pose) if pose else None)
+        resting = slot is not None and setup.movable(name) and place_of(setup, desired, name)[0] is not None
+        rows.append(
+            PartRow(
+                name=name,
+                type=part.type,
+                title=setup.type_of(name).title,
+                marker=part.marker,
+                serial=part.serial,
+                home=part.home,
+                where=where,
+                free=resting,
+            )
+        )
+    return tuple(row for row in rows if row.free or not free)

@@ -1,0 +1,177 @@
+"""One operation as a person asks for it (`pico do p2 move x=500 yaw=30`), checked against the bench."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.model.catalog import Tunable
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.pose import Pose, wrap
+from pico.model.quantities import QuantityError, Value, convert
+from pico.model.record import as_json, record
+
+
+@record
+class Request:
+    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable` to a `value`, `home` it."""
+
+    component: str
+    primitive: str
+    pose: Pose | None = None
+    slot: str | None = None
+    tunable: str | None = None
+    value: Value | None = None
+
+
+def asked(setup: Setup, seen: Observation, component: str, primitive: str, arguments: Mapping[str, str]) -> Request:
+    """Return the request that `key=value` arguments amount to; what is not named of a pose stays as observed.
+
+    Raises PicoError naming what is unknown, of the wrong unit, out of range or missing.
+    """
+    require_component(setup, component)
+    allowed = setup.type_of(component).primitives
+    if primitive not in allowed:
+        hint = did_you_mean(primitive, allowed)
+        raise _wrong(f"{component} has no primitive `{primitive}`", hint or f"known: {', '.join(allowed)}", component)
+    if primitive in ("measure", "scan"):
+        raise _wrong(f"{primitive} of {component}: no light is simulated yet, so there is nothing to measure", "")
+    readers = {"move": _move, "stow": _stow, "set": _set, "home": _home}
+    return readers[primitive](setup, seen, component, dict(arguments))
+
+
+def require_component(setup: Setup, name: str) -> None:
+    """Raise PicoError where the inventory has no part of that name."""
+    if name not in setup.lab.inventory:
+        hint = did_you_mean(name, setup.lab.inventory) or "`pico parts` lists the parts"
+        raise _wrong(f"there is no component `{name}` in {setup.lab.name}", hint)
+
+
+def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+    slot = given.pop("slot", None)
+    if slot is not None:
+        _only(name, "move", given, ())
+        if slot not in setup.lab.slots:
+            raise _wrong(f"there is no slot `{slot}`", did_you_mean(slot, setup.lab.slots), name)
+        return Request(component=name, primitive="move", slot=slot)
+    _only(name, "move", given, ("x", "y", "yaw", "by"))
+    if not given:
+        raise _wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
+    part = seen.components.get(name)
+    if part is None or part.pose is None:
+        raise _wrong(f"nobody sees {name}, so it can't be moved", "put it where it is seen", name)
+    pose = part.pose
+    turn = _quantity(f"by of {name}", given["by"], "deg") if "by" in given else 0.0
+    x, y = (_quantity(f"{k} of {name}", given[k], "mm") if k in given else getattr(pose, k) for k in ("x", "y"))
+    yaw = _quantity(f"yaw of {name}", given["yaw"], "deg") if "yaw" in given else pose.yaw
+    return Request(component=name, primitive="move", pose=Pose(x, y, wrap(yaw + turn)))
+
+
+def _stow(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+    _only(name, "stow", given, ())
+    home = setup.lab.inventory[name].home
+    if home is None:
+        raise _wrong(f"{name} has no home slot: the lab fixes its pose", "", name)
+    return Request(component=name, primitive="stow", slot=home)
+
+
+def _set(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+    tunables = setup.type_of(name).tunables
+    _only(name, "set", given, tunables)
+    if len(given) != 1:
+        raise _wrong(
+            f"set takes one tunable of {name}", f"`pico set {name} {next(iter(tunables), 'TUNABLE')}=VALUE`", name
+        )
+    ((tunable, text),) = given.items()
+    return Request(
+        component=name, primitive="set", tunable=tunable, value=read_value(name, tunable, tunables[tunable], text)
+    )
+
+
+def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+    _only(name, "home", given, ("tunable",))
+    axes = [k for k, t in setup.type_of(name).tunables.items() if t.axis and t.axis.kind != "open_loop"]
+    tunable = given.get("tunable") or (axes[0] if len(axes) == 1 else "")
+    if tunable not in axes:
+        known = f"{name} has " + (f"the axes {', '.join(axes)}" if axes else "no axis that homes")
+        raise _wrong(f"which axis of {name}?" if not tunable else f"`{tunable}` of {name} does not home", known, name)
+    return Request(component=name, primitive="home", tunable=tunable)
+
+
+def read_value(component: str, name: str, kind: Tunable, text: str) -> Value:
+    """Return a tunable's value from how a person writes it; raises PicoError for another type, unit or range."""
+    subject = f"{name} of {component}"
+    if kind.datatype == "bool":
+        if text not in ("true", "false"):
+            raise _wrong(f"{subject} is true or false, not `{text}`", "", component)
+        return text == "true"
+    if kind.datatype == "choice":
+        if text not in (kind.choices or ()):
+            raise _wrong(f"{subject} has no choice `{text}`", did_you_mean(text, kind.choices or ()), component)
+        return text
+    value = _quantity(subject, text, kind.unit)
+    if kind.range and not kind.range[0] <= value <= kind.range[1]:
+        low, high = kind.range
+        raise _wrong(f"{subject} goes from {low:g} to {high:g} {kind.unit}, not to {value:g}", "", component)
+    return value
+
+
+def _quantity(subject: str, text: str, unit: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        try:
+            value = float(convert(text, unit))
+        except QuantityError as exc:
+            raise _wrong(f"{subject}: {exc}", "") from exc
+    if not math.isfinite(value):
+        raise _wrong(f"{subject} must be a finite number", "")
+    return value
+
+
+def _only(name: str, primitive: str, given: Mapping[str, str], known: Iterable[str]) -> None:
+    names = tuple(known)
+    for key in given:
+        if key not in names:
+            hint = did_you_mean(key, names) or (f"known: {', '.join(names)}" if names else "it takes no arguments")
+            raise _wrong(f"{primitive} of {name} takes no `{key}`", hint, name)
+
+
+def _wrong(summary: str, hint: str, address: str = "") -> PicoError:
+    return PicoError(error("request", summary, hint=hint, address=address))
+
+
+def require_seen(setup: Setup, seen: Observation, *names: str) -> None:
+    """Raise PicoError where the inventory lacks one of the components or nobody sees it."""
+    for name in names:
+        require_component(setup, name)
+        part = seen.components.get(name)
+        if part is None or part.pose is None or part.presence != "seen":
+            raise _wrong(f"nobody sees {name}", "put it where it is seen", name)
+
+
+def read_values(
+    setup: Setup, seen: Observation, component: str, tunable: str | None = None
+) -> dict[str, dict[str, Any]]:
+    """Return the pose and the tunables of a component as observed, each with `value`, `unit` and `status`.
+
+    Raises PicoError for a component or tunable that there is not.
+    """
+    require_component(setup, component)
+    kinds = setup.type_of(component).tunables
+    if tunable is not None and tunable != "pose" and tunable not in kinds:
+        raise _wrong(f"{component} has no tunable `{tunable}`", did_you_mean(tunable, ["pose", *kinds]), component)
+    part = seen.components.get(component)
+    presence = part.presence if part else "missing"
+    pose = as_json(part.pose) if part and part.pose else None
+    found: dict[str, dict[str, Any]] = {
+        "pose": {"value": pose, "unit": "", "status": "known" if presence == "seen" else presence}
+    }
+    for name, kind in kinds.items():
+        live = part.values.get(name) if part else None
+        status = live.status if live else "not modelled"
+        found[name] = {"value": live.value if live else None, "unit": kind.unit, "status": status}
+    return {name: value for name, value in found.items() if tunable in (None, name)}
