@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime, timedelta, timezone
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
+from pico.history.revisions import BRANCHES, TAGS, find, names_at
+from pico.history.trees import collect, folder_id, is_manifest
 
+MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.
 _UNREADABLE: tuple[tuple[str, str, str], ...] = (
     ("unknown object format", "it uses SHA-256 object names", "make it with `git init --object-format=sha1`"),
@@ -75,7 +78,7 @@ class Repository:
             return Head(commit=None, branch=branch, label=branch)
         attached = None if self._git.head_is_detached else str(self._git.head.shorthand)
         commit = str(self._git.head.target)
-        tags = self._refs(("refs/tags/",)).get(commit, ())
+        tags = names_at(self._git, TAGS).get(commit, ())
         return Head(commit=commit, branch=attached, label=tags[0] if tags else attached or commit[:7])
 
     def resolve(self, revision: str) -> Commit:
@@ -83,58 +86,7 @@ class Repository:
 
         A branch that only a remote has counts too, as in `git checkout`. Raises PicoError naming the revision.
         """
-        return self._commit(self._lookup(revision), self._refs())
-
-    def _lookup(self, revision: str) -> Any:
-        import pygit2
-
-        name = "@{-1}" if revision == "-" else revision
-        try:
-            return self._git.revparse_single(name).peel(pygit2.Commit)
-        except (KeyError, ValueError, pygit2.GitError):
-            pass
-        for _, target in self._remote_branches(name):
-            return self._git[target]
-        if not name.startswith("-"):  # git knows forms that libgit2 does not
-            try:
-                told = git.run(self.root, ["rev-parse", "--verify", "--quiet", name + "^{commit}"], doing="look it up")
-                return self._git[told.strip()]
-            except PicoError:
-                pass
-        raise self._unknown(revision)
-
-    def _remote_branches(self, name: str) -> list[tuple[str, str]]:
-        """Return (remote branch, commit id) where exactly one remote has the branch `name`, else nothing."""
-        found = [
-            (ref, target)
-            for target, refs in self._refs(("refs/remotes/",)).items()
-            for ref in refs
-            if ref.partition("/")[2] == name
-        ]
-        return found if len(found) == 1 else []
-
-    def _unknown(self, revision: str) -> PicoError:
-        if self._git.head_is_unborn:
-            hint = 'nothing is committed yet: `pico commit -m "first state"`'
-            return PicoError(error("revision", f"there is no revision `{revision}`", hint=hint))
-        if 4 <= len(revision) <= 40 and set(revision.lower()) <= set("0123456789abcdef"):
-            alike = [c for c in self._walk([str(self._git.head.target)]) if c.startswith(revision.lower())]
-            if len(alike) > 1:
-                hint = "write more of it: " + ", ".join(f"`{c[:12]}`" for c in alike[:4])
-                return PicoError(error("revision", f"several commits begin with `{revision}`", hint=hint))
-        known = {name for refs in self._refs().values() for name in refs}
-        recent = {c[:7] for c, _ in zip(self._walk([str(self._git.head.target)]), range(100), strict=False)}
-        hint = did_you_mean(revision, known) or did_you_mean(revision, known | recent)
-        hint = hint or "`pico log --graph` shows what there is"
-        return PicoError(error("revision", f"there is no revision `{revision}`", hint=hint))
-
-    def _walk(self, ids: Sequence[str]) -> Iterator[str]:
-        import pygit2
-
-        walker = self._git.walk(ids[0], pygit2.enums.SortMode.TIME)
-        for other in ids[1:]:
-            walker.push(other)
-        return (str(c.id) for c in walker)
+        return self._commit(find(self._git, self.root, revision), names_at(self._git))
 
     def files(
         self, revision: str, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None
@@ -146,7 +98,7 @@ class Repository:
         """
         import pygit2
 
-        tree = self._lookup(revision).tree
+        tree = find(self._git, self.root, revision).tree
         inside = self.relative(folder)
         try:
             tree = tree[inside] if inside else tree
@@ -157,7 +109,7 @@ class Repository:
             raise PicoError(error("revision", f"`{revision}` has no folder {inside}", hint=hint))
         found: dict[str, bytes] = {}
         skipped: list[str] = []
-        _collect(tree, PurePosixPath(), found, skipped)
+        collect(tree, PurePosixPath(), found, skipped)
         if diagnostics is not None:
             diagnostics += [
                 warning("link", f"{path} at {revision} is a link or a submodule and is not read") for path in skipped
@@ -180,7 +132,7 @@ class Repository:
         arguments = ["status", "--porcelain", "-z", "--untracked-files=all", "--no-renames", "--"]
         listed = git.run(self.root, [*arguments, self.relative(folder) or "."], doing="list what was edited")
         paths = (entry[3:] for entry in listed.split("\0") if entry)
-        return tuple(sorted(p for p in paths if p.endswith(".yaml") and not _left_out(p)))
+        return tuple(sorted(p for p in paths if is_manifest(p)))
 
     def log(
         self,
@@ -197,10 +149,10 @@ class Repository:
 
         if not revisions or (list(revisions) == ["HEAD"] and self._git.head_is_unborn):
             return
-        refs = self._refs()
+        refs = names_at(self._git)
         walker = self._git.walk(None, pygit2.enums.SortMode.TIME | pygit2.enums.SortMode.TOPOLOGICAL)
         for revision in revisions:
-            walker.push(self._lookup(revision).id)
+            walker.push(find(self._git, self.root, revision).id)
         inside = self.relative(folder)
         commits = [self._commit(c, refs) for c in walker] if not inside else self._touching(walker, inside, refs)
         ordered = topological(commits)
@@ -211,7 +163,7 @@ class Repository:
         from dataclasses import replace
 
         handles = list(walker)
-        trees = {str(c.id): _tree_id(c, folder) for c in handles}
+        trees = {str(c.id): folder_id(c, folder) for c in handles}
         kept: dict[str, tuple[str, ...]] = {}  # commit -> itself, or what stands for it
         commits = []
         for handle in reversed(handles):
@@ -228,7 +180,7 @@ class Repository:
 
     def tips(self) -> tuple[str, ...]:
         """Return the branches and tags, HEAD first where it exists: everything that `log` may start from."""
-        names = {name for refs in self._refs(("refs/heads/", "refs/tags/")).values() for name in refs}
+        names = {name for refs in names_at(self._git, TAGS, BRANCHES).values() for name in refs}
         return (*(() if self._git.head_is_unborn else ("HEAD",)), *sorted(names))
 
     def commit(self, paths: Iterable[str | Path], message: str) -> Commit:
@@ -252,7 +204,7 @@ class Repository:
 
         Raises PicoError where edits would be overwritten, in git's words.
         """
-        self._lookup(revision)
+        find(self._git, self.root, revision)
         arguments = ["-c", "advice.detachedHead=false", "checkout", "--quiet", revision, "--"]
         git.run(self.root, arguments, doing=f"check out {revision}", hook="post-checkout")
         return self.head()
@@ -265,23 +217,38 @@ class Repository:
         """Make the tag `name` at a revision; raises PicoError where it exists."""
         git.run(self.root, ["tag", "--", name, self.resolve(at).id], doing=f"make the tag {name}")
 
-    def _refs(
-        self, prefixes: tuple[str, ...] = ("refs/tags/", "refs/heads/", "refs/remotes/")
-    ) -> dict[str, tuple[str, ...]]:
-        """Return the short names at each commit, in the order of `prefixes`, then by name."""
-        import pygit2
+    def write_commit(
+        self,
+        files: Mapping[str, bytes],
+        message: str,
+        parents: Sequence[str],
+        *,
+        author: tuple[str, str],
+        time: datetime,
+    ) -> str:
+        """Write a commit that holds `files` by path, and nothing else, and return its id.
 
-        at: dict[str, list[tuple[int, str]]] = {}
-        for name in self._git.references:
-            kind = next((i for i, p in enumerate(prefixes) if name.startswith(p)), None)
-            if kind is None or name.endswith("/HEAD"):
-                continue
-            try:
-                commit = self._git.references[name].peel(pygit2.Commit)
-            except (KeyError, ValueError, pygit2.GitError):  # a tag of a file, or a ref to nothing
-                continue
-            at.setdefault(str(commit.id), []).append((kind, name.removeprefix(prefixes[kind])))
-        return {commit: tuple(name for _, name in sorted(names)) for commit, names in at.items()}
+        `author` is (name, e-mail), `time` counts for author and committer: same arguments, same id. Moves no branch,
+        touches no file, runs no hook.
+        """
+        import pygit2
+        from pygit2.enums import FileMode
+
+        index = pygit2.Index()
+        for path, content in files.items():
+            index.add(pygit2.IndexEntry(path, self._git.create_blob(content), FileMode.BLOB))
+        signature = pygit2.Signature(*author, int(time.timestamp()), int((time.utcoffset() or timedelta()) / MINUTE))
+        tree = index.write_tree(self._git)
+        return str(self._git.create_commit(None, signature, signature, message + "\n", tree, list(parents)))
+
+    def write_refs(self, refs: Mapping[str, str], *, head: str) -> None:
+        """Point full ref names (`refs/heads/main`) at commits, and check branch `head` out, edits overwritten."""
+        from pygit2.enums import CheckoutStrategy
+
+        for name, commit in refs.items():
+            self._git.references.create(name, commit, force=True)
+        self._git.set_head(f"refs/heads/{head}")
+        self._git.checkout_head(strategy=CheckoutStrategy.FORCE)
 
     def _commit(self, handle: Any, refs: dict[str, tuple[str, ...]]) -> Commit:
         name = str(handle.id)
@@ -305,32 +272,3 @@ def _unreadable(path: Path, words: str) -> PicoError:
             hint = hint.replace("FOLDER", str(folder))
             return PicoError(error("git-unreadable", f"{folder} can't be read: {reason}", hint=hint))
     return PicoError(error("git-unreadable", f"{path} can't be read", detail=words))
-
-
-def _left_out(path: str) -> bool:
-    """Return whether a path lies in a dot-folder or in `runs/`."""
-    folders = PurePosixPath(path).parts[:-1]
-    return any(part.startswith(".") or part == "runs" for part in folders)
-
-
-def _collect(tree: Any, at: PurePosixPath, found: dict[str, bytes], skipped: list[str]) -> None:
-    """Add the manifests of `tree`, which lies at `at`, to `found`; links and submodules to `skipped`."""
-    from pygit2.enums import FileMode
-
-    for entry in tree:
-        path = at / entry.name
-        if entry.filemode == FileMode.TREE:
-            if not _left_out(f"{path}/" + "x"):
-                _collect(entry, path, found, skipped)
-        elif entry.filemode in (FileMode.LINK, FileMode.COMMIT):
-            if entry.filemode == FileMode.COMMIT or entry.name.endswith(".yaml"):
-                skipped.append(str(path))
-        elif entry.name.endswith(".yaml"):
-            found[str(path)] = entry.data
-
-
-def _tree_id(commit: Any, folder: str) -> str | None:
-    try:
-        return str(commit.tree[folder].id)
-    except KeyError:
-        return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -26,15 +27,12 @@ def _own_configuration(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 @pytest.fixture
 def git(tmp_path: Path) -> Git:
     """Return a function that runs git in a folder (`repo` below the temporary one) and returns what it says."""
-    (tmp_path / "repo").mkdir()
+    (tmp_path / "repo").mkdir(exist_ok=True)
 
     def run(*arguments: str, at: str = "repo", date: str = "") -> str:
-        dated = ["-c", "user.name=x"] if not date else []
         env = {"GIT_AUTHOR_DATE": date, "GIT_COMMITTER_DATE": date} if date else {}
-        import os
-
         done = subprocess.run(
-            ["git", *dated, *arguments],
+            ["git", *arguments],
             cwd=tmp_path / at,
             env=os.environ | env,
             capture_output=True,

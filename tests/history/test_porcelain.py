@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import Git  # type: ignore[import-not-found]
 
 from pico.diagnostics import PicoError
 from pico.history.repository import Repository
+
+Git = Callable[..., str]
 
 
 @pytest.fixture

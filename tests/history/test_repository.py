@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import Git  # type: ignore[import-not-found]
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.repository import Repository
+
+Git = Callable[..., str]
 
 
 def opened(root: Path) -> Repository:

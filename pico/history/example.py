@@ -1,0 +1,84 @@
+"""New laboratories: an example with its history, the same commits everywhere, or a skeleton to edit."""
+
+from __future__ import annotations
+
+import re
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.history.replay import replay
+from pico.history.repository import Repository
+from pico.history.skeleton import SKELETON
+from pico.resources import labs_dir
+
+GITIGNORE = "# what PICO keeps beside the manifests: the simulated table, the journal, locks\n.pico/\n"
+_HISTORY = "history.yaml"
+_AUTHOR = ("PICO example", "example@localhost")
+_BEGIN = datetime(2026, 1, 5, 9, 0, tzinfo=UTC)
+
+
+def example_names() -> tuple[str, ...]:
+    """Return the names of the packaged example labs, sorted."""
+    return tuple(sorted(path.parent.name for path in labs_dir().glob(f"*/{_HISTORY}")))
+
+
+def make_example(name: str, folder: Path) -> Repository:
+    """Make a Git repository in `folder` with the history of an example lab, checked out, and return it.
+
+    Author, dates and therefore commit ids are the same everywhere; nobody's identity is needed. Raises PicoError for
+    an unknown name, and where `folder` exists and is not empty.
+    """
+    import yaml
+
+    if name not in example_names():
+        hint = did_you_mean(name, example_names())
+        raise PicoError(error("unknown-example", f"there is no example `{name}`", hint=hint))
+    _make_folder(folder)
+    if any(folder.iterdir()):
+        raise PicoError(error("exists", f"{folder} is not empty", hint="name a new folder, or an empty one"))
+    source = labs_dir() / name
+    history = yaml.safe_load((source / _HISTORY).read_text(encoding="utf-8"))
+    repository = Repository.init(folder)
+    ids: dict[str, str] = {}
+    refs: dict[str, str] = {}
+    for number, step in enumerate(replay(history["commits"], _files(source))):
+        parents = [ids[step.follows]] if step.follows else []
+        time = _BEGIN + timedelta(hours=number)
+        ids[step.tag] = repository.write_commit(step.files, step.message, parents, author=_AUTHOR, time=time)
+        refs |= {f"refs/tags/{step.tag}": ids[step.tag], f"refs/heads/{step.branch}": ids[step.tag]}
+    repository.write_refs(refs, head=history["head"])
+    return repository
+
+
+def init_empty(folder: Path) -> Repository:
+    """Write the skeleton of a lab into `folder`, inside a new Git repository unless it lies in one, and return that.
+
+    Nothing is committed. Raises PicoError where a file would be overwritten.
+    """
+    name = re.sub(r"[^a-z0-9_]+", "_", folder.resolve().name.lower()).strip("_0123456789") or "lab"
+    for path in SKELETON:
+        if (folder / path).exists():
+            hint = "choose another folder, or edit what is there"
+            raise PicoError(error("exists", f"{folder / path} exists already", hint=hint))
+    _make_folder(folder)
+    repository = Repository.discover(folder) or Repository.init(folder)
+    ignored = {} if (folder / ".gitignore").exists() else {".gitignore": GITIGNORE}
+    for path, text in (SKELETON | ignored).items():
+        (folder / path).parent.mkdir(exist_ok=True)
+        (folder / path).write_text(text.replace("NAME", name), encoding="utf-8")
+    return repository
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as exc:
+        raise PicoError(error("folder", f"can't make the folder {folder}: {exc.strerror}")) from exc
+
+
+def _files(source: Path) -> dict[str, bytes]:
+    """Return the files of an example lab by path, as they are at HEAD of its repository."""
+    found = {p.relative_to(source).as_posix(): p.read_bytes() for p in sorted(source.rglob("*")) if p.is_file()}
+    del found[_HISTORY]
+    return found | {".gitignore": GITIGNORE.encode()}
