@@ -19,14 +19,14 @@ _PLACE = {"slot": 0, "pose": 1}
 _STEP = 2
 
 
-def format_text(text: str) -> str:
+def format_text(text: str, path: str = "manifest") -> str:
     """Return a manifest in its normal form: two spaces a level, components and tunables by name, one tunable a line.
 
     What the manifest says, its comments and its line ends stay. Text that is not PICO's is returned as it is. Raises
-    PicoError for text that is not valid YAML.
+    PicoError for text that is not valid YAML; its diagnostics name `path`.
     """
     content = text.removeprefix("\ufeff")
-    documents, found = parse(Source("manifest", content))
+    documents, found = parse(Source(path, content))
     if found:
         raise PicoError(found)
     if not documents or any(kind_of(d)[0] is None or not isinstance(d.root, Map) for d in documents):

@@ -1,4 +1,4 @@
-"""What is asked of a whole folder of manifests: is it valid, its normal form, which types it knows."""
+"""What is asked of a whole folder of manifests: is it valid, bring it into normal form, which types it knows."""
 
 from __future__ import annotations
 

@@ -41,42 +41,42 @@ class Layout:
         self.at = 0
 
     def entries(self, document: Document, *, spread: frozenset[str]) -> tuple[list[str], list[Entry]]:
-        """Return the comments above a document and its entries. Below the keys in `spread` nothing stays in flow style."""
+        """Return the comments above a document, and its entries; no mapping below a key of `spread` stays in flow."""
         root = document.root
         if not isinstance(root, Map):
             return [], []
         first = next(iter(root.entries.values()))[0].start if root.entries else root.end
         head = [line for _, line in self._gap(first)]
-        return head, self._map(root, spread, wide=root.flow)
+        return head, self._map(root, spread)
 
     def tail(self, entries: list[Entry], end: int) -> list[str]:
         """Return the comments below the last entry, as far as they don't belong to it."""
         gap = self._gap(end)
         return self._give_foot(entries, gap, 0)
 
-    def _map(self, node: Map, spread: frozenset[str], *, wide: bool) -> list[Entry]:
+    def _map(self, node: Map, spread: frozenset[str]) -> list[Entry]:
         entries: list[Entry] = []
         for name, (key, value) in node.entries.items():
             column = self._column(key.start)
             lead = self._lead(entries, key.start, column)
             entry = Entry(self.content[key.start : key.end], column, lead)
             self.at = key.end
-            self._fill(entry, value, frozenset({"*"}) if name in spread or "*" in spread else frozenset(), wide)
+            self._fill(entry, value, frozenset({"*"}) if name in spread or "*" in spread else frozenset())
             entries.append(entry)
         return entries
 
-    def _list(self, node: List, *, wide: bool) -> list[Entry]:
+    def _list(self, node: List) -> list[Entry]:
         entries: list[Entry] = []
         for item in node.items:
             dash = item.start if node.flow else self.content.rfind("-", 0, item.start + 1)
             column = self._column(dash)
             entry = Entry(None, column, self._lead(entries, item.start, column))
             self.at = item.start
-            self._fill(entry, item, frozenset(), wide)
+            self._fill(entry, item, frozenset())
             entries.append(entry)
         return entries
 
-    def _fill(self, entry: Entry, node: Node, spread: frozenset[str], wide: bool) -> None:
+    def _fill(self, entry: Entry, node: Node, spread: frozenset[str]) -> None:
         if isinstance(node, Scalar):
             entry.lead += [line for _, line in self._gap(max(node.start, self.at)) if line]
             entry.value = _scalar(self.content, node)
@@ -88,9 +88,9 @@ class Layout:
             self.at = node.end
             entry.trail = self._trail()
         else:
-            self._fill_block(entry, node, spread, wide)
+            self._fill_block(entry, node, spread)
 
-    def _fill_block(self, entry: Entry, node: Map | List, spread: frozenset[str], wide: bool) -> None:
+    def _fill_block(self, entry: Entry, node: Map | List, spread: frozenset[str]) -> None:
         if node.flow:
             entry.lead += [line for _, line in self._gap(node.start) if line]
             self.at = node.start + 1
@@ -98,25 +98,26 @@ class Layout:
             self.at = self.content.find(":", self.at, node.start) + 1 or self.at
         if entry.key is not None:
             entry.trail = self._trail()
-        entry.below = self._map(node, spread, wide=wide) if isinstance(node, Map) else self._list(node, wide=wide)
+        entry.below = self._map(node, spread) if isinstance(node, Map) else self._list(node)
         if node.flow:
             entry.below[-1].foot += [line for _, line in self._gap(node.end) if line]
             self.at = node.end
             trail = self._trail()
-            entry.foot += [trail.strip()] if trail else []
+            if entry.key is not None and not entry.trail:
+                entry.trail = trail
+            elif trail:
+                entry.foot.append(trail.strip())
 
     def _stays_flow(self, node: Map | List, spread: frozenset[str], entry: Entry) -> bool:
         text = self.content[node.start : node.end]
-        empty = not (node.entries if isinstance(node, Map) else node.items)
-        if empty:
+        if not (node.entries if isinstance(node, Map) else node.items):
             return "#" not in text
-        if ("*" in spread and isinstance(node, Map)) or any(
-            True for _ in comments(self.content, node.start, node.end, node)
-        ):
+        if "*" in spread and isinstance(node, Map):
             return False
-        return (
-            not _LINE.search(text) or entry.column + len(entry.key or "") + len(_flow(self.content, node)) + 4 <= WIDEST
-        )
+        if any(True for _ in comments(self.content, node.start, node.end, node)):
+            return False
+        width = entry.column + len(entry.key or "") + len(_flow(self.content, node)) + 4
+        return not _LINE.search(text) or width <= WIDEST
 
     def _lead(self, before: list[Entry], start: int, column: int) -> list[str]:
         gap = self._gap(start)
@@ -207,9 +208,7 @@ def _literal(node: Scalar, text: str) -> str:
     if not plain_header or not first or not lines[0].strip() or "\t" in first[: len(first) - len(first.lstrip())]:
         return json.dumps(node.text, ensure_ascii=False)
     indent = len(first) - len(first.lstrip(" "))
-    return "\n".join(
-        [header.rstrip(), *(line[indent:].rstrip() if not line.strip() else line[indent:] for line in lines)]
-    )
+    return "\n".join([header.rstrip(), *(line[indent:] if line.strip() else "" for line in lines)])
 
 
 def _flow(content: str, node: Node) -> str:
