@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import combinations
 
 from pico.model.lab import Setup
 from pico.model.observation import Observation
-from pico.motion.types import Blocked, Motion, MovePath
+from pico.motion.types import Motion
 from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Mover, Obstacle
 from pico.planning.order import arranged, precedence
 from pico.planning.paths import NoPath, Paths, find_paths
 from pico.planning.search import Configuration, Effort, Found, Step, search
+from pico.planning.shorten import shortened
 
 COMPLETE = 7
 """Up to so many movers nothing solvable is refused: the last search prunes nothing."""
@@ -61,7 +62,6 @@ class Problem:
     obstacles: tuple[Obstacle, ...]
     asides: tuple[Mover, ...]
     motion: Motion | None
-    expanded: int = field(default=0)
 
     def widened(self, names: frozenset[str]) -> Problem:
         """Return the problem in which these components may be moved aside."""
@@ -90,7 +90,8 @@ def attempt(problem: Problem) -> Solution | Refusal:
         found, core = hunt(table)
         if found.steps is None:
             return Refusal(table, core, found.closest, bool(core) or found.exhausted, tuple(blocked))
-        steps = arranged(problem.setup, table, found.steps, precedence(table, found.steps, {}))
+        steps = shortened(table, found.steps)
+        steps = arranged(problem.setup, table, steps, precedence(table, steps, {}))
         if problem.motion is None:
             return Solution(table, steps, None)
         paths = find_paths(table, steps, problem.seen, problem.motion)
@@ -114,17 +115,19 @@ def hunt(table: Conflicts) -> tuple[Found, tuple[int, ...]]:
         found = search(table, effort)
         if found.steps is not None:
             return found, ()
-    core = _core(table)
+    core = _core(table, found.closest)
     if not core and len(table.movers) <= COMPLETE:
         return search(table, EVERYTHING), ()
     return found, core
 
 
-def _core(table: Conflicts) -> tuple[int, ...]:
-    """Return two or three movers that can't get home even where all others are taken off the table."""
+def _core(table: Conflicts, closest: Configuration) -> tuple[int, ...]:
+    """Return two or three movers that can't get home even where all others are taken off the table. On a large table
+    threes are looked for only among those that the search did not bring home."""
     who = [i for i, m in enumerate(table.movers) if not m.right]
-    for size in (2, 3) if len(who) <= COMPLETE else (2,):
-        for group in combinations(who, size):
+    stuck = [i for i in who if closest[i] not in table.movers[i].finished]
+    for size, names in ((2, who), (3, who if len(who) <= COMPLETE else stuck[:12])):
+        for group in combinations(names, size):
             if _linked(table, group) and search(table, PROOF, group).exhausted:
                 return group
     return ()
@@ -181,8 +184,3 @@ def _finger_reach(table: Conflicts, mover: Mover) -> float:
         if fingers != "none":
             reaches.append(grasp.width / 2 + fingers.opening + fingers.thickness + fingers.breadth / 2)
     return max(reaches)
-
-
-def seconds_of(path: MovePath | Blocked | None, nominal: float) -> float:
-    """Return how long a path takes [s], or the nominal time where there is none."""
-    return path.seconds if isinstance(path, MovePath) else nominal

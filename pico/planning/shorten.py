@@ -1,0 +1,52 @@
+"""Leaves out moves that an order of moves can do without: what a greedy search put down too early."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from pico.planning.conflicts import Conflicts
+from pico.planning.search import Step
+
+
+def shortened(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Return the steps without those that can be merged with the next of the same component, or left out where they
+    bring it back to where it was, as long as every remaining move stays possible."""
+    best = tuple(steps)
+    while True:
+        better = next((b for b in (valid(table, c) for c in _shorter(table, best)) if b is not None), None)
+        if better is None:
+            return best
+        best = better
+
+
+def _shorter(table: Conflicts, steps: tuple[Step, ...]) -> Iterator[tuple[Step, ...]]:
+    """Yield the steps with two consecutive moves of one component replaced by one, early or late, or by none."""
+    for first, step in enumerate(steps):
+        later = next((k for k in range(first + 1, len(steps)) if steps[k].mover == step.mover), None)
+        if later is None:
+            continue
+        before, between, after = steps[:first], steps[first + 1 : later], steps[later + 1 :]
+        end = steps[later].goal
+        mover = table.movers[step.mover]
+        if end == step.start or (mover.right and step.start == 0 and end in mover.goals):
+            yield (*before, *between, *after)
+        if end != step.start:
+            merged = Step(step.mover, step.start, end, step.hold, 0)
+            yield (*before, merged, *between, *after)
+            yield (*before, *between, merged, *after)
+
+
+def valid(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...] | None:
+    """Return the steps with holds and masks that are possible one after the other, or None where one is not."""
+    places = [0] * len(table.movers)
+    out = []
+    for step in steps:
+        taken = 0
+        for j, place in enumerate(places):
+            taken |= table.bit(j, place)
+        way = table.way(step.mover, places[step.mover], step.goal, taken)
+        if way is None or places[step.mover] != step.start:
+            return None
+        out.append(Step(step.mover, step.start, step.goal, way.hold, way.mask))
+        places[step.mover] = step.goal
+    return tuple(out)
