@@ -97,7 +97,7 @@ class World:
         faults = [
             f"{name} at {pose} is {gap:.6f} mm from {other}"
             for other, standing, _ in self.others(name)
-            if (gap := shape.gap(standing)) < max(lab.margins.body - EPSILON, 0.0)
+            if (gap := shape.gap(standing)) <= max(lab.margins.body - EPSILON, 0.0)
         ]
         faults += self._off_table(name, shape)
         for zone, keep_out in lab.keep_out.items():
@@ -136,7 +136,7 @@ class World:
             for other, standing, height in self.others(name)
             if height > lowest
             for zone in zones
-            if (gap := zone.gap(standing)) < enough
+            if (gap := zone.gap(standing)) <= enough
         ]
         for zone_name, keep_out in lab.keep_out.items():
             if keep_out.z[1] >= lowest and any(_zone(keep_out.area).gap(z) <= 0 for z in zones):
