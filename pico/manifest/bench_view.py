@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
+from pico.manifest.kinds import NAME
 from pico.manifest.tree import Document, Map, Scalar
 from pico.model.catalog import Catalog, ComponentType
 from pico.model.lab import Setup
@@ -35,9 +36,14 @@ def view_of(setup: Setup) -> BenchView:
     )
 
 
-def view_of_broken(document: Document, catalog: Catalog) -> BenchView:
-    """Return what can be told of a bench whose Lab document has errors, so that its states are checked all the same."""
+def view_of_broken(document: Document, catalog: Catalog) -> BenchView | None:
+    """Return what can be told of a bench whose Lab document has errors, so that its states are checked all the same.
+
+    None where not even its inventory can be read.
+    """
     root = document.root
+    if not isinstance(root, Map) or not isinstance(root.get("inventory"), Map):
+        return None
     metadata, inventory = _map(root, "metadata"), _map(root, "inventory")
     kinds: dict[str, ComponentType | None] = {}
     fixed, homes = set(), {}
@@ -49,7 +55,8 @@ def view_of_broken(document: Document, catalog: Catalog) -> BenchView:
         else:
             homes[name] = home
     slots = _map(root, "slots").entries.keys()
-    return BenchView(_text(metadata, "name"), kinds, fixed, homes, slots)
+    name = _text(metadata, "name")
+    return BenchView(name if name and NAME.fullmatch(name) else None, kinds, fixed, homes, slots)
 
 
 def type_names(document: Document) -> set[str]:

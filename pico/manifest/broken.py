@@ -58,7 +58,9 @@ def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:
     summary, hint = _meaning(source, index, problem)
     opened = getattr(exc, "context_mark", None)
     detail = ""
-    if opened is not None and mark is not None and opened.line != mark.line:
+    if opened is not None and index >= len(source.content.rstrip()):
+        index = opened.index  # what never ends is shown where it begins, not at the end of the file
+    elif opened is not None and mark is not None and opened.line != mark.line:
         detail = f"it began in line {opened.line + 1}"
     return error("yaml", summary, detail=detail, hint=hint, label=problem, source=source.range(index))
 
@@ -68,7 +70,7 @@ def _meaning(source: Source, index: int, problem: str) -> tuple[str, str]:
     if "cannot start any token" in problem:
         if character == "\t":
             return "a tab in the indentation", "indent with spaces"
-        return f"`{character}` can't begin a value", "put the value in quotes"
+        return f"the character {character} can't begin a value", "put the value in quotes"
     for said, summary, hint in _MEANINGS:
         if said in problem:
             return summary, hint

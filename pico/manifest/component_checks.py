@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from pico.diagnostics import Diagnostic, error
-from pico.manifest.names import check_names
+from pico.manifest.names import check_names, check_own_name
 from pico.manifest.places import where, where_key
 from pico.manifest.tree import Document
 from pico.model.catalog import Body, ComponentType, Footprint, Tunable
@@ -21,7 +21,8 @@ _OVERHANG = 1.0  # mm that a housing may reach beyond its footprint: rounded cor
 
 def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
     """Return what is wrong with a component type, each at its place in the document."""
-    found = [d for part in ("parameters", "tunables", "measurables") for d in check_names(document, part)]
+    found = check_own_name(document)
+    found += [d for part in ("parameters", "tunables", "measurables") for d in check_names(document, part)]
     for name, tunable in kind.tunables.items():
         found += _tunable(document, name, tunable)
     if kind.pose.mover == "arm" and kind.seating != "bolted" and kind.geometry.grasp:

@@ -46,6 +46,10 @@ def _foreign(document: Document, root: Map, api: Node | None) -> list[Diagnostic
     meant = isinstance(api, Scalar) and "pico" in api.text.lower()
     if not (named or meant or any(key.lower() in _OURS and key != "apiVersion" for key in root.entries)):
         return []
+    near = [at for key, (at, _) in root.entries.items() if did_you_mean(key[:40], ["apiVersion"]).startswith("did")]
+    if api is None and near:
+        hint = "did you mean `apiVersion`?"
+        return [_at(document.source, near[0], "unknown-key", f"unknown key `{near[0].text[:40]}`", hint)]
     if api is None:
         return [
             _at(document.source, root, "api-version", "`apiVersion` is missing", f"begin the file with `{_HEADER}`")
@@ -58,7 +62,7 @@ def _declared(document: Document, root: Map) -> tuple[Kind | None, list[Diagnost
     if node is None:
         hint = "add `kind: LabState` (or `Lab`, `ComponentType`)"
         return None, [_at(source, root, "kind", "`kind` is missing", hint)]
-    text = node.text if isinstance(node, Scalar) else ""
+    text = node.text if isinstance(node, Scalar) else "[...]"
     if text in READ_ELSEWHERE:
         return None, []
     for kind in KINDS:

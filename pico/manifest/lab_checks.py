@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
-from pico.manifest.names import check_name, check_names
-from pico.manifest.places import find, where, where_key
-from pico.manifest.tree import Document, Scalar
+from pico.manifest.names import check_names, check_own_name
+from pico.manifest.places import where, where_key
+from pico.manifest.tree import Document
 from pico.model.catalog import ComponentType
 from pico.model.lab import Fingers, Lab, Robot, Setup
 
@@ -42,11 +42,7 @@ def check_setup(document: Document, setup: Setup) -> list[Diagnostic]:
 def _names(document: Document) -> list[Diagnostic]:
     found = [d for key in ("inventory", "robots", "cameras", "datums", "keep_out") for d in check_names(document, key)]
     found += [d for key in ("slots", "regions") for d in check_names(document, key, parts=True)]
-    name = find(document, "metadata", "name")
-    if name and isinstance(name[1], Scalar):
-        wrong = check_name(document, name[1])
-        found += [wrong] if wrong else []
-    return found
+    return found + check_own_name(document)
 
 
 def _homes(document: Document, lab: Lab) -> Iterator[Diagnostic]:
@@ -97,6 +93,8 @@ def _markers(document: Document, lab: Lab) -> Iterator[Diagnostic]:
 
 def _on_table(document: Document, lab: Lab) -> Iterator[Diagnostic]:
     width, depth = lab.table.size
+    if width <= 0 or depth <= 0:
+        return  # said by itself
     places: list[tuple[str, tuple[str, ...], float, float]] = []
     places += [(f"slot {n}", ("slots", n), s.x, s.y) for n, s in lab.slots.items()]
     places += [(n, ("inventory", n, "pose"), p.pose.x, p.pose.y) for n, p in lab.inventory.items() if p.pose]
@@ -129,7 +127,7 @@ def _ranges(document: Document, lab: Lab) -> Iterator[Diagnostic]:
     positive += [(("slots", n, "capture"), s.capture) for n, s in lab.slots.items()]
     for place, value in positive:
         if value <= 0:
-            words = ".".join(str(p) for p in place)
+            words = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in place)[1:]
             yield error("value", f"{words} is {value:g}", hint="expected above zero", source=where(document, *place))
     for name, robot in lab.robots.items():
         if not 0 < robot.speed <= 1:

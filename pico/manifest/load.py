@@ -128,7 +128,7 @@ def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str,
 def _bench(
     documents: Mapping[str, list[Document]], found: list[Diagnostic], root: str
 ) -> tuple[Setup | None, BenchView | None]:
-    own = _own_types(documents["ComponentType"], found)
+    own, wrong_ones = _own_types(documents["ComponentType"], found)
     if not documents["Lab"]:
         if not found:
             hint = f"add lab.yaml with `kind: Lab`; {_NO_LAB}"
@@ -140,11 +140,11 @@ def _bench(
         hint = "a lab is one folder: remove one of the two, or run in the folder of the one you mean"
         found.append(error("duplicate", "a second Lab", detail=detail, hint=hint, source=where(other, "kind")))
     lab, wrong = read_record(document, "Lab", Lab)
-    catalog = _types(document, own, wrong)
+    catalog = _types(document, own, wrong_ones, wrong)
     if lab:
         wrong += check_lab(document, lab)
     found.extend(wrong)
-    if lab is None or wrong:
+    if lab is None or wrong or any(part.type not in catalog for part in lab.inventory.values()):
         return None, view_of_broken(document, catalog)
     setup = Setup(lab=lab, catalog=catalog)
     misfits = check_setup(document, setup)
@@ -152,13 +152,17 @@ def _bench(
     return (None if misfits else setup), view_of(setup)
 
 
-def _own_types(documents: list[Document], found: list[Diagnostic]) -> dict[str, ComponentType]:
+def _own_types(documents: list[Document], found: list[Diagnostic]) -> tuple[dict[str, ComponentType], set[str]]:
+    """Return a lab's own types by name, and the names of those that are wrong."""
     own: dict[str, ComponentType] = {}
+    wrong_ones: set[str] = set()
     first: dict[str, Document] = {}
     for document in documents:
         kind, wrong = read_type(document)
         found.extend(wrong)
         if kind is None:
+            name = find(document, "metadata", "name")
+            wrong_ones |= {name[1].text} if name and isinstance(name[1], Scalar) else set()
             continue
         at = where(document, "metadata", "name")
         if kind.name in first:
@@ -171,13 +175,15 @@ def _own_types(documents: list[Document], found: list[Diagnostic]) -> dict[str, 
             found.append(_placed(both(kind.name), at))
         first.setdefault(kind.name, document)
         own.setdefault(kind.name, kind)
-    return own
+    return own, wrong_ones
 
 
-def _types(document: Document, own: Mapping[str, ComponentType], found: list[Diagnostic]) -> dict[str, ComponentType]:
+def _types(
+    document: Document, own: Mapping[str, ComponentType], wrong_ones: set[str], found: list[Diagnostic]
+) -> dict[str, ComponentType]:
     catalog = dict(own)
     used = type_names(document)
-    for name in sorted(used - own.keys()):
+    for name in sorted(used - own.keys() - wrong_ones):
         try:
             catalog[name] = packaged_type(name)
         except PicoError as exc:

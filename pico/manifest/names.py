@@ -27,6 +27,13 @@ def check_names(document: Document, *path: str, parts: bool = False) -> list[Dia
     return [d for key, _ in found[1].entries.values() if (d := check_name(document, key, parts=parts))]
 
 
+def check_own_name(document: Document) -> list[Diagnostic]:
+    """Return what is wrong with the name that a document's metadata give it."""
+    found = find(document, "metadata", "name")
+    wrong = check_name(document, found[1]) if found and isinstance(found[1], Scalar) else None
+    return [wrong] if wrong else []
+
+
 def check_name(document: Document, node: Scalar, *, parts: bool = False) -> Diagnostic | None:
     """Return what is wrong with a name that stands in a document, or None."""
     problem = name_problem(node.text, path=parts)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pico.diagnostics import Diagnostic, did_you_mean, error
 from pico.manifest.kinds import METADATA
+from pico.manifest.scalars import resolve
 from pico.manifest.tree import Document, List, Map, Node, Scalar, plain, scalars
 from pico.manifest.wording import describe, expected_quantity, fields_of, inside, options, quantity, shown, unit_of
 
@@ -131,6 +132,8 @@ class _Translation:
 
     def _say(self, place: _Place, found: Any) -> Diagnostic:
         name = place.words or f"the {self.kind}"
+        if found["type"] == "missing" and isinstance(place.node, List):
+            found = {"type": "too_short"}  # pydantic calls each item that a list lacks a missing one
         if found["type"] == "missing":
             return self._missing(name, place, str(found["loc"][-1]))
         if found["type"] == "unexpected_keyword_argument":
@@ -146,16 +149,18 @@ class _Translation:
         summary = f"{name} is {shown(plain(place.node))}"
         if isinstance(place.node, Scalar) and place.node.value is None:
             return self._at(place.key, "type", summary, hint=f"expected {describe(place.kind)}")
-        hint = f"expected {describe(place.kind)}"
+        hint = f"expected {describe(place.kind)}" + _quotes(place)
         if found["type"] == "literal_error" and isinstance(place.node, Scalar):
             near = did_you_mean(place.node.text[:40], _literals(place.kind))
             hint = near if near.startswith("did") else hint
         return self._at(place.node, "type", summary, hint=hint)
 
     def _missing(self, name: str, place: _Place, field: str) -> Diagnostic:
-        where = "metadata" if place.node is self.document.root and field in METADATA[self.kind] else name
         hint = f"expected `{field}:` {describe(fields_of(place.kind).get(field, Any))}"
-        return self._at(place.key, "missing-key", f"{where} has no `{field}`", hint=hint)
+        metadata = self.document.root.entries.get("metadata") if isinstance(self.document.root, Map) else None
+        if place.node is self.document.root and field in METADATA[self.kind] and metadata:
+            return self._at(metadata[0], "missing-key", f"metadata has no `{field}`", hint=hint)
+        return self._at(place.key, "missing-key", f"{name} has no `{field}`", hint=hint)
 
     def _unknown(self, name: str, place: _Place, key: str) -> Diagnostic:
         at = place.node.entries[key][0] if isinstance(place.node, Map) and key in place.node.entries else place.key
@@ -170,6 +175,18 @@ class _Translation:
             node = next(iter(node.entries.values()))[0]
         where = self.document.source.range(node.start, node.end)
         return error(code, summary, hint=hint, label=label, source=where)
+
+
+def _quotes(place: _Place) -> str:
+    """What to say of a value whose quotes are wrong: numbers have none, text that looks like a number needs them."""
+    node, wanted = place.node, options(place.kind)
+    if not isinstance(node, Scalar):
+        return ""
+    if str in wanted and not isinstance(node.value, str) and node.value is not None:
+        return f': put it in quotes, "{node.text[:40]}"'
+    if node.style and not isinstance(resolve(node.text), str) and str not in wanted:
+        return ", without quotes"
+    return ""
 
 
 def _literals(kind: Any) -> list[str]:

@@ -10,7 +10,7 @@ from functools import cached_property
 from pico.diagnostics import Position, SourceRange
 
 _BREAK = re.compile(r"\r\n|\n|\r")
-_UNPRINTABLE = re.compile(r"[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_UNPRINTABLE = re.compile(r"[^\x20-\x7e\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _LONGEST_SNIPPET = 200
 
 
@@ -42,5 +42,6 @@ class Source:
         stop = max(start + 1, end if end is not None else start + 1)
         line_end = self._starts[first.line] if first.line < len(self._starts) else len(self.content) + 1
         broken = self.content[start : min(stop, line_end)].rstrip(" \r\n")
-        last = Position(first.line, first.column + max(1, len(broken)))
-        return SourceRange(self.path, first, last, self.line(first.line))
+        snippet = self.line(first.line)
+        width = max(1, len(broken)) if snippet else 1
+        return SourceRange(self.path, first, Position(first.line, first.column + width), snippet)

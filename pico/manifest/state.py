@@ -89,7 +89,7 @@ class _Reader:
         if value is None:
             where_ = where_key(document, "metadata")
             self.found.append(error("missing-key", "metadata has no `lab`", hint=hint, source=where_))
-        elif not isinstance(value, Scalar) or not text:
+        elif not isinstance(value, Scalar) or not isinstance(value.value, str) or not text:
             self._error(document, value, "type", "`metadata.lab` is not a name", hint)
         elif self.view.lab is not None and text != self.view.lab:
             summary = f"this state is of lab `{text[:40]}`, the bench here is `{self.view.lab}`"
@@ -151,8 +151,10 @@ class _Reader:
             self._error(document, node, "slot", summary, "give its `pose`, or leave it out", name)
         elif not isinstance(node, Scalar) or text not in self.view.slots:
             hint = did_you_mean(text[:40], self.view.slots) or "the slots are listed under `slots:` in lab.yaml"
-            said = shown(node.text or None) if isinstance(node, Scalar) else shown(plain(node))
-            self._error(document, node, "unknown-slot", f"{name}: there is no slot {said}", hint, f"{name}.slot")
+            said = (
+                f"there is no slot {shown(text)}" if isinstance(plain(node), str) else f"slot is {shown(plain(node))}"
+            )
+            self._error(document, node, "unknown-slot", f"{name}: {said}", hint, f"{name}.slot")
         else:
             return text
         return None
@@ -182,7 +184,14 @@ class _Reader:
             if math.isfinite(number):
                 numbers[axis] = float(number)
             else:
-                self._error(document, value, "type", f"{axis} of {name} is no finite number", f"expected {unit}", name)
+                self._error(
+                    document,
+                    value,
+                    "type",
+                    f"{axis} of {name} is no finite number",
+                    f"expected a number in {unit}",
+                    name,
+                )
         for other, (at, _) in node.entries.items():
             if other not in ("x", "y", "yaw"):
                 hint = did_you_mean(other[:40], ("x", "y", "yaw"))
@@ -223,7 +232,11 @@ class _Reader:
         return values
 
     def _tunables(self, key: str, known: Iterable[str]) -> str:
-        return did_you_mean(key, ["slot", "pose", *known])
+        near = did_you_mean(key, known)
+        place = did_you_mean(key, ("slot", "pose"))
+        if near.startswith("did") or not place.startswith("did"):
+            return near or "this type has none: only `slot` or `pose`"
+        return place
 
     def _expect(self, document: Document, node: Node | None) -> None:
         example = 'expected a list of `{that: "cam.peak > 200", message: ...}`'

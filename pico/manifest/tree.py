@@ -180,7 +180,11 @@ class _Builder:
             return "str"
         name = event.tag.removeprefix(_CORE)
         if name not in _TAGS:
-            self._refuse(event, f"the tag `{_shown(event.tag)}` is not allowed in a manifest", "remove the tag")
+            self._refuse(
+                event,
+                f"the tag `{_shown(event.tag)}` is not allowed in a manifest",
+                "remove the tag",
+            )
         if name != "str" and not isinstance(resolve(event.value), _TAGS[name]):
             self._refuse(event, f"`{_shown(event.value)}` is not what its tag `!!{name}` says", "remove the tag")
         return str(name)
@@ -189,7 +193,11 @@ class _Builder:
         if event.anchor is not None:
             self._refuse_anchor(event)
         if event.tag is not None and event.tag not in (_CORE + "map", _CORE + "seq", "!"):
-            self._refuse(event, f"the tag `{_shown(event.tag)}` is not allowed in a manifest", "remove the tag")
+            self._refuse(
+                event,
+                f"the tag `{_shown(event.tag)}` is not allowed in a manifest",
+                "remove the tag",
+            )
         if len(self.open) >= MAX_DEPTH:
             self._refuse(event, f"nested deeper than {MAX_DEPTH} levels", "a manifest needs about six")
         self._add(node)
@@ -253,4 +261,5 @@ class _Builder:
 
 
 def _shown(text: str) -> str:
+    text = text.replace(_CORE, "!!")
     return text if len(text) <= 40 else text[:37] + "..."

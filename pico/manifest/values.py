@@ -68,6 +68,11 @@ def _not_bool(source: Source, component: str, name: str, node: Node) -> Diagnost
     text = node.text if isinstance(node, Scalar) else ""
     meant = _YES.get(text.lower())
     label = f"did you mean `{meant}`?" if meant else "expected `true` or `false`"
+    if text in ("true", "false"):
+        text, label = f'"{text}"', f"expected {text} without quotes"
+        return _wrong(
+            source, node, "type", f"{name} of {component} is the text {text}", label, "", f"{component}.{name}"
+        )
     summary = f"{name} of {component} is {shown(plain(node))}, not `true` or `false`"
     return _wrong(source, node, "type", summary, label, "", f"{component}.{name}")
 
