@@ -1,0 +1,134 @@
+"""The example labs: no word about their manifests, parts that stand clear of one another, within reach, to be gripped."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import shapely
+from shapely import affinity
+
+from pico.history.example import example_names, make_example
+from pico.manifest.load import load_files, load_folder
+from pico.model.lab import Fingers, Setup
+from pico.model.observation import Observation, ObservedComponent, ObservedValue
+from pico.model.plan import Base, Plan, Target
+from pico.model.pose import Pose
+from pico.model.state import LabState, home_state, place_of
+from pico.motion.arms import ArmMotion
+from pico.planning import plan
+from pico.resources import labs_dir
+
+Example = tuple[Setup, dict[str, LabState]]
+
+
+@pytest.fixture(scope="module", params=example_names())
+def example(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Example:
+    return read(request.param, tmp_path_factory.mktemp(request.param))
+
+
+def read(name: str, folder: Path) -> Example:
+    """The bench of an example, and its states by tag, with the one where all is at home."""
+    repository = make_example(name, folder)
+    setup, _ = load_folder(folder).require()
+    states = {"home": home_state(setup)}
+    for commit in repository.log(repository.tips()):
+        states[commit.label] = load_files(repository.files(commit.id), setup=setup).require()[1]
+    return setup, states
+
+
+def test_there_are_three_and_they_load_without_a_word() -> None:
+    assert example_names() == ("crowded", "minimal", "shel")
+    sizes = {}
+    for name in example_names():
+        manifests = load_folder(labs_dir() / name)
+        assert manifests.diagnostics == () and manifests.setup
+        sizes[name] = len(manifests.setup.lab.inventory)
+    assert sizes == {"crowded": 30, "minimal": 3, "shel": 9}
+
+
+def standing(setup: Setup, state: LabState) -> dict[str, tuple[Pose, shapely.Geometry]]:
+    return {name: (place_of(setup, state, name)[1], outline(setup, state, name)) for name in setup.lab.inventory}
+
+
+def outline(setup: Setup, state: LabState, name: str) -> shapely.Geometry:
+    footprint, pose = setup.type_of(name).geometry.footprint, place_of(setup, state, name)[1]
+    shape = shapely.Point(0, 0).buffer(footprint.disc) if footprint.disc else shapely.Polygon(footprint.vertices)
+    return at(shape, pose)
+
+
+def at(shape: shapely.Geometry, pose: Pose, yaw: float = 0) -> shapely.Geometry:
+    return affinity.translate(affinity.rotate(shape, pose.yaw + yaw, origin=(0, 0)), pose.x, pose.y)
+
+
+def open_fingers(width: float, pose: Pose, yaw: float) -> Iterator[shapely.Geometry]:
+    fingers = Fingers()
+    near, far, half = width / 2, width / 2 + fingers.opening + fingers.thickness, fingers.breadth / 2
+    for box in (shapely.box(near, -half, far, half), shapely.box(-far, -half, -near, half)):
+        yield at(box, pose, yaw)
+
+
+def test_in_every_state_parts_stand_clear_of_one_another_and_can_be_gripped(example: Example) -> None:
+    setup, states = example
+    for tag, state in states.items():
+        parts = standing(setup, state)
+        for (a, (_, one)), (b, (_, other)) in itertools.combinations(parts.items(), 2):
+            assert one.distance(other) >= setup.lab.margins.body, (tag, a, b)
+        for name, (pose, _) in parts.items():
+            if setup.movable(name):
+                grasp = setup.type_of(name).geometry.grasp
+                assert grasp is not None
+                others = shapely.union_all([shape for other, (_, shape) in parts.items() if other != name])
+                assert any(
+                    all(
+                        finger.distance(others) >= setup.lab.margins.fingers
+                        for finger in open_fingers(grasp.width, pose, y)
+                    )
+                    for y in grasp.yaws
+                ), (tag, name)
+
+
+def test_the_arm_reaches_every_slot_and_every_place(example: Example) -> None:
+    setup, states = example
+    motion, mount = ArmMotion(setup), setup.lab.robots["arm1"].mount
+    movable = [name for name in setup.lab.inventory if setup.movable(name)]
+    places = {(name, place_of(setup, state, name)[1]) for state in states.values() for name in movable}
+    places |= {(movable[0], slot.pose) for slot in setup.lab.slots.values()}
+    for name, pose in places:
+        assert 300 <= math.hypot(pose.x - mount.x, pose.y - mount.y) <= 660, (name, pose)
+        grasp = setup.type_of(name).geometry.grasp
+        assert grasp is not None
+        assert all(motion.reach("arm1", name, pose, yaw) is None for yaw in grasp.yaws), (name, pose)
+
+
+def planned(setup: Setup, motion: ArmMotion, a: LabState, b: LabState) -> Plan:
+    seen = {}
+    for name in setup.lab.inventory:
+        part = a.components.get(name)
+        values = {k: ObservedValue(value=v) for k, v in part.values.items()} if part else {}
+        seen[name] = ObservedComponent(pose=place_of(setup, a, name)[1], values=values)
+    live = Observation(backend="sim", components=seen)
+    return plan(setup, live, b, motion=motion, backend="sim", fidelity="kinematic", base=Base(), target=Target())
+
+
+@pytest.mark.parametrize("name", ["minimal", "shel"])
+def test_every_state_can_be_reached_from_every_other(name: str, tmp_path: Path) -> None:
+    setup, states = read(name, tmp_path)
+    motion = ArmMotion(setup)
+    for (a, one), (b, other) in itertools.permutations(states.items(), 2):
+        found = planned(setup, motion, one, other)
+        assert not found.errored, (a, b, [d.summary for d in found.diagnostics])
+        assert found.staging.count == 0, (a, b)
+
+
+@pytest.mark.slow
+def test_crowded_can_be_planned_along_its_history_and_needs_staging(tmp_path: Path) -> None:
+    setup, states = read("crowded", tmp_path)
+    motion = ArmMotion(setup)
+    steps = [("stored", "packed"), ("packed", "swapped"), ("swapped", "exchanged"), ("swapped", "tilted")]
+    plans = {(a, b): planned(setup, motion, states[a], states[b]) for a, b in steps}
+    assert not any(found.errored for found in plans.values())
+    assert plans["packed", "swapped"].staging.count >= 3  # rings of two, three and four cost a stop each
