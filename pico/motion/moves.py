@@ -20,6 +20,8 @@ STRAIGHT_TRIES = 12
 """Pairs of postures tried with straight swings only."""
 DETOUR_TRIES = 4
 """Pairs tried with ways around after that."""
+TRANSIT_DIP = 0.5
+"""No swing comes lower than this below the transit height [mm]."""
 _TOUCHING = -1.0
 """Gap [mm] down to which a part that is lifted may seem to overlap a neighbor: parts that touch, seen with error."""
 _JAW_GAP = 1.0

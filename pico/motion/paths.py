@@ -8,7 +8,7 @@ comes lower than its lower end.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -30,22 +30,27 @@ _RAISED = (0.0, 60.0, 120.0)  # mm above the transit height, for the same
 
 
 def swing(scene: Scene, start: Joints, end: Joints) -> Hit | None:
-    """Return the first hit on the straight line in joint space, or None where it is clear.
+    """Return the worst hit on the straight line in joint space, or None where it is clear.
 
     Looks are at most STEP and TRAVEL apart, so that without anything near nothing can be passed unseen; where
     something is near, the line is halved until the distances seen at both ends cover the way between them.
     """
     way = travel(start, end)
     count = max(1, math.ceil(max(abs(b - a) for a, b in zip(start, end, strict=True)) / STEP), math.ceil(way / TRAVEL))
-    gap, hit = scene.look(start)
+    gap, worst = scene.look(start)
     for i in range(1, count + 1):
-        if hit is not None:
-            return hit
         before = gap
         gap, hit = scene.look(between(start, end, i / count))
-        if hit is None and before + gap < way / count:
+        if hit is None and worst is None and before + gap < way / count:
             hit = _refine(scene, start, end, ((i - 1) / count, i / count), (before, gap), way)
-    return hit
+        worst = _worse(worst, hit)
+    return worst
+
+
+def _worse(one: Hit | None, other: Hit | None) -> Hit | None:
+    if one is None or other is None:
+        return one or other
+    return other if other.missing > one.missing else one
 
 
 def _refine(
@@ -85,18 +90,17 @@ def heights(low: float, high: float) -> list[float]:
 
 
 def plumb(scene: Scene, column: Column, low: float, high: float) -> Hit | None:
-    """Return the first hit on the vertical from `high` down to `low` [mm], or None where it is clear.
+    """Return the worst hit on the vertical from `high` down to `low` [mm], or None where it is clear.
 
     The hand only shifts along z, and nothing of it is less tall than a step, so that it can't pass anything unseen.
     """
+    worst = None
     for z in heights(low, high):
         joints = column.at(z)
         if joints is None:
             raise ValueError("plumb needs a column that is within limits all the way; see `usable`")
-        _, hit = scene.look(joints)
-        if hit is not None:
-            return hit
-    return None
+        worst = _worse(worst, scene.look(joints)[1])
+    return worst
 
 
 def usable(column: Column, low: float, high: float) -> bool:
@@ -146,11 +150,6 @@ def _folded(column: Column, reach: float | None, height: float) -> Joints | None
     if reach is None:
         return column.at(height)
     return replace(column, reach=math.copysign(min(reach, abs(column.reach)), column.reach)).at(height)
-
-
-def nearest(columns: Sequence[Column], key: Callable[[Column], float]) -> list[Column]:
-    """Return `columns` by `key`, equal ones in the order given."""
-    return sorted(columns, key=lambda column: round(key(column), 9))
 
 
 def distance(start: Joints, end: Joints) -> float:
