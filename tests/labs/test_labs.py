@@ -1,4 +1,4 @@
-"""The example labs: no word about their manifests, parts that stand clear of one another, within reach, to be gripped."""
+"""The example labs: manifests without a fault, parts clear of one another, within reach, and free to be gripped."""
 
 from __future__ import annotations
 
