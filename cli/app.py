@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import copy
-import os
 import sys
 import traceback
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,13 +17,13 @@ from .commands import register
 from .session import Session
 from .summary import COMMANDS
 
-SHARED = ("folder", "json", "debug", "backend")
+PREFIX = "session_"  # so that a command may have an argument called `folder` of its own
 
 
 def _remember(context: typer.Context, parameter: typer.CallbackParam, value: Any) -> Any:
     """Keep an option that was given, before or after the command's name; the later one wins."""
     if value is not None and value is not False:
-        context.meta.setdefault("pico.session", {})[parameter.name] = value
+        context.meta.setdefault("pico.session", {})[str(parameter.name).removeprefix(PREFIX)] = value
     return value
 
 
@@ -36,14 +36,14 @@ def _version(value: bool) -> None:
 
 
 def root(
-    folder: Annotated[
+    session_folder: Annotated[
         Path | None, typer.Option("-C", metavar="DIR", help="Work as if started in DIR.", callback=_remember)
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Answer with JSON.", callback=_remember)] = False,
-    debug: Annotated[
+    session_json: Annotated[bool, typer.Option("--json", help="Answer with JSON.", callback=_remember)] = False,
+    session_debug: Annotated[
         bool, typer.Option("--debug", help="Show the traceback of an internal error.", callback=_remember)
     ] = False,
-    backend: Annotated[
+    session_backend: Annotated[
         str | None,
         typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=_remember),
     ] = None,
@@ -52,17 +52,24 @@ def root(
     """Version control for the optical table."""
 
 
-def build() -> Any:
-    """Return the command line as a command group."""
+def build(words: Sequence[str]) -> Any:
+    """Return the command line as a command group; the command that `words` ask for is complete, others are names."""
     app = typer.Typer(
         name="pico", rich_markup_mode=None, pretty_exceptions_enable=False, no_args_is_help=True, add_completion=False
     )
     app.callback()(root)
-    register(app)
+    register(app, asked(words))
     group = typer.main.get_command(app)
-    shared = [_hidden_from_function(p) for p in group.params if p.name in SHARED]
+    shared = [_hidden_from_function(p) for p in group.params if p.name.startswith(PREFIX)]
     _share(group, shared)
     return group
+
+
+def asked(words: Sequence[str]) -> str | None:
+    """Return the command that `words` begin with, after options."""
+    values = ("-C", "--backend")
+    names = [w for i, w in enumerate(words) if not w.startswith("-") and (i == 0 or words[i - 1] not in values)]
+    return names[0] if names and names[0] in COMMANDS else None
 
 
 def _hidden_from_function(option: Any) -> Any:
@@ -83,12 +90,8 @@ def _share(group: Any, options: list[Any]) -> None:
 def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
     session = Session(json="--json" in words, debug="--debug" in words)
-    if "_PICO_COMPLETE" in os.environ:
-        from typer.completion import completion_init
-
-        completion_init()
     try:
-        code = build().main(args=words, prog_name="pico", complete_var="_PICO_COMPLETE", standalone_mode=False)
+        code = build(words).main(args=words, prog_name="pico", standalone_mode=False)
     except (Exception, KeyboardInterrupt) as exc:
         found, code = _explain(exc, words)
         if session.debug:

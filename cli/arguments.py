@@ -7,20 +7,14 @@ from typing import Annotated
 
 import typer
 
-from .complete import components, revisions, revisions_or_files
-
-Component = Annotated[
-    str, typer.Argument(metavar="COMPONENT", help="A component of the inventory.", autocompletion=components)
-]
+Component = Annotated[str, typer.Argument(metavar="COMPONENT", help="A component of the inventory.")]
 Revision = Annotated[
     str | None,
-    typer.Argument(metavar="REV", help="A commit, branch or tag; without it the manifest.", autocompletion=revisions),
+    typer.Argument(metavar="REV", help="A commit, branch or tag; without it the manifest."),
 ]
 PlanOrRevision = Annotated[
     str | None,
-    typer.Argument(
-        metavar="PLANFILE|REV", help="A saved plan or a revision; ./NAME is a file.", autocompletion=revisions_or_files
-    ),
+    typer.Argument(metavar="PLANFILE|REV", help="A saved plan or a revision; ./NAME is a file."),
 ]
 Fidelity = Annotated[
     str | None, typer.Option("--fidelity", metavar="kinematic|physics", help="How the simulator moves things.")
@@ -29,6 +23,6 @@ Yes = Annotated[bool, typer.Option("--auto-approve", help="Do not ask.")]
 Exact = Annotated[bool, typer.Option("--exact", help="Move for differences below the tolerance, too.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write to FILE.")]
-Speed = Annotated[float | None, typer.Option("--speed", help="Share of the joint limits, up to 1.")]
+Speed = Annotated[float | None, typer.Option("--speed", metavar="SHARE", help="Share of the joint limits, up to 1.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the plan of it and move nothing.")]
 Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="Arguments.")]

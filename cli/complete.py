@@ -1,51 +1,103 @@
-"""What Tab offers: names read straight from the files, for completion must not wait for a parser."""
+"""What Tab offers: from tables and straight from the files, for completion must not wait for a parser."""
 
 from __future__ import annotations
 
 import re
 import subprocess
-import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from .summary import COMMANDS
 
+SHARED = ("-C", "--json", "--debug", "--backend", "--help")
+VALUES = (
+    "-C", "--backend", "--out", "--fidelity", "--view", "--speed", "--example", "-m", "--message", "-n", "--number",
+    "--after", "--distance", "--dx", "--dy", "--dyaw",
+)  # fmt: skip
+_APPLY = ("--auto-approve", "--exact", "--fidelity")
+_ONE = ("--dry-run", "--fidelity")
+OPTIONS: dict[str, tuple[str, ...]] = {
+    "init": ("--example",),
+    "status": ("--all",),
+    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity"),
+    "apply": _APPLY,
+    "checkout": ("--auto-approve", "--fidelity"),
+    "fmt": ("--check",),
+    "parts": ("--free",),
+    "commit": ("-m", "--message", "--capture", "--planned"),
+    "log": ("--graph", "--oneline", "--all", "-n", "--number"),
+    "drift": ("--detailed-exitcode",),
+    "do": ("--speed", *_ONE),
+    "move": ("--speed", *_ONE),
+    "rotate": ("--speed", *_ONE),
+    "place": ("--after", "--distance", "--speed", *_ONE),
+    "stow": ("--speed", *_ONE),
+    "set": _ONE,
+    "home": _ONE,
+    "render": ("--out", "--view", "--plan"),
+    "sim reset": (),
+    "sim nudge": ("--dx", "--dy", "--dyaw"),
+    "sim remove": (),
+}
+GROUPS = {"sim": ("reset", "nudge", "remove"), "catalog": ("list", "show")}
+FIXED = {
+    "--backend": ("sim", "hardware"),
+    "--fidelity": ("kinematic", "physics"),
+    "--view": ("perspective", "top"),
+    "--example": ("minimal", "shel", "crowded"),
+}
+_COMPONENT = ("do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
+_REVISION = ("plan", "apply", "checkout", "log", "diff", "show", "render")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 
-def components(incomplete: str) -> list[str]:
-    """Return the parts of the inventory that start like `incomplete`."""
-    return sorted({name for name in _inventory() if name.startswith(incomplete)})
+def candidates(words: Sequence[str]) -> list[str]:
+    """Return what the last of `words` (those after `pico`; it may be empty) can become."""
+    *before, last = words or [""]
+    folder = Path(before[before.index("-C") + 1]) if "-C" in before[:-1] else Path()
+    return sorted({c for c in _offered(before, last, folder) if c.startswith(last)})
 
 
-def revisions(incomplete: str) -> list[str]:
-    """Return the branches and tags that start like `incomplete`."""
-    command = ["git", "-C", str(_folder()), "for-each-ref", "--format=%(refname:short)", "refs/heads", "refs/tags"]
+def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
+    if before and before[-1] in VALUES:
+        return list(_inventory(folder)) if before[-1] == "--after" else FIXED.get(before[-1], ())
+    plain = [w for i, w in enumerate(before) if not w.startswith("-") and (i == 0 or before[i - 1] not in VALUES)]
+    if not plain:
+        return (*SHARED, "--version") if last.startswith("-") else tuple(COMMANDS)
+    command, *given = plain
+    if command in GROUPS:
+        if not given:
+            return GROUPS[command]
+        command, given = f"{command} {given[0]}", given[1:]
+    if last.startswith("-"):
+        return (*OPTIONS.get(command, ()), *SHARED)
+    return list(_arguments(command, given, folder))
+
+
+def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str]:
+    if command in _COMPONENT and not given:
+        yield from _inventory(folder)
+    elif command == "do" and len(given) == 1:
+        yield from ("move", "stow", "set", "home")
+    elif command in _REVISION and len(given) < (2 if command == "diff" else 1):
+        yield from _revisions(folder)
+        if command in ("apply", "show"):
+            yield from (p.name for p in folder.glob("*.plan"))
+    elif command == "completion":
+        yield from ("bash", "zsh", "fish")
+
+
+def _revisions(folder: Path) -> Sequence[str]:
+    command = ["git", "-C", str(folder), "for-each-ref", "--format=%(refname:short)", "refs/heads", "refs/tags"]
     try:
-        found = subprocess.run(command, capture_output=True, text=True, check=False, timeout=1).stdout.split()
+        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=1).stdout.split()
     except (OSError, subprocess.SubprocessError):
-        return []
-    return [name for name in found if name.startswith(incomplete)]
+        return ()
 
 
-def revisions_or_files(incomplete: str) -> list[str]:
-    """Return revisions, and saved plans in the folder."""
-    return revisions(incomplete) + sorted(p.name for p in _folder().glob(f"{incomplete}*.plan"))
-
-
-def commands(incomplete: str) -> list[str]:
-    """Return the commands that start like `incomplete`."""
-    return [name for name in COMMANDS if name.startswith(incomplete)]
-
-
-def _folder() -> Path:
-    words = sys.argv
-    return Path(words[words.index("-C") + 1]) if "-C" in words[:-1] else Path()
-
-
-def _inventory() -> Iterator[str]:
+def _inventory(folder: Path) -> Iterator[str]:
     """Yield the keys under `inventory:` of the lab's files, as their indentation shows them."""
-    here = _folder().resolve()
+    here = folder.resolve()
     root = next((p for p in (here, *here.parents) if (p / "lab.yaml").is_file()), here)
     for path in root.glob("*.yaml"):
         inside = False
@@ -54,3 +106,28 @@ def _inventory() -> Iterator[str]:
                 inside = line.startswith("inventory:")
             elif inside and (match := _NAME.fullmatch(line)):
                 yield match[1]
+
+
+SCRIPTS = {
+    "bash": """_pico() {
+  local IFS=$'\\n'
+  COMPREPLY=( $(_PICO_COMPLETE=1 pico "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null) )
+}
+complete -o default -F _pico pico""",
+    "zsh": """#compdef pico
+_pico() {
+  local -a found
+  found=("${(@f)$(_PICO_COMPLETE=1 pico "${(@)words[2,CURRENT]}" 2>/dev/null)}")
+  [[ -n "$found" ]] && compadd -- $found || _files
+}
+compdef _pico pico""",
+    "fish": """function __pico
+  _PICO_COMPLETE=1 pico (commandline -opc)[2..-1] (commandline -ct | string collect --allow-empty) 2>/dev/null
+end
+complete -c pico -a '(__pico)'""",
+}
+HOW = {
+    "bash": "echo 'eval \"$(pico completion bash)\"' >> ~/.bashrc",
+    "zsh": "echo 'eval \"$(pico completion zsh)\"' >> ~/.zshrc   # after compinit",
+    "fish": "pico completion fish > ~/.config/fish/completions/pico.fish",
+}

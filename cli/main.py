@@ -26,9 +26,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _at_once(words: list[str]) -> str | None:
-    """Return the answer to `--version` and the top-level `--help`, or None where a command must run."""
+    """Return the answer to `--version`, to the top-level `--help` and to Tab, or None where a command must run."""
     if "_PICO_COMPLETE" in os.environ:
-        return None
+        from .complete import candidates
+
+        return "\n".join(candidates(words))
     if words in ([], ["--help"], ["-h"], ["help"]):
         from .summary import help_text
 

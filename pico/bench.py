@@ -72,12 +72,17 @@ class _Readable:
         head = self.folder.head()
         return head.label if head else ""
 
+    def head_commit(self) -> str | None:
+        """Return the id of the commit checked out; None without Git or before the first commit."""
+        head = self.folder.head()
+        return head.commit if head else None
+
     def name_of(self, revision: str) -> str:
         """Return `e1 (E1-3 "p2 tilted")` for a revision; raises PicoError."""
         commit = self.folder.history().resolve(revision)
         label = commit.label if revision in ("HEAD", commit.id) else revision
-        known = "" if label == commit.label or revision in commit.refs else f"{commit.label} "
-        return f'{label} ({known}"{commit.summary}")'
+        known = "" if label == commit.label else f"{commit.label} "
+        return f'{label} ({known}"{commit.summary}")' if known else f'{label} "{commit.summary}"'
 
     def goal_name(self, plan: Plan) -> str:
         """Return what a plan leads to, as a person calls it."""

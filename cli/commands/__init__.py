@@ -1,48 +1,40 @@
-"""One file a command."""
+"""One file a command. Only the one that is asked for is imported: it brings its views along, and they the model."""
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import typer
 
-from . import (
-    apply,
-    capture,
-    catalog,
-    checkout,
-    commit,
-    completion,
-    diff,
-    drift,
-    fmt,
-    get,
-    init,
-    log,
-    parts,
-    plan,
-    render,
-    show,
-    sim,
-    single,
-    status,
-    validate,
-    version,
-)  # fmt: skip
+from ..summary import COMMANDS
 
-COMMANDS = {
-    "init": init.init, "status": status.status, "plan": plan.plan, "apply": apply.apply,
-    "checkout": checkout.checkout, "validate": validate.validate, "fmt": fmt.fmt, "capture": capture.capture,
-    "parts": parts.parts, "commit": commit.commit, "log": log.log, "diff": diff.diff, "show": show.show,
-    "drift": drift.drift, "stow": single.stow, "place": single.place, "get": get.get, "home": single.home,
-    "render": render.render, "completion": completion.completion, "version": version.version,
-}  # fmt: skip
-LOOSE = {"do": single.do, "move": single.move, "rotate": single.rotate, "set": single.set_}
+SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
+GROUPS = ("catalog", "sim")
+LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option
 
 
-def register(app: typer.Typer) -> None:
-    """Add every command to `app`."""
-    for name, function in COMMANDS.items():
-        app.command(name)(function)
-    for name, function in LOOSE.items():
-        app.command(name, context_settings=single.LOOSE)(function)
-    app.add_typer(catalog.app, name="catalog")
-    app.add_typer(sim.app, name="sim")
+def register(app: typer.Typer, asked: str | None) -> None:
+    """Add every command to `app`: the one asked for in full, of the others name and first line."""
+    for name in COMMANDS:
+        if name in GROUPS:
+            app.add_typer(import_module(f".{name}", __name__).app if name == asked else _empty(name), name=name)
+        elif name == asked:
+            settings = LOOSE if name in ("do", "move", "rotate", "set") else None
+            app.command(name, context_settings=settings)(_function(name))
+        else:
+            app.command(name, help=COMMANDS[name])(_nothing)
+
+
+def _function(name: str) -> object:
+    module = import_module(".single" if name in SINGLE and name != "get" else f".{name}", __name__)
+    return getattr(module, "set_" if name == "set" else name)
+
+
+def _empty(name: str) -> typer.Typer:
+    group = typer.Typer(help=COMMANDS[name])
+    group.callback()(_nothing)
+    return group
+
+
+def _nothing() -> None:
+    pass

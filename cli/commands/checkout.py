@@ -9,7 +9,6 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, Yes
-from ..complete import revisions
 from ..running import execute, question
 from ..session import Session
 from ..views import plan as view
@@ -17,7 +16,7 @@ from ..views import plan as view
 
 def checkout(
     context: typer.Context,
-    revision: Annotated[str, typer.Argument(metavar="REV", autocompletion=revisions, help="A branch, tag or commit.")],
+    revision: Annotated[str, typer.Argument(metavar="REV", help="A branch, tag or commit.")],
     auto_approve: Yes = False,
     fidelity: Fidelity = None,
 ) -> int:

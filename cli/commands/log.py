@@ -23,5 +23,5 @@ def log(
     session = Session.of(context)
     bench = session.bench()
     entries = bench.log(revision, every=every or (graph and revision is None), limit=number)
-    session.show(view, entries, graph=graph, oneline=oneline)
+    session.show(view, entries, graph=graph, oneline=oneline, head=bench.head_commit())
     return 0

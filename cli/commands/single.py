@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from pico.bench import Bench
     from pico.model.plan import Plan
 
-LOOSE = {"ignore_unknown_options": True}  # so that -30 is a number, not an option
-
 
 def do(
     context: typer.Context,
@@ -130,7 +128,7 @@ def single(
 
 def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool) -> int:
     """Show and run the plan of one operation. Nobody is asked: the command named it."""
-    session.show(view, plan, goal="one operation")
+    session.show(view, plan)
     if not session.json:
         session.report(plan.diagnostics)
     if plan.errored:

@@ -16,15 +16,30 @@ def text(changes: Sequence[Change], *, a: str, b: str, next_step: str = "") -> s
     if not changes:
         return f"{a} and {b} are the same."
     parts = len({c.component for c in changes})
-    head = f"{paint('bold', a)} → {paint('bold', b)}: {count(len(changes), 'tunable')} of {count(parts, 'component')}"
-    return "\n".join([f"{head} {'differs' if len(changes) == 1 else 'differ'}", "", *lines(changes)]) + (
-        f"\n\n{next_step}" if next_step else ""
-    )
+    head = f"{paint('bold', a)} → {paint('bold', b)}"
+    what = f"{count(len(changes), 'tunable')} of {count(parts, 'component')}"
+    tally = f"{what} {'differs' if len(changes) == 1 else 'differ'}:"
+    return "\n".join([head, tally, "", *lines(changes), *(["", next_step] if next_step else [])])
 
 
 def lines(changes: Sequence[Change], indent: str = "  ") -> list[str]:
     """Return the changes as aligned lines: a symbol and the name, the motion, where from and to."""
-    return columns([[f"{_symbol(c)} {name(c)}", c.text, paint("dim", _ends(c))] for c in changes], indent=indent)
+    ordered = poses_first(changes)
+    return columns([[f"{_symbol(c)} {name(c)}", said(c), paint("dim", _ends(c))] for c in ordered], indent=indent)
+
+
+def poses_first(changes: Sequence[Change]) -> list[Change]:
+    """Return the changes with what stands elsewhere before what is set otherwise."""
+    return sorted(changes, key=lambda c: c.tunable != "pose")
+
+
+def said(change: Change) -> str:
+    """Return a change in words; a value that one of the two states does not give is set, or left open."""
+    if change.tunable != "pose" and change.before is None:
+        return f"set to {change.text.removeprefix('unknown → ')}"
+    if change.tunable != "pose" and change.after is None:
+        return f"not given any more (was {place(change.before)})"
+    return change.text
 
 
 def name(change: Change) -> str:
@@ -34,9 +49,9 @@ def name(change: Change) -> str:
 
 def brief(changes: Sequence[Change], limit: int = 4) -> str:
     """Return the changes in one line: `p2 turned +30°, p1.angle 90 → 1 deg`."""
-    said = [f"{name(c)} {c.text}" for c in changes[:limit]]
+    words = [f"{name(c)} {said(c)}" for c in poses_first(changes)[:limit]]
     more = len(changes) - limit
-    return ", ".join(said) + (f" and {more} more" if more > 0 else "")
+    return ", ".join(words) + (f" and {more} more" if more > 0 else "")
 
 
 def _symbol(change: Change) -> str:

@@ -10,18 +10,18 @@ from pico.history.graph import Row, lanes
 from pico.model.record import as_json
 
 from .diff import brief, lines
-from .style import WIDTH, pad, paint, width, wrap
+from .style import WIDTH, count, pad, paint, width, wrap
 
 
-def text(entries: Iterable[Entry], *, graph: bool, oneline: bool) -> str:
-    """Return the commits, newest first, with a rail of the branches where `graph`."""
+def text(entries: Iterable[Entry], *, graph: bool, oneline: bool, head: str | None = None) -> str:
+    """Return the commits, newest first, with a rail of the branches where `graph`; `head` is the one checked out."""
     shown = list(entries)
     if not shown:
         return "No commit has touched this lab yet."
     rows = lanes([e.commit for e in shown]) if graph else [Row("", e.commit) for e in shown]
     by_id = {e.commit.id: e for e in shown}
     found: list[str] = []
-    render = _short(shown) if oneline or graph else _long
+    render = _short(shown, head) if oneline or graph else _long
     for i, row in enumerate(rows):
         rail = f"{row.rail} " if graph else ""
         if row.commit is None:
@@ -41,13 +41,13 @@ def _below(rows: list[Row], i: int) -> str:
     return rail.replace("*", " " if ends else "|") + " "
 
 
-def _short(shown: list[Entry]) -> Any:
+def _short(shown: list[Entry], checked_out: str | None) -> Any:
     """Return a function from a commit to one line: name, message, motions; two where they do not fit."""
-    names = min(max(width(_name(e)) for e in shown), 24)
+    names = min(max(width(_name(e, checked_out)) for e in shown), 24)
     room = min(max(width(e.commit.summary) for e in shown), 44)
 
     def render(entry: Entry, columns: int) -> list[str]:
-        head = f"{pad(paint('yellow', _name(entry)), names)}  {pad(entry.commit.summary, room)}"
+        head = f"{pad(paint('yellow', _name(entry, checked_out)), names)}  {pad(entry.commit.summary, room)}"
         what = _what(entry)
         if width(head) + 2 + width(what) <= columns:
             return [f"{head}  {paint('cyan', what)}".rstrip()]
@@ -57,8 +57,9 @@ def _short(shown: list[Entry]) -> Any:
     return render
 
 
-def _name(entry: Entry) -> str:
-    return ", ".join(entry.commit.refs[:2]) or entry.commit.short
+def _name(entry: Entry, checked_out: str | None) -> str:
+    name = ", ".join(entry.commit.refs[:2]) or entry.commit.short
+    return f"{name} (HEAD)" if entry.commit.id == checked_out else name
 
 
 def _what(entry: Entry) -> str:
@@ -66,7 +67,14 @@ def _what(entry: Entry) -> str:
         return f"can't be read: {entry.unreadable}"
     if not entry.changes:
         return "nothing on the table"
-    return ("from home: " if not entry.commit.parents else "") + brief(entry.changes)
+    if not entry.commit.parents:
+        moved = sum(c.tunable == "pose" for c in entry.changes)
+        values = len(entry.changes) - moved
+        parts = [count(moved, "component") + " away from home"] * bool(moved) + [
+            count(values, "tunable") + " set"
+        ] * bool(values)
+        return f"the first state: {', '.join(parts)}"
+    return brief(entry.changes)
 
 
 def _long(entry: Entry, _: int) -> list[str]:
@@ -77,12 +85,12 @@ def _long(entry: Entry, _: int) -> list[str]:
     return [*head, "", *wrap(c.message, "    "), "", *what, ""]
 
 
-def data(entries: Iterable[Entry], *, graph: bool, oneline: bool) -> dict[str, Any]:
-    """Return schema `pico.log/v1`: `commits`, each with id, parents, refs, author, time, message, changes, rail."""
+def data(entries: Iterable[Entry], *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:
+    """Return schema `pico.log/v1`: `head`, and `commits`: id, parents, refs, author, time, message, changes, rail."""
     shown = list(entries)
     rails = {r.commit.id: r.rail for r in lanes([e.commit for e in shown]) if r.commit} if graph else {}
     commits = [entry_data(e) | ({"rail": rails[e.commit.id]} if graph else {}) for e in shown]
-    return {"schema": "pico.log/v1", "commits": commits}
+    return {"schema": "pico.log/v1", "head": head, "commits": commits}
 
 
 def entry_data(entry: Entry) -> dict[str, Any]:

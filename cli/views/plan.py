@@ -37,16 +37,24 @@ def data(plan: Plan, **_: Any) -> dict[str, Any]:
 def header(plan: Plan, head: str = "", goal: str = "") -> str:
     """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted")`."""
     parts = [paint("bold", plan.lab.name), f"{plan.backend} ({plan.fidelity})"]
+    if asked_for(plan):
+        return " · ".join([*parts, "one operation"])
     target = goal or plan.target.revision or "the manifest"
     parts.append(f"HEAD {head} → {target}" if head else f"→ {target}")
     return " · ".join(parts)
 
 
+def asked_for(plan: Plan) -> bool:
+    """Return whether the plan is one operation that somebody asked for."""
+    return plan.target.revision is None and bool(plan.operations) and plan.operations[0].reason.kind == "asked"
+
+
 def operations(plan: Plan) -> list[str]:
     """Return one line an operation, two where the reason is long."""
-    changes = {(c.component, c.tunable): c for c in plan.changes}
+    by_address = {(c.component, c.tunable): c for c in plan.changes}
     moving = any(op.robot for op in plan.operations)
-    rows = [[*_cells(op), _why(op, changes, moving)] for op in plan.operations]
+    changes = [by_address.get((op.component, op.arguments.get("tunable", "pose"))) for op in plan.operations]
+    rows = [[*_cells(op, c), _why(op, c, moving)] for op, c in zip(plan.operations, changes, strict=True)]
     lines = columns([row[:-1] for row in rows], indent="  ")
     whole = []
     room = max((width(line) for line in lines), default=0)
@@ -97,14 +105,16 @@ def step(op: Operation) -> str:
     return f"{place(before)} → {goal}" if before is not None else f"→ {goal}"
 
 
-def _cells(op: Operation) -> list[str]:
+def _cells(op: Operation, change: Change | None) -> list[str]:
     took = seconds(op.seconds) if op.seconds >= 0.05 else ""
-    return [f"{symbol(op)} {address(op)}", step(op), f"{took:>6}"]
+    what = change.text if change and op.primitive == "set" else step(op)
+    return [f"{symbol(op)} {address(op)}", what, f"{took:>6}"]
 
 
-def _why(op: Operation, changes: dict[tuple[str, str], Change], moving: bool) -> str:
-    change = changes.get((op.component, op.arguments.get("tunable", "pose")))
+def _why(op: Operation, change: Change | None, moving: bool) -> str:
     said = reason(op.reason, change)
+    if change and op.primitive == "set" and said == change.text:
+        said = ""  # it stands beside it already
     beside = "beside the arm" if moving and not op.robot and op.primitive in ("set", "home") else ""
     return ", ".join(part for part in (said, beside) if part)
 
@@ -116,12 +126,12 @@ def reason(why: Reason, change: Change | None = None) -> str:
     of = listed(why.of)
     overlap = f" by {why.overlap:.3g} mm" if why.overlap else ""
     words = {
-        "changed": change.text if change and "turned" in change.text + "moved" in change.text else "",
+        "changed": change.text if change and change.text.startswith(("moved ", "turned ")) else "",
         "in_the_way": f"in the way of {of}: they would overlap{overlap}",
         "staged": f"put down on its way: a ring of {of} block one another",
         "stowed": "not wanted on the table",
         "operator": "only a person can do it",
-        "asked": "asked for",
+        "asked": "",
         "parked": "leaves the beam free",
     }
     return words.get(why.kind, "")
@@ -161,8 +171,9 @@ def _summary(plan: Plan) -> list[str]:
     arms = sum(op.seconds for op in plan.operations if op.robot)
     parts.append(f"{seconds(plan.makespan)} in all" + (f", arm {seconds(arms)}" if arms else ""))
     line = " · ".join(part for part in parts if part)
-    moved = {op.component for op in plan.operations}
-    return [line, "Nothing else moves."] if moved else [line]
+    touched = {op.component for op in plan.operations if op.component in plan.base.state}
+    stay = len(plan.base.state) - len(touched)
+    return [line, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
 
 
 def _staging(plan: Plan) -> str:

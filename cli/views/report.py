@@ -13,7 +13,9 @@ from .style import count, listed, paint, seconds
 
 def text(report: RunReport) -> str:
     """Return the tally, and whether the bench now equals what was wanted."""
-    parts = [f"{report.done} done", f"{report.failed} failed"]
+    total = report.done + report.failed + report.unknown + report.skipped
+    parts = [f"{report.done} of {count(total, 'operation')} done"]
+    parts += [f"{report.failed} failed"] if report.failed else []
     parts += [f"{report.unknown} with unknown outcome"] if report.unknown else []
     parts += [f"{report.skipped} not started"] if report.skipped else []
     head = {
@@ -22,12 +24,15 @@ def text(report: RunReport) -> str:
         "interrupted": paint("yellow", "Interrupted"),
     }
     took = f"{seconds(report.seconds)} {report.clock}, {seconds(report.wall)} here"
-    return "\n".join([f"{head[report.outcome]}: {', '.join(parts)} · {took}", *_bench(report)])
+    said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
+    return "\n".join([f"{head[report.outcome]}: {said} · {took}", *_bench(report)])
 
 
 def _bench(report: RunReport) -> list[str]:
     if not report.remaining and not report.absent:
-        return [f"The bench equals {report.goal}."] if report.whole else ["The bench is as asked."]
+        if report.whole:
+            return [f"The bench equals {report.goal}."]
+        return ["As asked. The manifest is as it was: `pico capture` takes the bench into it."]
     lines = []
     if report.remaining:
         verb = "differs" if len(report.remaining) == 1 else "differ"

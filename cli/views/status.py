@@ -15,7 +15,12 @@ LONG = 40
 def text(status: Status, *, every: bool = False) -> str:
     """Return the table of three columns; of a long one only what differs, unless `every`."""
     rows = [r for r in status.rows if every or len(status.rows) <= LONG or not r.equal]
-    head = ["component", f"committed ({status.head})" if status.head else "committed", "desired", "live"]
+    head = [
+        "",
+        f"committed ({status.head})" if status.head else "committed",
+        "desired (manifest)",
+        f"live ({status.backend})",
+    ]
     table = [[paint("dim", cell) for cell in head], *map(_cells, rows)]
     table += [
         [f"unknown/{name}", "-", "-", f"{place(as_json(pose))}  {paint('yellow', 'an obstacle, not in the inventory')}"]
@@ -29,17 +34,25 @@ def text(status: Status, *, every: bool = False) -> str:
 
 
 def _cells(row: StatusRow) -> list[str]:
-    committed = "-" if row.committed is None else place(row.committed)
-    desired = paint("yellow", f"{place(row.desired)} *") if row.edited else "="
+    unit = f" {row.unit}" if row.unit else ""
+    committed = "-" if row.committed is None else place(row.committed) + unit
+    desired = (
+        "="
+        if row.committed is not None and not row.edited
+        else "-"
+        if row.desired is None
+        else place(row.desired) + unit
+    )
+    desired = paint("yellow", f"{desired} *") if row.edited else desired
     if row.note:
         live = paint("red", row.note)
     elif row.live is None:
         live = "unknown"
     elif row.off:
-        live = paint("yellow" if row.edited else "red", f"{place(row.live)} !")
+        live = paint("yellow" if row.edited else "red", f"{place(row.live)}{unit} !")
     else:
         live = "=" if row.exact else f"= {row.near}"
-    return [row.address, committed if row.committed is not None or not row.edited else "-", desired, live]
+    return [row.address, committed, desired, live]
 
 
 def _summary(status: Status) -> list[str]:
@@ -48,9 +61,9 @@ def _summary(status: Status) -> list[str]:
     lost = sum(bool(r.note) for r in status.rows)
     edits = sum(r.edited for r in status.rows)
     parts = [
-        (edits, f"{count(edits, 'edit')} in the manifest, not committed (*)"),
-        (pending, f"{count(pending, 'tunable')} to bring to the manifest"),
-        (drifts, f"{count(drifts, 'drift')}: the bench left commit and manifest (!)"),
+        (edits, f"{count(edits, 'edit')} not committed (*)"),
+        (pending, f"{count(pending, 'edit')} to apply (!)"),
+        (drifts, f"{count(drifts, 'tunable')} of the bench elsewhere than committed and desired (!)"),
         (lost, f"{count(lost, 'component')} not seen as it should be"),
         (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
     ]

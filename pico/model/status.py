@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.diff import Change, diff_observed, place_json
+from pico.model.diff import Change, diff_observed, place_json, show_value
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.pose import Pose, angle_between
@@ -21,7 +21,7 @@ class StatusRow:
 
     `edited`: desired differs from committed. `off`: live differs from desired by more than the tolerance. `drifted`:
     it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
-    deviation; `near` says what a tolerated deviation is. `note`: missing, held or toppled.
+    deviation; `near` says what a tolerated deviation is. `unit`: of the values. `note`: missing, held or toppled.
     """
 
     component: str
@@ -34,6 +34,7 @@ class StatusRow:
     drifted: bool = False
     exact: bool = False
     near: str = ""
+    unit: str = ""
     note: str = ""
 
     @property
@@ -116,6 +117,7 @@ def _value_rows(
 ) -> list[StatusRow]:  # fmt: skip
     before = _values(committed, name)
     after = _values(desired, name)
+    kinds = setup.type_of(name).tunables
     part = seen.components.get(name)
     live = {k: v.value for k, v in part.values.items() if v.status != "unknown"} if part else {}
     return [
@@ -126,7 +128,8 @@ def _value_rows(
             desired=after.get(tunable),
             live=live.get(tunable),
             edited=committed is not None and before.get(tunable) != after.get(tunable),
-            near=str(live.get(tunable)),
+            near=f"({show_value(live.get(tunable))})",
+            unit=kinds[tunable].unit if tunable in kinds else "",
             **_verdict((name, tunable), off, moved),
         )
         for tunable in sorted(before.keys() | after.keys())
