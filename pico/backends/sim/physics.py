@@ -1,0 +1,151 @@
+"""The physical world: the simulated table in MuJoCo, where parts are carried by friction and can be dropped."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Generator
+from dataclasses import replace
+from typing import Any
+
+from pico.backends.sim.mover import InProgress, MoveFailed
+from pico.backends.sim.world import Body, FreePose, World
+from pico.diagnostics import error
+from pico.model.catalog import Geometry
+from pico.model.lab import Setup
+from pico.model.observation import ObservedRobot, Presence
+from pico.model.operation import Operation
+from pico.model.pose import Pose, angle_between
+from pico.motion.kinematics import tool_pose
+from pico.motion.types import MovePath
+from pico.twin.handling import FALLEN, TOPPLED, Handling, Lost, walk
+from pico.twin.physics import Twin
+from pico.twin.placement import Placement, upright
+from pico.twin.scene import Thing
+
+OFF_PLANE = 3.0
+"""A part whose base is farther from the table than this does not stand on it [mm]."""
+HELD_ABOVE = 0.2
+"""A part between the pads is held where its base is higher than this [mm]; below, it stands."""
+SAME = 1e-4
+"""Poses that differ by less are the same [mm, deg]: a part that nobody touched keeps the pose that was stored."""
+
+
+class PhysicsWorld:
+    """Moves robots and components of `world` in the twin; implements `Mover`.
+
+    `friction`: sliding friction coefficient of the finger pads; the lab's where None.
+    """
+
+    def __init__(self, setup: Setup, world: World, *, friction: float | None = None) -> None:
+        self._setup = setup
+        places = {name: place for name in world.components if (place := _placement(setup, world, name))}
+        things = {n: Thing(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
+        self._own = tuple(things)
+        for name, stranger in world.unknown.items():
+            shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
+            things[name] = Thing(shape, upright(stranger.pose))
+        joints = {name: robot.joints for name, robot in world.robots.items()}
+        holding = {name: robot.holding for name, robot in world.robots.items() if robot.holding}
+        self.twin = Twin(setup, things, joints, holding=holding, pad_friction=friction)
+
+    def advance(self, seconds: float) -> None:
+        """Let `seconds` pass for all operations in progress."""
+        self.twin.advance(seconds)
+
+    def move(self, operation: Operation, path: MovePath) -> InProgress:
+        """Pick `operation.component`, carry and place it along `path`; see `Handling.run` for what is returned.
+
+        Raises MoveFailed where the part was missed, dropped or toppled: then the hand is open and above the table.
+        """
+        self._require_fingers(path.robot)
+        goal = Pose(**operation.arguments["to"]["pose"])
+        handling = Handling(self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal)
+        return (yield from self._guarded(path.robot, handling.run()))
+
+    def park(self, path: MovePath) -> InProgress:
+        """Bring `path.robot` along `path`, its gripper as it is."""
+        self._require_fingers(path.robot)
+        yield from self._guarded(path.robot, walk(self.twin, path.robot, path.segments))
+        return {}
+
+    def carried(self, robot: str) -> Pose | None:
+        """Return where the component in the gripper of `robot` is, seen from above, or None where it holds none."""
+        held = self._held(robot)
+        return self.twin.placement(held).pose if held else None
+
+    def world(self, world: World) -> World:
+        """Return `world` with poses, presence, joints and what is held as they are now."""
+        held = {name: self._held(name) for name in world.robots}
+        components = dict(world.components)
+        for name in self._own:
+            components[name] = _seen(components[name], self.twin.placement(name), name in held.values())
+        robots = {
+            name: ObservedRobot(joints=self.twin.joints(name), holding=held[name]) if name in self.twin.arms else robot
+            for name, robot in world.robots.items()
+        }
+        return replace(world, components=components, robots=robots)
+
+    def _guarded(self, robot: str, work: Generator[float, None, Any]) -> Generator[float, None, Any]:
+        """Do `work`; where it fails or is stopped, the arm stops where it is."""
+        try:
+            return (yield from work)
+        except Lost as lost:
+            raise MoveFailed(lost.diagnostic) from lost
+        except (MoveFailed, GeneratorExit):
+            self.twin.hold(robot)
+            raise
+
+    def _held(self, robot: str) -> str | None:
+        name = self.twin.gripped(robot) if robot in self.twin.arms else None
+        return name if name and self.twin.placement(name).position[2] * 1000 > HELD_ABOVE else None
+
+    def _require_fingers(self, robot: str) -> None:
+        settings = self._setup.lab.robots[robot]
+        if settings.model == "xarm7" and settings.gripper.fingers != "none":
+            return
+        text = f"physics has no model of {robot}: it knows the xArm7 with fingers only"
+        raise MoveFailed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
+
+
+def _placement(setup: Setup, world: World, name: str) -> Placement | None:
+    """Where a component is in space, or None where it isn't on the table."""
+    body = world.components[name]
+    if body.presence == "missing" or body.pose is None or name not in setup.lab.inventory:
+        return None
+    if body.free is not None:
+        x, y, z = (v / 1000 for v in body.free.position)
+        return Placement((x, y, z), body.free.quaternion)
+    if body.presence == "held":
+        return upright(body.pose, _in_hand(setup, world, name))
+    return upright(body.pose)
+
+
+def _in_hand(setup: Setup, world: World, name: str) -> float:
+    """The height of the base [mm] of a component that a kinematic world left in a gripper."""
+    grasp = setup.type_of(name).geometry.grasp
+    for key, robot in world.robots.items():
+        if robot.holding == name and grasp is not None and setup.lab.robots[key].model == "xarm7":
+            return tool_pose(setup.lab.robots[key], robot.joints)[2] - grasp.height
+    return 0.0
+
+
+def _seen(body: Body, placement: Placement, held: bool) -> Body:
+    """The component as it is now."""
+    x, y, z = (v * 1000 for v in placement.position)
+    if z < FALLEN:
+        return replace(body, presence="missing", pose=None, free=None)
+    pose = placement.pose
+    if not held and placement.tilt <= TOPPLED and abs(z) <= OFF_PLANE:
+        return replace(body, presence="seen", pose=_kept(body, pose), free=None)
+    presence: Presence = "held" if held else "toppled"
+    free = FreePose(position=(x, y, z), quaternion=placement.quaternion)
+    return replace(body, presence=presence, pose=pose, free=free)
+
+
+def _kept(body: Body, pose: Pose) -> Pose:
+    """The pose that was stored where the part has not moved, else the new one."""
+    old = body.pose
+    if old is None or body.free is not None or not math.isfinite(pose.x):
+        return pose
+    same = pose.distance(old) < SAME and abs(angle_between(pose.yaw, old.yaw)) < SAME
+    return old if same else pose

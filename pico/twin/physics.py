@@ -1,0 +1,206 @@
+"""Bodies and arms in motion: gravity, contacts, friction, servos. Nothing is welded and nothing teleports.
+
+Joints in radians, openings of a gripper in mm, times in seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from pico.model.lab import Setup
+from pico.motion.types import Joints
+from pico.twin.placement import Placement, placement_of
+from pico.twin.scene import TIMESTEP, Thing, build_scene
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_CONTROL_STEPS = 2
+"""Steps of the simulation between two set-points of the servos."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Arm:
+    """Where an arm's numbers are in the model: addresses of joints, servos, fingers; ids of pads; its servos' lag."""
+
+    qpos: Array
+    servos: Array
+    fingers: Array
+    gripper: int | None
+    pads: tuple[int, ...]
+    lag: Array
+
+
+@dataclass(eq=False)
+class _Drive:
+    """What an arm's servos are told: joints (n, 7) over time (n,) from `begun`, plus `trim` (7,)."""
+
+    begun: float
+    times: Array
+    joints: Array
+    trim: Array
+
+
+class Twin:
+    """A bench in motion. `things` by name, arms at `joints`; a gripper in `holding` is closed on what it holds."""
+
+    def __init__(
+        self,
+        setup: Setup,
+        things: Mapping[str, Thing],
+        joints: Mapping[str, Joints],
+        *,
+        holding: Mapping[str, str] | None = None,
+        pad_friction: float | None = None,
+    ) -> None:
+        import mujoco
+
+        self._setup = setup
+        self.model = build_scene(setup, things, pad_friction=pad_friction).compile()
+        self.data = mujoco.MjData(self.model)
+        self._body = {name: self.model.body(name).id for name in things}
+        self._name = {number: name for name, number in self._body.items()}
+        self._arms = {n: _arm(self.model, n) for n, robot in setup.lab.robots.items() if robot.model == "xarm7"}
+        self._drives: dict[str, _Drive] = {}
+        self._time = 0.0
+        for name in self._arms:
+            width = self._width(things, (holding or {}).get(name))
+            self._start(name, joints[name], setup.lab.robots[name].gripper.stroke if width is None else width)
+            if width is not None:
+                self.grip(name)
+        mujoco.mj_forward(self.model, self.data)
+
+    @staticmethod
+    def _width(things: Mapping[str, Thing], held: str | None) -> float | None:
+        grasp = things[held].geometry.grasp if held else None
+        return grasp.width if grasp else None
+
+    def _start(self, name: str, joints: Joints, opening: float) -> None:
+        import numpy as np
+
+        arm = self._arms[name]
+        self.data.qpos[arm.qpos] = joints
+        self.data.qpos[arm.fingers] = opening / 2000
+        self._drives[name] = _Drive(0.0, np.zeros(1), np.array([joints]), np.zeros(7))
+        self.data.ctrl[arm.servos] = joints
+        if arm.gripper is not None:
+            self.data.ctrl[arm.gripper] = opening / 2000
+
+    @property
+    def arms(self) -> tuple[str, ...]:
+        """The robots that the twin has a model of."""
+        return tuple(self._arms)
+
+    @property
+    def time(self) -> float:
+        """Simulated seconds since the twin was made."""
+        return self._time
+
+    def advance(self, seconds: float) -> None:
+        """Let `seconds` pass; what is less than a step is kept for the next time."""
+        import mujoco
+
+        self._time += seconds
+        steps = round((self._time - self.data.time) / TIMESTEP)
+        plans = [(arm.servos, self._setpoints(name, steps)) for name, arm in self._arms.items()]
+        for number in range(0, steps, _CONTROL_STEPS):
+            for servos, plan in plans:
+                self.data.ctrl[servos] = plan[number // _CONTROL_STEPS]
+            mujoco.mj_step(self.model, self.data, min(_CONTROL_STEPS, steps - number))
+
+    def _setpoints(self, name: str, steps: int) -> Array:
+        """Set-points (n, 7) of an arm's servos from now on. A servo lags behind, so it hears early where to be."""
+        import numpy as np
+
+        drive, arm = self._drives[name], self._arms[name]
+        elapsed = self.data.time - drive.begun + TIMESTEP * np.arange(0, max(steps, 1), _CONTROL_STEPS)
+        columns = [np.interp(elapsed + arm.lag[i], drive.times, drive.joints[:, i]) for i in range(7)]
+        return np.column_stack(columns) + drive.trim
+
+    def drive(self, robot: str, times: tuple[float, ...], joints: tuple[Joints, ...]) -> None:
+        """Start an arm along `joints` at `times` from now; it keeps to the last of them."""
+        import numpy as np
+
+        trim = self._drives[robot].trim
+        self._drives[robot] = _Drive(self.data.time, np.array(times), np.array(joints), trim)
+
+    def hold(self, robot: str) -> None:
+        """Stop an arm where it is."""
+        joints = self.joints(robot)
+        self._drives[robot].trim[:] = 0.0
+        self.drive(robot, (0.0,), (joints,))
+
+    def trim(self, robot: str) -> float:
+        """Correct the set-points by what the arm is off its last target; return the greatest of it [rad]."""
+        import numpy as np
+
+        drive = self._drives[robot]
+        off = drive.joints[-1] - self.data.qpos[self._arms[robot].qpos]
+        drive.trim += off
+        return float(np.abs(off).max())
+
+    def joints(self, robot: str) -> Joints:
+        """Return the angles that an arm's joints have [rad]."""
+        return tuple(float(q) for q in self.data.qpos[self._arms[robot].qpos])
+
+    def grip(self, robot: str, opening: float | None = None) -> None:
+        """Move the fingers to `opening` [mm] between the pads; None closes with the gripper's force."""
+        actuator = self._arms[robot].gripper
+        if actuator is not None:
+            self.data.ctrl[actuator] = 0.0 if opening is None else opening / 2000
+
+    def opening(self, robot: str) -> float:
+        """Return the distance between the pads [mm]."""
+        return float(self.data.qpos[self._arms[robot].fingers].sum()) * 1000
+
+    def gripped(self, robot: str) -> str | None:
+        """Return the component that both pads touch, or None."""
+        touched: list[set[str]] = []
+        for pad in self._arms[robot].pads:
+            pairs = self.data.contact.geom[(self.data.contact.geom == pad).any(axis=1)]
+            bodies = {int(self.model.geom_bodyid[geom]) for geom in pairs.reshape(-1)}
+            touched.append({self._name[b] for b in bodies if b in self._name})
+        both = set.intersection(*touched) if touched else set()
+        return min(both, default=None)
+
+    def placement(self, name: str) -> Placement:
+        """Return where a component is."""
+        return placement_of(self.data.xpos[self._body[name]], self.data.xquat[self._body[name]])
+
+    def speed(self, name: str) -> float:
+        """Return how fast a component moves [mm/s]; turning counts as 50 mm/s a radian a second."""
+        import numpy as np
+
+        address = self.model.body(name).dofadr[0]
+        if address < 0:
+            return 0.0
+        velocity = self.data.qvel[address : address + 6]
+        return float(np.linalg.norm(velocity[:3]) * 1000 + np.linalg.norm(velocity[3:]) * 50)
+
+
+def _arm(model: Any, name: str) -> _Arm:
+    import mujoco
+    import numpy as np
+
+    def address(joint: str) -> int:
+        return int(model.joint(f"{name}/{joint}").qposadr[0])
+
+    def find(kind: Any, thing: str) -> int:
+        return int(mujoco.mj_name2id(model, kind, f"{name}/{thing}"))
+
+    servos = np.array([model.actuator(f"{name}/joint{i}").id for i in range(1, 8)])
+    gripper = find(mujoco.mjtObj.mjOBJ_ACTUATOR, "gripper")
+    sides = ("left", "right") if gripper >= 0 else ()
+    return _Arm(
+        qpos=np.array([address(f"joint{i}") for i in range(1, 8)]),
+        servos=servos,
+        fingers=np.array([address(f"{side}_slide") for side in sides], dtype=int),
+        gripper=gripper if gripper >= 0 else None,
+        pads=tuple(find(mujoco.mjtObj.mjOBJ_GEOM, f"{side}_pad") for side in sides),
+        lag=model.actuator_biasprm[servos, 2] / model.actuator_biasprm[servos, 1],
+    )

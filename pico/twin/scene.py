@@ -1,0 +1,195 @@
+"""The bench as a MuJoCo scene: table, components, arms. Metres and kilograms; origin at the table's front-left corner.
+
+Bodies are named as the components (`p1`), their geoms `<component>/<part of the housing>`; the top of the table is the
+geom `table` at z = 0. Arms come with their names as prefix (`arm1/tcp`), see `pico.motion.arm`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from pico.model.catalog import Body, Footprint, Geometry
+from pico.model.lab import Setup
+from pico.twin.placement import Placement
+
+if TYPE_CHECKING:
+    import mujoco
+
+TIMESTEP = 0.002
+"""Step of the simulation [s]."""
+TABLE_THICKNESS = 0.06
+"""Thickness of the table's top [m]."""
+OPAQUE_GROUP = 1
+CLEAR_GROUP = 0
+"""Geom groups of components: what hides what is behind it, and what light passes."""
+PART_FRICTION = 0.6
+"""Sliding friction coefficient of a base on the table."""
+
+_BASE_SHARE = 0.6  # of a component's mass lies in what touches the table: magnetic bases are steel, the rest aluminium
+_TOUCHES = 1.0  # mm
+_STEEL = (0.66, 0.68, 0.70, 1.0)
+_PLAIN = (0.42, 0.44, 0.48, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """Something on the table: its shape, where it is, and whether it is free to move."""
+
+    geometry: Geometry
+    placement: Placement
+    free: bool = False
+
+
+def build_scene(setup: Setup, things: Mapping[str, Thing], *, pad_friction: float | None = None) -> mujoco.MjSpec:
+    """Return the scene of a bench with `things` by name on its table and every arm at its mount, joints at zero.
+
+    `pad_friction`: sliding friction coefficient of the fingers' pads; the lab's where None.
+    """
+    import mujoco
+
+    spec = mujoco.MjSpec()
+    spec.modelname = setup.lab.name
+    _set_options(spec)
+    _add_table(spec, setup)
+    for name, thing in sorted(things.items()):
+        _add_thing(spec, name, thing)
+    _add_arms(spec, setup, setup.lab.sim.pad_friction if pad_friction is None else pad_friction)
+    return spec
+
+
+def _set_options(spec: Any) -> None:
+    import mujoco
+
+    option = spec.option
+    option.timestep = TIMESTEP
+    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC  # pyramids creep in the hand
+    option.impratio = 10
+    option.enableflags |= mujoco.mjtEnableBit.mjENBL_SLEEP  # what rests costs nothing
+    spec.compiler.degree = False
+
+
+def _add_table(spec: Any, setup: Setup) -> None:
+    import mujoco
+
+    from pico.motion.arm import ARM_BIT, WORLD_BIT
+
+    width, depth = (v / 1000 for v in setup.lab.table.size)
+    spec.worldbody.add_geom(
+        name="table",
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        pos=[width / 2, depth / 2, -TABLE_THICKNESS / 2],
+        size=[width / 2, depth / 2, TABLE_THICKNESS / 2],
+        contype=WORLD_BIT,
+        conaffinity=WORLD_BIT | ARM_BIT,
+        condim=4,
+        friction=[PART_FRICTION, 0.005, 0.0001],
+        rgba=list(_STEEL),
+        group=OPAQUE_GROUP,
+    )
+
+
+def _add_arms(spec: Any, setup: Setup, friction: float) -> None:
+    from pico.motion.arm import FINGERS, attach_arm
+
+    for name, robot in sorted(setup.lab.robots.items()):
+        if robot.model != "xarm7":
+            continue
+        attach_arm(spec, name, robot)
+        for finger in FINGERS:
+            pad = spec.geom(f"{name}/{finger}_pad")
+            if pad is None:  # a vacuum gripper
+                continue
+            pad.friction = [friction, 0.005 * min(friction, 1.0), 0.0001]
+            pad.condim, pad.priority = 4, 1  # the pad's friction counts, not the greater of the two
+
+
+def _add_thing(spec: Any, name: str, thing: Thing) -> None:
+    import mujoco
+
+    body = spec.worldbody.add_body(name=name, pos=list(thing.placement.position), quat=list(thing.placement.quaternion))
+    if thing.free:
+        body.add_freejoint(name=name)
+        body.sleep = mujoco.mjtSleepPolicy.mjSLEEP_INIT if _rests(thing.placement) else body.sleep
+    shapes = bodies_of(thing.geometry)
+    for shape, mass in zip(shapes, masses(thing.geometry, shapes), strict=True):
+        _add_shape(spec, body, f"{name}/{shape.name}", shape, mass)
+
+
+def _rests(placement: Placement) -> bool:
+    return abs(placement.position[2]) < 1e-6 and placement.tilt < 1e-3
+
+
+def _add_shape(spec: Any, body: Any, name: str, shape: Body, mass: float) -> None:
+    import mujoco
+
+    from pico.motion.arm import ARM_BIT, WORLD_BIT
+
+    geom = body.add_geom(
+        name=name,
+        pos=[v / 1000 for v in shape.at],
+        quat=list(_orientation(shape)),
+        mass=mass,
+        rgba=list(shape.color),
+        group=OPAQUE_GROUP if shape.color[3] >= 1.0 else CLEAR_GROUP,
+        contype=WORLD_BIT,
+        conaffinity=WORLD_BIT | ARM_BIT,
+        condim=4,
+        friction=[PART_FRICTION, 0.005, 0.0001],
+    )
+    if shape.shape == "box":
+        geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [v / 2000 for v in shape.size]
+    else:
+        geom.type = mujoco.mjtGeom.mjGEOM_CYLINDER
+        geom.size = [shape.size[0] / 2000, shape.size[1] / 2000, 0]
+
+
+def _orientation(shape: Body) -> tuple[float, float, float, float]:
+    """The quaternion of a shape in its component's frame: a cylinder's own z turned onto its axis, then its yaw."""
+    half, c = math.radians(shape.yaw) / 2, math.sqrt(0.5)
+    w, z = math.cos(half), math.sin(half)
+    if shape.shape == "box" or shape.axis == "z":
+        return w, 0.0, 0.0, z
+    if shape.axis == "x":  # a quarter turn about y
+        return w * c, -z * c, w * c, z * c
+    return w * c, -w * c, -z * c, z * c  # a quarter turn about -x
+
+
+def bodies_of(geometry: Geometry) -> tuple[Body, ...]:
+    """Return the housing's shapes; where the type names none, one that fills footprint and height."""
+    if geometry.bodies:
+        return geometry.bodies
+    print_, height = geometry.footprint, geometry.height
+    if print_.disc is not None:
+        size: tuple[float, ...] = (2 * print_.disc, height)
+        return (Body(name="body", shape="cylinder", size=size, at=(0, 0, height / 2), color=_PLAIN),)
+    (x0, x1), (y0, y1) = _extent(print_)
+    at = ((x0 + x1) / 2, (y0 + y1) / 2, height / 2)
+    return (Body(name="body", shape="box", size=(x1 - x0, y1 - y0, height), at=at, color=_PLAIN),)
+
+
+def _extent(footprint: Footprint) -> tuple[tuple[float, float], tuple[float, float]]:
+    xs, ys = zip(*footprint.vertices, strict=True)
+    return (min(xs), max(xs)), (min(ys), max(ys))
+
+
+def masses(geometry: Geometry, shapes: tuple[Body, ...]) -> tuple[float, ...]:
+    """Return the mass of each of `shapes` [kg]: most of it in what touches the table, so that the part stands, the
+    rest by volume."""
+    low = [_bottom(shape) < _TOUCHES for shape in shapes]
+    share = {True: _BASE_SHARE, False: 1 - _BASE_SHARE} if any(low) and not all(low) else {True: 1.0, False: 1.0}
+    totals = {side: sum(_volume(s) for s, at in zip(shapes, low, strict=True) if at is side) for side in (True, False)}
+    return tuple(geometry.mass * share[at] * _volume(shape) / totals[at] for shape, at in zip(shapes, low, strict=True))
+
+
+def _bottom(shape: Body) -> float:
+    if shape.shape == "box":
+        return shape.at[2] - shape.size[2] / 2
+    return shape.at[2] - (shape.size[1] if shape.axis == "z" else shape.size[0]) / 2
+
+
+def _volume(shape: Body) -> float:
+    return math.prod(shape.size) if shape.shape == "box" else math.pi / 4 * shape.size[0] ** 2 * shape.size[1]
