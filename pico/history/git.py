@@ -37,13 +37,20 @@ _KNOWN: tuple[tuple[str, str, str], ...] = (
 )
 
 
+# What git's environment says of one repository, and not of another (`git rev-parse --local-env-vars`, in part).
+_LOCAL = (
+    "GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE", "GIT_PREFIX", "GIT_COMMON_DIR", "GIT_OBJECT_DIRECTORY",
+    "GIT_ALTERNATE_OBJECT_DIRECTORIES",
+)  # fmt: skip
+
+
 def run(root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None) -> str:
     """Run `git ARGUMENTS` in `root` and return what it wrote to standard output.
 
     `doing` completes "git did not ...". `hook` names the hooks that may refuse it. The environment's GIT_* count.
     Raises PicoError with git's own words and what to do.
     """
-    environment = os.environ | {"LC_ALL": "C.UTF-8", "LANGUAGE": "", "GIT_OPTIONAL_LOCKS": "0"}
+    environment = _environment(root)
     try:
         done = subprocess.run(
             ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), capture_output=True, check=False
@@ -55,6 +62,27 @@ def run(root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", ho
         words = "\n".join(t for t in (done.stderr.decode(errors="replace"), done.stdout.decode(errors="replace")) if t)
         raise refusal(words.strip(), doing=doing, hook=_installed(root, hook))
     return done.stdout.decode(errors="surrogateescape")
+
+
+def given(path: Path) -> tuple[str, Path] | None:
+    """Return the repository and the top of its working tree that GIT_DIR names, None where `path` is not below it.
+
+    A hook sets GIT_DIR for its own repository; a lab elsewhere is not part of that.
+    """
+    folder = os.environ.get("GIT_DIR")
+    tree = Path(os.environ.get("GIT_WORK_TREE") or ".").resolve()
+    return (str(Path(folder).absolute()), tree) if folder and path.resolve().is_relative_to(tree) else None
+
+
+def _environment(root: Path) -> dict[str, str]:
+    """Return the environment for git in `root`: without what a hook of another repository set."""
+    found = os.environ | {"LC_ALL": "C.UTF-8", "LANGUAGE": "", "GIT_OPTIONAL_LOCKS": "0"}
+    told = given(root)
+    if told:
+        found |= {"GIT_DIR": told[0], "GIT_WORK_TREE": str(told[1])}
+    elif "GIT_DIR" in found or not Path.cwd().is_relative_to(root):
+        found = {name: value for name, value in found.items() if name not in _LOCAL}
+    return found
 
 
 def refusal(words: str, *, doing: str, hook: str | None = None) -> PicoError:
@@ -72,8 +100,9 @@ def _installed(root: Path, names: str | None) -> str | None:
     found = []
     for name in (names or "").split():
         asked = subprocess.run(
-            ["git", "rev-parse", "--git-path", f"hooks/{name}"], cwd=root, capture_output=True, text=True, check=False
-        )
+            ["git", "rev-parse", "--git-path", f"hooks/{name}"], cwd=root, env=_environment(root), capture_output=True,
+            text=True, check=False,
+        )  # fmt: skip
         if asked.returncode == 0 and os.access(root / asked.stdout.strip(), os.X_OK):
             found.append(name)
     return " or ".join(found) or None

@@ -44,20 +44,21 @@ class Repository:
     def discover(cls, path: Path) -> Repository | None:
         """Return the repository that `path` lies in, None where there is none.
 
-        GIT_DIR, GIT_WORK_TREE and GIT_CEILING_DIRECTORIES count as they do for git. Raises PicoError for a
-        repository that can't be read or has no working tree.
+        GIT_DIR, GIT_WORK_TREE and GIT_CEILING_DIRECTORIES count as they do for git, if `path` lies in that working
+        tree. Raises PicoError for a repository that can't be read or has no working tree.
         """
         import pygit2
 
         ceiling = os.environ.get("GIT_CEILING_DIRECTORIES", "")
-        found = os.environ.get("GIT_DIR") or pygit2.discover_repository(str(path.absolute()), False, ceiling)
+        told = git.given(path)
+        found = told[0] if told else pygit2.discover_repository(str(path.absolute()), False, ceiling)
         if not found:
             return None
         try:
             handle = pygit2.Repository(found)
         except Exception as exc:  # GitError, or ValueError and KeyError of the same cause
             raise _unreadable(Path(found), str(exc)) from exc
-        tree = os.environ.get("GIT_WORK_TREE") or handle.workdir
+        tree = told[1] if told else handle.workdir
         if tree is None:
             hint = "clone it, and work in the clone"
             raise PicoError(error("git-bare", f"{found} is a bare repository, without files to edit", hint=hint))

@@ -199,6 +199,19 @@ def test_the_environment_of_a_hook_does_not_confuse_it(repo: Path, monkeypatch: 
     assert repository.root == repo and repository.changed() == ()
 
 
+def test_a_lab_elsewhere_is_not_taken_for_the_repository_of_a_hook(
+    repo: Path, git: Git, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    git("clone", "-q", "repo", "copy", at=".")
+    monkeypatch.chdir(repo)
+    monkeypatch.setenv("GIT_DIR", ".git")
+    monkeypatch.setenv("GIT_INDEX_FILE", ".git/index")
+    copy = opened(tmp_path / "copy")
+    (copy.root / "lab.yaml").write_text("kind: Edited\n")
+    assert copy.root == tmp_path / "copy" and copy.changed() == ("lab.yaml",)
+    assert opened(repo).changed() == ()
+
+
 def test_importing_history_does_not_import_libgit2() -> None:
     code = "import sys, pico.history.repository, pico.history.graph; sys.exit('pygit2' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
