@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -13,105 +13,27 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.execution.blocking import LoopThread, Run
 from pico.execution.watched import AsyncRun
-from pico.history.folder import Entry, LabFolder
+from pico.history.folder import LabFolder
+from pico.history.reader import Reader
 from pico.model.diff import Change, diff_observed
-from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state
-from pico.model.plan import Base, Plan, Target, plan_from_json
+from pico.model.plan import Base, Plan, Target
+from pico.model.pose import Pose
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
-from pico.model.state import LabState
+from pico.model.state import place_of
 from pico.model.status import Status, compare, refuse_unapplied
 from pico.motion.deferred import DeferredMotion
 
 if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
+    from pico.twin.picture import Image, View
 
 CommitMode = Literal["strict", "capture", "planned"]
 
 
-class _Readable:
-    """What both faces offer that asks no backend: the manifests and their history."""
-
-    folder: LabFolder
-
-    @property
-    def root(self) -> Path:
-        """The lab's folder."""
-        return self.folder.root
-
-    @property
-    def setup(self) -> Setup:
-        """The bench as it is now: lab and component types."""
-        return self.folder.setup
-
-    @property
-    def state(self) -> LabState:
-        """The desired state: what the manifests in the working tree say."""
-        return self.folder.state
-
-    def state_at(self, revision: str) -> LabState:
-        """Return the state that a revision holds; raises PicoError."""
-        return self.folder.state_at(revision)
-
-    def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
-        """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
-        return self.folder.diff(a, b)
-
-    def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
-        """Yield the commits that changed the lab, newest first, with their physical diffs; raises PicoError."""
-        return self.folder.log(revision, every=every, limit=limit)
-
-    def entry(self, revision: str) -> Entry:
-        """Return the commit that a revision names, with its physical diff; raises PicoError."""
-        return self.folder.entry(self.folder.history().resolve(revision))
-
-    def head_name(self) -> str:
-        """Return what is checked out as a person calls it; empty without Git."""
-        head = self.folder.head()
-        return head.label if head else ""
-
-    def head_commit(self) -> str | None:
-        """Return the id of the commit checked out; None without Git or before the first commit."""
-        head = self.folder.head()
-        return head.commit if head else None
-
-    def name_of(self, revision: str) -> str:
-        """Return `e1 (E1-3 "p2 tilted")` for a revision; raises PicoError."""
-        commit = self.folder.history().resolve(revision)
-        label = commit.label if revision in ("HEAD", commit.id) else revision
-        known = "" if label == commit.label else f"{commit.label} "
-        return f'{label} ({known}"{commit.summary}")' if known else f'{label} "{commit.summary}"'
-
-    def goal_name(self, plan: Plan) -> str:
-        """Return what a plan leads to, as a person calls it."""
-        return self.name_of(plan.target.revision) if plan.target.revision else ""
-
-    def find(self, word: str, folder: Path = Path()) -> Plan | str:
-        """Return the saved plan that `word` names as a file in `folder`, or `word` where it names a revision.
-
-        Raises PicoError where it names both (`./NAME` is the file), or a file that is no plan.
-        """
-        path = folder / word
-        is_file = path.is_file()
-        if not is_file or word.startswith(("./", "../", "/")):
-            if is_file:
-                return plan_from_json(path.read_bytes())
-            return word
-        if self._is_revision(word):
-            hint = f"`./{word}` is the file; rename it to mean the revision"
-            raise PicoError(error("ambiguous", f"`{word}` is both a file and a revision", hint=hint))
-        return plan_from_json(path.read_bytes())
-
-    def _is_revision(self, word: str) -> bool:
-        try:
-            return self.folder.repository is not None and bool(self.folder.repository.resolve(word))
-        except PicoError:
-            return False
-
-
-class AsyncBench(_Readable):
+class AsyncBench(Reader):
     """One bench: its lab's folder, and the backend that sees and moves it. Open it with `AsyncBench.open`."""
 
     def __init__(self, folder: LabFolder, fidelity: str | None = None) -> None:
@@ -282,11 +204,30 @@ class AsyncBench(_Readable):
         captured = self.folder.capture(live_state(self.setup, seen))
         return self.folder.commit(message, captured.changes, self.fidelity)
 
-    async def render(self, revision: str | None = None, *, view: str = "perspective", plan: bool = False) -> bytes:
-        """Return a PNG of the bench as it is, or as a revision wants it; with `plan`, of what would move there."""
-        from pico.twin import picture
+    async def render(
+        self, revision: str | None = None, *, view: View = "perspective", plan: bool = False, out: Path | None = None
+    ) -> Image:
+        """Return a picture (height, width, 3), sRGB, of the bench as it is, or as a revision wants it.
 
-        raise NotImplementedError(picture)
+        `plan` (from above only): the bench as it is, with what would move there, or to the manifest, drawn dashed.
+        `out`: write it there, too, as PNG. Raises PicoError.
+        """
+        from pico.twin.picture import render, write_png
+
+        seen = await self.observe()
+        live = {name: part.pose for name, part in seen.components.items() if part.presence == "seen" and part.pose}
+        joints = {name: robot.joints for name, robot in seen.robots.items()}
+        poses, ghosts = live, dict[str, Pose]()
+        if plan or revision:
+            wanted = self.state_at(revision) if revision else self.state
+            goals = {name: place_of(self.setup, wanted, name)[1] for name in self.setup.lab.inventory}
+            moving = {c.component for c in diff_observed(self.setup, seen, wanted) if c.tunable == "pose"}
+            poses = live if plan else goals
+            ghosts = {name: goals[name] for name in moving} if plan else ghosts
+        image = render(self.setup, poses, joints, view=view, ghosts=ghosts)
+        if out is not None:
+            write_png(image, out)
+        return image
 
     @property
     def sim(self) -> SimulatedTable:
@@ -296,7 +237,7 @@ class AsyncBench(_Readable):
         return SimulatedTable(self.setup, self.root)
 
 
-class Bench(_Readable):
+class Bench(Reader):
     """The synchronous face of `AsyncBench`: same methods, same results, no `await`. Open it with `pico.open`."""
 
     def __init__(self, bench: AsyncBench) -> None:
@@ -386,9 +327,11 @@ class Bench(_Readable):
         """Capture and commit the manifests; see `AsyncBench.commit`."""
         return self._thread.wait(self._bench.commit(message, mode))
 
-    def render(self, revision: str | None = None, *, view: str = "perspective", plan: bool = False) -> bytes:
-        """Return a PNG of the bench; see `AsyncBench.render`."""
-        return self._thread.wait(self._bench.render(revision, view=view, plan=plan))
+    def render(
+        self, revision: str | None = None, *, view: View = "perspective", plan: bool = False, out: Path | None = None
+    ) -> Image:
+        """Return a picture (height, width, 3) of the bench; see `AsyncBench.render`."""
+        return self._thread.wait(self._bench.render(revision, view=view, plan=plan, out=out))
 
 
 def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:

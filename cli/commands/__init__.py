@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 
 import typer
@@ -25,9 +26,10 @@ def register(app: typer.Typer, asked: str | None) -> None:
             app.command(name, help=COMMANDS[name])(_nothing)
 
 
-def _function(name: str) -> object:
+def _function(name: str) -> Callable[..., int]:
     module = import_module(".single" if name in SINGLE and name != "get" else f".{name}", __name__)
-    return getattr(module, "set_" if name == "set" else name)
+    function: Callable[..., int] = getattr(module, "set_" if name == "set" else name)
+    return function
 
 
 def _empty(name: str) -> typer.Typer:

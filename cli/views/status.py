@@ -62,8 +62,8 @@ def _summary(status: Status) -> list[str]:
     edits = sum(r.edited for r in status.rows)
     parts = [
         (edits, f"{count(edits, 'edit')} not committed (*)"),
-        (pending, f"{count(pending, 'edit')} to apply (!)"),
-        (drifts, f"{count(drifts, 'tunable')} of the bench elsewhere than committed and desired (!)"),
+        (pending, f"{count(pending, 'tunable')} of the bench to bring to the manifest (!)"),
+        (drifts, f"{count(drifts, 'tunable')} of the bench neither as committed nor as desired (!)"),
         (lost, f"{count(lost, 'component')} not seen as it should be"),
         (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
     ]

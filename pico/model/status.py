@@ -64,7 +64,7 @@ class Status:
 def compare(setup: Setup, committed: LabState | None, desired: LabState, seen: Observation, head: str = "") -> Status:
     """Return the three states side by side, sorted by component and tunable; `committed` is None without a commit."""
     off = _by_address(diff_observed(setup, seen, desired))
-    moved = _by_address(diff_observed(setup, seen, committed)) if committed else off
+    moved = _by_address(diff_observed(setup, seen, committed)) if committed else {}
     rows: list[StatusRow] = []
     for name in sorted(setup.lab.inventory):
         rows.append(_pose_row(setup, name, committed, desired, seen, off, moved))

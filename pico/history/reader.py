@@ -1,0 +1,93 @@
+"""What a bench offers that asks no backend: its manifests and their history. Both faces of a bench share it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from pico.diagnostics import PicoError, error
+from pico.history.folder import Entry, LabFolder
+from pico.model.diff import Change
+from pico.model.lab import Setup
+from pico.model.plan import Plan, plan_from_json
+from pico.model.state import LabState
+
+
+class Reader:
+    """Reads the lab's folder, and states at revisions, for the class that has one as `folder`."""
+
+    folder: LabFolder
+
+    @property
+    def root(self) -> Path:
+        """The lab's folder."""
+        return self.folder.root
+
+    @property
+    def setup(self) -> Setup:
+        """The bench as it is now: lab and component types."""
+        return self.folder.setup
+
+    @property
+    def state(self) -> LabState:
+        """The desired state: what the manifests in the working tree say."""
+        return self.folder.state
+
+    def state_at(self, revision: str) -> LabState:
+        """Return the state that a revision holds; raises PicoError."""
+        return self.folder.state_at(revision)
+
+    def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
+        """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
+        return self.folder.diff(a, b)
+
+    def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
+        """Yield the commits that changed the lab, newest first, with their physical diffs; raises PicoError."""
+        return self.folder.log(revision, every=every, limit=limit)
+
+    def entry(self, revision: str) -> Entry:
+        """Return the commit that a revision names, with its physical diff; raises PicoError."""
+        return self.folder.entry(self.folder.history().resolve(revision))
+
+    def head_name(self) -> str:
+        """Return what is checked out as a person calls it; empty without Git."""
+        head = self.folder.head()
+        return head.label if head else ""
+
+    def head_commit(self) -> str | None:
+        """Return the id of the commit checked out; None without Git or before the first commit."""
+        head = self.folder.head()
+        return head.commit if head else None
+
+    def name_of(self, revision: str) -> str:
+        """Return `e1 (E1-3 "p2 tilted")` for a revision; raises PicoError."""
+        commit = self.folder.history().resolve(revision)
+        label = commit.label if revision in ("HEAD", commit.id) else revision
+        known = "" if label == commit.label else f"{commit.label} "
+        return f'{label} ({known}"{commit.summary}")' if known else f'{label} "{commit.summary}"'
+
+    def goal_name(self, plan: Plan) -> str:
+        """Return what a plan leads to, as a person calls it."""
+        return self.name_of(plan.target.revision) if plan.target.revision else ""
+
+    def find(self, word: str, folder: Path = Path()) -> Plan | str:
+        """Return the saved plan that `word` names as a file in `folder`, or `word` where it names a revision.
+
+        Raises PicoError where it names both (`./NAME` is the file), or a file that is no plan.
+        """
+        path = folder / word
+        is_file = path.is_file()
+        if not is_file or word.startswith(("./", "../", "/")):
+            if is_file:
+                return plan_from_json(path.read_bytes())
+            return word
+        if self._is_revision(word):
+            hint = f"`./{word}` is the file; rename it to mean the revision"
+            raise PicoError(error("ambiguous", f"`{word}` is both a file and a revision", hint=hint))
+        return plan_from_json(path.read_bytes())
+
+    def _is_revision(self, word: str) -> bool:
+        try:
+            return self.folder.repository is not None and bool(self.folder.repository.resolve(word))
+        except PicoError:
+            return False
