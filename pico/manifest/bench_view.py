@@ -55,8 +55,8 @@ def view_of_broken(document: Document, catalog: Catalog) -> BenchView | None:
         else:
             homes[name] = home
     slots = _map(root, "slots").entries.keys()
-    name = _text(metadata, "name")
-    return BenchView(name if name and NAME.fullmatch(name) else None, kinds, fixed, homes, slots)
+    lab = _text(metadata, "name")
+    return BenchView(lab if lab and NAME.fullmatch(lab) else None, kinds, fixed, homes, slots)
 
 
 def type_names(document: Document) -> set[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
@@ -174,24 +173,11 @@ class _Reader:
                         document, key, "missing-key", f"the pose of {name} has no `{axis}`", example, f"{name}.pose"
                     )
                 continue
-            number = value.value if isinstance(value, Scalar) else None
-            if type(number) is not float and type(number) is not int:
-                converted = read_number(document.source, name, axis, unit, value)
-                if isinstance(converted, Diagnostic):
-                    self.found.append(converted)
-                    continue
-                number = converted
-            if math.isfinite(number):
-                numbers[axis] = float(number)
+            number = read_number(document.source, name, axis, unit, value)
+            if isinstance(number, Diagnostic):
+                self.found.append(number)
             else:
-                self._error(
-                    document,
-                    value,
-                    "type",
-                    f"{axis} of {name} is no finite number",
-                    f"expected a number in {unit}",
-                    name,
-                )
+                numbers[axis] = number
         for other, (at, _) in node.entries.items():
             if other not in ("x", "y", "yaw"):
                 hint = did_you_mean(other[:40], ("x", "y", "yaw"))

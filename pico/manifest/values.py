@@ -27,14 +27,8 @@ def read_value(source: Source, component: str, name: str, kind: Tunable, node: N
     """Return the value of tunable `name` in the unit that its type declares, or what is wrong with it."""
     value = node.value if isinstance(node, Scalar) else plain(node)
     if kind.datatype == "float":
-        if type(value) is float or type(value) is int:
-            number = float(value)
-        else:
-            converted = read_number(source, component, name, kind.unit, node)
-            if isinstance(converted, Diagnostic):
-                return converted
-            number = converted
-        if math.isfinite(number) and (kind.range is None or kind.range[0] <= number <= kind.range[1]):
+        number = read_number(source, component, name, kind.unit, node)
+        if isinstance(number, Diagnostic) or kind.range is None or kind.range[0] <= number <= kind.range[1]:
             return number
         return _out_of_range(source, component, name, kind, node, number)
     if kind.datatype == "bool":
@@ -49,8 +43,10 @@ def read_value(source: Source, component: str, name: str, kind: Tunable, node: N
 
 
 def read_number(source: Source, component: str, name: str, unit: str, node: Node) -> float | Diagnostic:
-    """Return a node as a number in `unit`, or what is wrong with it."""
+    """Return a node as a finite number in `unit`, or what is wrong with it."""
     value = node.value if isinstance(node, Scalar) else plain(node)
+    if (type(value) is float or type(value) is int) and math.isfinite(value):
+        return float(value)
     number, code, summary = quantity(f"{name} of {component}", value, unit)
     if number is not None:
         return number
@@ -59,7 +55,8 @@ def read_number(source: Source, component: str, name: str, unit: str, node: Node
 
 def _out_of_range(source: Source, component: str, name: str, kind: Tunable, node: Node, number: float) -> Diagnostic:
     unit = f" {kind.unit}" if kind.unit else ""
-    label = f"expected {kind.range[0]:g} to {kind.range[1]:g}{unit}" if kind.range else "expected a finite number"
+    assert kind.range
+    label = f"expected {kind.range[0]:g} to {kind.range[1]:g}{unit}"
     summary = f"{name} of {component} is out of range: {number:.6g}{unit}"
     return _wrong(source, node, "range", summary, label, "", f"{component}.{name}")
 
