@@ -93,8 +93,12 @@ class Move:
         return [choice for _, choice in sorted(pairs, key=lambda pair: pair[0])]
 
     def _over(self, pose: Pose, half: float) -> Iterator[tuple[Column, Joints]]:
+        known: dict[tuple[float, int], bool] = {}  # whole turns make no difference
         for column in columns(self.scene.robot, pose.x, pose.y, pose.yaw + self.grasp_yaw + half):
-            if usable(column, self.low, self.high) and (top := column.at(self.high)):
+            key = (column.reach, column.elbow)
+            if key not in known:
+                known[key] = usable(column, self.low, self.high)
+            if known[key] and (top := column.at(self.high)):
                 yield column, top
 
     def _attempt(self, above: Stand, choice: Choice, detours: bool) -> tuple[list[Joints], list[Joints]] | Blocked:
@@ -204,13 +208,9 @@ def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> li
     """
     here, height = stand(scene, joints), scene.robot.transit_height
     x, y, z, _ = tool_pose(scene.robot, joints)
-    if here.column is None:
-        upright = _upright(scene, joints)
-        hit = swing(scene, joints, upright)
-        return [joints, upright] if hit is None else hit
-    if z >= height - 1.0:
+    if here.column is not None and z >= height - 1.0:
         return [joints]
-    if not usable(here.column, z, height):
+    if here.column is None or not usable(here.column, z, height):
         upright = _upright(scene, joints)
         hit = swing(scene, joints, upright)
         return [joints, upright] if hit is None else hit
@@ -223,10 +223,14 @@ def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> li
 
 
 def _upright(scene: Scene, joints: Joints) -> Joints:
-    """A posture with a vertical tool at transit height, in the plane of joint 1, hand turned as it is."""
+    """A posture with a vertical tool at transit height, in the plane of joint 1 and with joint 7 as it is; where the
+    arm has none, `joints` themselves."""
     robot = scene.robot
-    column = Column(joints[0], joints[6], 300.0, 0, robot.gripper.tool - robot.mount.z)
-    return _top(column, robot.transit_height)
+    for reach in (300.0, 400.0, 200.0, 500.0, 600.0):
+        column = Column(joints[0], joints[6], reach, 0, robot.gripper.tool - robot.mount.z)
+        if (upright := column.at(robot.transit_height)) is not None:
+            return upright
+    return joints
 
 
 def legs(scene: Scene, corners: list[Joints], verticals: int) -> timing.Timed:

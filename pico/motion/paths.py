@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from pico.motion.kinematics import Column, column_of
-from pico.motion.scene import NEAR, Hit, Scene
+from pico.motion.scene import FREE, Hit, Scene
 from pico.motion.types import Joints
 
 STEP = 0.02
 """Greatest step of a joint between two looks at the scene [rad]."""
-TRAVEL = 2 * (NEAR - 2.0)
+TRAVEL = 2 * FREE
 """Greatest way of any point of the arm between two looks where nothing is near [mm]."""
 FINEST = 1.0
 """Where something is near, looks are no farther apart than this [mm]."""

@@ -4,8 +4,8 @@ Compiled once and then only rearranged: components are mocap bodies (MuJoCo miss
 are moved), as many of each geometry as stood within reach at once. The part in hand is a body of the gripper; it is
 switched by the collision bits of its body and its geoms, because MuJoCo looks at both.
 
-Contacts are made as soon as things are `NEAR` to one another, so that a look at one configuration tells how far the
-arm may move before it has to look again.
+Contacts are made as soon as things are `FREE` from being too near to one another, so that a look at one configuration
+tells how far the arm may move before it has to look again.
 """
 
 from __future__ import annotations
@@ -23,10 +23,9 @@ from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm, build_arm
 from pico.motion.solids import add_solids
 from pico.motion.types import Joints, Standing
 
-NEAR = 12.0
-"""Distance at which a thing is first noticed [mm]."""
+FREE = 10.0
+"""How much farther off than its margin a thing is first noticed [mm]."""
 _ROUNDING = 0.01  # mm; what stands exactly at a margin is not too near
-_WORLD = {"contype": WORLD_BIT, "conaffinity": ARM_BIT, "margin": NEAR / 1000}
 _AWAY = (0.0, -20.0, 0.0)  # m, where bodies wait that stand for nothing at present
 _DEG = math.pi / 180
 
@@ -54,12 +53,17 @@ class Scene:
         """Compile a scene that takes up to `pool[geometry]` components of each geometry."""
         self.setup, self.name, self.robot = setup, robot, setup.lab.robots[robot]
         self.pool = dict(pool)
-        self.compiles = 1
+        margins = setup.lab.margins
+        self._world = {
+            "contype": WORLD_BIT,
+            "conaffinity": ARM_BIT,
+            "margin": (FREE + max(margins.body, margins.fingers)) / 1000,
+        }
         self._compile()
         self.ignored: frozenset[str] = frozenset()
         """Components that the fingers may touch: what they stand around when a motion begins."""
-        self.required = {"held": setup.lab.margins.body, "finger": setup.lab.margins.fingers}
-        self._default = setup.lab.margins.body
+        self.required = {"held": margins.body, "finger": margins.fingers}
+        self._default = margins.body
         self._arranged: dict[str, Standing] = {}
         self._held: int | None = None
 
@@ -81,17 +85,17 @@ class Scene:
         box = mujoco.mjtGeom.mjGEOM_BOX
         x, y = (v / 2000 for v in self.setup.lab.table.size)
         table = spec.worldbody.add_body(name="table")
-        table.add_geom(type=box, size=[x, y, 0.05], pos=[x, y, -0.05], **_WORLD)
+        table.add_geom(type=box, size=[x, y, 0.05], pos=[x, y, -0.05], **self._world)
         for name, zone in self.setup.lab.keep_out.items():
             body = spec.worldbody.add_body(name=f"keep_out:{name}")
-            body.add_geom(type=box, **_extent(zone), **_WORLD)
+            body.add_geom(type=box, **_extent(zone), **self._world)
 
     def _add_pool(self, spec: Any) -> dict[int, list[str]]:
         places: dict[int, list[str]] = {}
         for number, (geometry, count) in enumerate(self.pool.items()):
             places[number] = [f"place:{number}:{i}" for i in range(count)]
             for name in places[number]:
-                add_solids(spec, spec.worldbody.add_body(name=name, mocap=True, pos=_AWAY), geometry, **_WORLD)
+                add_solids(spec, spec.worldbody.add_body(name=name, mocap=True, pos=_AWAY), geometry, **self._world)
         return places
 
     def _add_robots(self, spec: Any) -> None:
@@ -104,7 +108,8 @@ class Scene:
             else:
                 for geom in arm.geoms:
                     if geom.contype:
-                        geom.contype, geom.conaffinity, geom.margin = WORLD_BIT, ARM_BIT, NEAR / 1000
+                        geom.contype, geom.conaffinity = WORLD_BIT, ARM_BIT
+                        geom.margin = self._world["margin"]
             attach_arm(spec, name, robot, arm)
 
     def _add_hands(self, arm: Any) -> None:
@@ -159,6 +164,8 @@ class Scene:
     def _number(self, geometry: Geometry) -> int:
         known = self._known.get(id(geometry))
         if known is None:
+            if len(self._known) > 10_000:  # shapes of strangers are made anew with every observation
+                self._known.clear()
             known = self._known[id(geometry)] = (geometry, self._numbers.get(geometry, -1))
         return known[1]
 
@@ -204,18 +211,19 @@ class Scene:
             self._data.qpos[self._slides] = opening / 2000
 
     def look(self, joints: Joints) -> tuple[float, Hit | None]:
-        """Return how far the arm, at `joints` [rad], is from coming too near to anything [mm, at most `NEAR` less the
-        greatest margin], and the worst hit where it is too near."""
+        """Return how far the arm, at `joints` [rad], is from coming too near to anything [mm, at most `FREE`], and the
+        worst hit where it is too near."""
         data = self._data
         data.qpos[self._joints] = joints
         self._kinematics(self._model, data)
         self._collision(self._model, data)
         if data.ncon == 0:
-            return NEAR - self._default, None
+            return FREE, None
         return self._judge(data.contact.geom.tolist(), data.contact.dist.tolist())
 
     def _judge(self, pairs: list[list[int]], distances: list[float]) -> tuple[float, Hit | None]:
-        slack, worst = NEAR - self._default, None
+        slack: float = FREE
+        worst: Hit | None = None
         for (one, other), distance in zip(pairs, distances, strict=True):
             hit = self._assess(one, other, distance * 1000)
             if hit is None:

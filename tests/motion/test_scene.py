@@ -2,17 +2,18 @@ from __future__ import annotations
 
 import math
 import random
+from dataclasses import replace
 
 import mujoco
 import pytest
 from benchtop import DISC, PART, TALL, TRIANGLE, bench, stands
 
-from pico.model.lab import Box2, KeepOut, Mount, Robot
+from pico.model.lab import Box2, KeepOut, Margins, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import ik
-from pico.motion.scene import NEAR, Scene, within_reach
+from pico.motion.scene import FREE, Scene, within_reach
 from pico.motion.solids import add_solids
 
 ARM = bench().lab.robots["arm1"]
@@ -65,7 +66,7 @@ def _fresh_depth(standing, joints):
 
 @pytest.mark.parametrize("yaw", [0.0, 35.0, 90.0])
 def test_the_part_in_hand_is_where_the_hand_takes_it(yaw):
-    """A post 20 mm beside the held part's edge is 20 mm away, whatever the grasp yaw; NEAR limits what is seen."""
+    """A post 8 mm beside the held part's edge is 8 mm away, whatever the grasp yaw."""
     scene = Scene(bench(), "arm1", {PART: 1, DISC: 1, TALL: 1})
     scene.hold(PART, yaw)
     scene.open(34.0)
@@ -107,7 +108,7 @@ def test_the_other_arm_is_an_obstacle_where_it_is_parked():
 
 def test_far_from_everything_the_slack_is_all_that_can_be_seen():
     scene = Scene(bench(), "arm1", {})
-    assert scene.look(ArmMotion(bench()).park_joints("arm1")) == (NEAR - 2.0, None)
+    assert scene.look(ArmMotion(bench()).park_joints("arm1")) == (FREE, None)
 
 
 def test_only_what_stands_within_reach_is_in_the_scene():
@@ -125,3 +126,15 @@ def test_a_scene_is_compiled_again_only_for_what_has_no_place():
     assert second is not first
     assert motion._scene("arm1", few | many) is second
     assert motion._scene("arm1", few) is second
+
+
+def test_margins_wider_than_usual_are_kept_too():
+    lab = replace(bench().lab, margins=Margins(body=30, fingers=25))
+    scene = Scene(replace(bench(), lab=lab), "arm1", {PART: 1, DISC: 1})
+    scene.hold(PART, 0)
+    scene.open(34.0)
+    joints = ik(ARM, 520, 420, 140, 0)[0]
+    scene.arrange(stands(at={"post": (DISC, Pose(520 + 30 + 28 + 25, 420))}))
+    _, hit = scene.look(joints)
+    assert hit is not None and (hit.part, hit.obstacle) == ("held", "post")
+    assert (hit.gap, hit.missing) == pytest.approx((28, 2), abs=0.05)
