@@ -129,8 +129,7 @@ def _actors(request: Request, situation: Situation) -> tuple[tuple[Mover, ...], 
 
 
 def _mover(request: Request, situation: Situation, name: str, right: bool = False) -> Mover:
-    wrist = request.motion is not None
-    return mover(request.setup, request.seen, request.wanted, name, situation.robots, wrist=wrist, right=right)
+    return mover(request.setup, request.seen, request.wanted, name, situation.robots, right=right)
 
 
 def _dependents(

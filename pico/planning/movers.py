@@ -78,20 +78,19 @@ class Obstacle:
     standing: Standing
 
 
-def turned(setup: Setup, slot: str, footprint: Footprint, *, wrist: bool) -> list[Place]:
+def turned(setup: Setup, slot: str, footprint: Footprint) -> list[Place]:
     """Return how a part may stand in a slot: as the slot says, or turned by quarters, which the fingers may need.
 
-    Half a turn is left out where it changes nothing: to a symmetric footprint, and if no `wrist` is asked.
+    Half a turn is left out where it changes nothing; the wrist does not need it, since either jaw may come first.
     """
     pose = setup.lab.slots[slot].pose
-    turns = (0, 90) if half_turn_symmetric(footprint) and not wrist else (0, 180, 90, 270)
+    turns = (0, 90) if half_turn_symmetric(footprint) else (0, 180, 90, 270)
     return [Place(Pose(pose.x, pose.y, wrap(pose.yaw + t)), slot) for t in turns]
 
 
 def mover(
-    setup: Setup, seen: Observation, wanted: LabState, name: str, robots: tuple[str, ...], *, wrist: bool,
-    right: bool = False,
-) -> Mover:  # fmt: skip
+    setup: Setup, seen: Observation, wanted: LabState, name: str, robots: tuple[str, ...], *, right: bool = False
+) -> Mover:
     """Return what may be done with a component that is `seen`; `robots` are those with a free gripper."""
     part, kind, pose = setup.lab.inventory[name], setup.type_of(name), seen.components[name].pose
     assert pose is not None
@@ -99,25 +98,22 @@ def mover(
     footprint = kind.geometry.footprint
     slot, goal = place_of(setup, wanted, name)
     places = [Place(pose, slot_at(setup, pose) if movable else None)]
-    ends = turned(setup, slot, footprint, wrist=wrist) if slot and movable else [Place(goal, slot)]
+    ends = turned(setup, slot, footprint) if slot and movable else [Place(goal, slot)]
     goals = tuple(range(1, 1 + len(ends)))
     spots: list[Place] = []
     if movable and part.stage != "never":
         for other, storage in sorted(setup.lab.slots.items()):
             if other != slot and fits(storage, footprint):
-                spots += turned(setup, other, footprint, wrist=wrist)
+                spots += turned(setup, other, footprint)
     staging = tuple(range(1 + len(ends), 1 + len(ends) + len(spots)))
-    holds = _holds(setup, name, robots, wrist) if movable else (Hold(None),)
+    holds = _holds(setup, name, robots) if movable else (Hold(None),)
     penalty = AVOID_PENALTY if part.stage == "avoid" else 0.0
     return Mover(name, kind.geometry, (*places, *ends, *spots), goals, staging, holds, right, penalty)
 
 
-def _holds(setup: Setup, name: str, robots: tuple[str, ...], wrist: bool) -> tuple[Hold, ...]:
+def _holds(setup: Setup, name: str, robots: tuple[str, ...]) -> tuple[Hold, ...]:
     grasp = setup.type_of(name).geometry.grasp
-    yaws = list(grasp.yaws) if grasp else []
-    if wrist:  # the jaws are alike, but the wrist turns only so far
-        yaws += [wrap(y + 180) for y in yaws]
-    return tuple(Hold(robot, yaw) for robot in robots for yaw in yaws)
+    return tuple(Hold(robot, yaw) for robot in robots for yaw in (grasp.yaws if grasp else ()))
 
 
 def obstacle(setup: Setup, name: str, part: ObservedComponent) -> Obstacle | None:
