@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import Diagnostic, warning
+from pico.diagnostics import Diagnostic, error, warning
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
 from pico.model.state import LabState
-from pico.motion.types import Blocked, Motion
+from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.movers import Mover, Obstacle, Place, mover, standing_obstacles
 from pico.planning.situation import Situation, read_situation
 from pico.planning.target import Source, check_target, no_source
 from pico.planning.values import OPERATOR_SECONDS, value_operations
+
+if TYPE_CHECKING:
+    from pico.planning.order import Turn
+    from pico.planning.solve import Solution
 
 MOVE_SECONDS = 10.0
 """What a pick and place takes where no motion is asked for [s]."""
@@ -172,8 +176,8 @@ def _hand_warnings(movers: Sequence[Mover]) -> list[Diagnostic]:
     ]  # fmt: skip
 
 
-def _operations(request: Request, answer: Any) -> tuple[list[Operation], list[Diagnostic]]:
-    from pico.planning.order import precedence, reduced
+def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:
+    from pico.planning.order import precedence, reduced, turns
     from pico.planning.reasons import move_reasons
 
     table, steps, paths = answer.table, answer.steps, answer.paths
@@ -192,8 +196,7 @@ def _operations(request: Request, answer: Any) -> tuple[list[Operation], list[Di
             resources=_resources(request.setup, step.hold.robot, actor.name),
             reason=request.reason or reasons[k], seconds=path.seconds if path else nominal,
         ))  # fmt: skip
-    parks, notes = _parks(operations, paths.parks if paths else {})
-    return operations + parks, notes
+    return _with_parks(operations, turns(steps), paths.parks if paths else ())
 
 
 def _arguments(start: Place, goal: Place, grasp_yaw: float | None, name: str) -> dict[str, Any]:
@@ -213,18 +216,23 @@ def _resources(setup: Setup, robot: str | None, component: str) -> tuple[str, ..
     return (robot, component, *(("arms",) if len(setup.lab.robots) > 1 else ()))
 
 
-def _parks(operations: Sequence[Operation], found: Any) -> tuple[list[Operation], list[Diagnostic]]:
-    parks, notes = [], []
-    for robot in sorted({o.robot for o in operations if o.robot}):
-        path = found.get(robot)
+def _with_parks(
+    operations: list[Operation], turns: Sequence[Turn], paths: Sequence[MovePath | Blocked]
+) -> tuple[list[Operation], list[Diagnostic]]:
+    """Return the operations with a park after each turn; the next robot's turn waits for it."""
+    out, notes = list(operations), []
+    for n, turn in enumerate(turns):
+        path = paths[n] if paths else None
         if isinstance(path, Blocked):
-            notes.append(warning("blocked", f"{robot} can't park: {path.text}", address=robot))
+            stuck = error if n + 1 < len(turns) else warning
+            notes.append(stuck("blocked", f"{turn.robot} can't park: {path.text}", address=turn.robot))
             continue
-        own = {n for n, o in enumerate(operations) if o.robot == robot}
-        waited = {int(e) for n in own for e in operations[n].after}
-        after = tuple(str(n) for n in sorted(own - waited))
-        parks.append(Operation(
-            id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=after,
+        waited = {int(e) for k in turn.steps for e in operations[k].after}
+        after = tuple(str(k) for k in turn.steps if k not in waited)
+        for k in turns[n + 1].steps if n + 1 < len(turns) else ():
+            out[k] = replace(out[k], after=(*out[k].after, str(len(out))))
+        out.append(Operation(
+            id="", primitive="park", component=turn.robot, robot=turn.robot, resources=(turn.robot,), after=after,
             reason=Reason(kind="parked", text="out of the beam"), seconds=path.seconds if path else PARK_SECONDS,
         ))  # fmt: skip
-    return parks, notes
+    return out, notes

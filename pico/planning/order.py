@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from pico.model.lab import Setup
 from pico.planning.conflicts import Conflicts
@@ -43,21 +44,50 @@ def reduced(closure: Closure) -> tuple[tuple[int, ...], ...]:
 
 def arranged(setup: Setup, table: Conflicts, steps: Sequence[Step], closure: Closure) -> tuple[Step, ...]:
     """Return the steps in an order that keeps `closure`, each time the one whose pick is nearest to where its robot
-    is."""
+    is; a robot goes on as long as it can before another has its turn."""
     at = {name: (r.mount.x, r.mount.y) for name, r in setup.lab.robots.items()}
     left, done, out = list(range(len(steps))), set[int](), []
+    turn: str | None = None
     while left:
 
-        def way_to(k: int) -> tuple[float, int]:
+        def way_to(k: int, turn: str | None = turn) -> tuple[bool, float, int]:
             pose = table.movers[steps[k].mover].places[steps[k].start].pose
-            x, y = at.get(steps[k].hold.robot or "", (pose.x, pose.y))
-            return round(math.hypot(pose.x - x, pose.y - y), 6), k
+            robot = steps[k].hold.robot
+            x, y = at.get(robot or "", (pose.x, pose.y))
+            return (
+                turn is not None and robot is not None and robot != turn,
+                round(math.hypot(pose.x - x, pose.y - y), 6),
+                k,
+            )
 
         k = min((k for k in left if closure[k] <= done), key=way_to)
         left.remove(k)
         done.add(k)
         out.append(steps[k])
+        turn = steps[k].hold.robot or turn
         if steps[k].hold.robot:
             goal = table.movers[steps[k].mover].places[steps[k].goal].pose
             at[steps[k].hold.robot or ""] = (goal.x, goal.y)
     return tuple(out)
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """Consecutive steps of one robot; it parks after them, so that the next robot finds the table free of it."""
+
+    robot: str
+    steps: tuple[int, ...]
+
+
+def turns(steps: Sequence[Step]) -> tuple[Turn, ...]:
+    """Return the turns in which the robots take the steps; those of people belong to none."""
+    found: list[Turn] = []
+    for k, step in enumerate(steps):
+        robot = step.hold.robot
+        if robot is None:
+            continue
+        if found and found[-1].robot == robot:
+            found[-1] = Turn(robot, (*found[-1].steps, k))
+        else:
+            found.append(Turn(robot, (k,)))
+    return tuple(found)

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from pico.model.observation import Observation
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Standing
 from pico.planning.conflicts import Conflicts, Spot
-from pico.planning.order import Closure, precedence
+from pico.planning.order import Closure, precedence, turns
 from pico.planning.search import Step
 
 
 @dataclass(frozen=True, slots=True)
 class Paths:
-    """The path of each step (None for a person's), the parks of the robots used, and the bits that paths need empty
+    """The path of each step (None for a person's), the park after each turn, and the bits that paths need empty
     besides the masks, by step."""
 
     moves: tuple[MovePath | None, ...]
-    parks: Mapping[str, MovePath | Blocked]
+    parks: tuple[MovePath | Blocked, ...]
     extra: Mapping[int, int]
 
 
@@ -39,18 +39,19 @@ def find_paths(table: Conflicts, steps: Sequence[Step], seen: Observation, motio
     """
     extra: dict[int, int] = {}
     joints: dict[str, Joints | None] = {name: robot.joints for name, robot in seen.robots.items()}
-    moves: list[MovePath | None] = []
-    for k, step in enumerate(steps):
-        robot = step.hold.robot
-        if robot is None:
-            moves.append(None)
-            continue
-        path = _path(table, steps, k, extra, joints.get(robot), motion)
-        if isinstance(path, NoPath):
-            return path
-        joints[robot] = path.end
-        moves.append(path)
-    return Paths(tuple(moves), _parks(table, steps, joints, motion), extra)
+    moves: list[MovePath | None] = [None] * len(steps)
+    parks: list[MovePath | Blocked] = []
+    for turn in turns(steps):
+        for k in turn.steps:
+            path = _path(table, steps, k, extra, joints.get(turn.robot), motion)
+            if isinstance(path, NoPath):
+                return path
+            joints[turn.robot] = path.end
+            moves[k] = path
+        parks.append(_park(table, steps[: turn.steps[-1] + 1], turn.robot, joints[turn.robot] or (), motion))
+        end = parks[-1]
+        joints[turn.robot] = end.end if isinstance(end, MovePath) else joints[turn.robot]
+    return Paths(tuple(moves), tuple(parks), extra)
 
 
 def _path(
@@ -110,12 +111,9 @@ def _standing(table: Conflicts, spot: Spot) -> Standing:
     return Standing(mover.places[spot[1]].pose, mover.geometry)
 
 
-def _parks(
-    table: Conflicts, steps: Sequence[Step], joints: Mapping[str, Joints | None], motion: Motion
-) -> dict[str, MovePath | Blocked]:
-    places = places_before(table, steps, len(steps))
+def _park(table: Conflicts, done: Sequence[Step], robot: str, joints: Joints, motion: Motion) -> MovePath | Blocked:
+    places = places_before(table, done, len(done))
     standing = {name: o.standing for name, o in table.obstacles.items()} | {
         m.name: _standing(table, (j, places[j])) for j, m in enumerate(table.movers)
     }
-    used = sorted({s.hold.robot for s in steps if s.hold.robot})
-    return {name: motion.park(name, joints[name] or (), standing) for name in used}
+    return motion.park(robot, joints, standing)

@@ -35,14 +35,24 @@ def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
 
 def _priorities(operations: Sequence[Operation]) -> list[int]:
     """Return the order in which operations are given their time; what one waits for comes before it."""
-    first = [n for n, o in enumerate(operations) if o.robot or o.primitive == "operator"]
-    rest = [n for n in range(len(operations)) if n not in set(first)]
+    rest = [n for n, o in enumerate(operations) if not o.robot and o.primitive != "operator"]
     tails = {n: operations[n].seconds for n in rest}
     for n in reversed(rest):
         for e in operations[n].after:
             if int(e) in tails:
                 tails[int(e)] = max(tails[int(e)], operations[int(e)].seconds + tails[n])
-    return first + sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
+    return _in_turn(operations) + sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
+
+
+def _in_turn(operations: Sequence[Operation]) -> list[int]:
+    """Return the operations of robots and people as they are listed, each after what it waits for."""
+    order: dict[int, None] = {}
+    left = [n for n, o in enumerate(operations) if o.robot or o.primitive == "operator"]
+    while left:
+        n = next(n for n in left if all(int(e) in order for e in operations[n].after))
+        order[n] = None
+        left.remove(n)
+    return list(order)
 
 
 def _gap(spans: Sequence[Span], ready: float, seconds: float) -> float:
