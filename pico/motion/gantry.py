@@ -13,7 +13,7 @@ from pico.model.catalog import Geometry
 from pico.model.lab import Robot
 from pico.model.pose import Pose
 from pico.motion import timing
-from pico.motion.reach import opening
+from pico.motion.reach import grasp_height, opening
 from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
 
 SPEED, ACCELERATION = 1.0, 4.0  # m/s, m/s2 at full speed; a turn of 1 rad counts as 0.3 m
@@ -45,7 +45,7 @@ def move(
             return Blocked("collision", text, "lower", other, round(-gap, 3))
     assert geometry.grasp is not None  # the caller asked `check_grip`
     width, opened = geometry.grasp.width, opening(robot, geometry)
-    high, low = robot.transit_height / 1000, geometry.grasp.height / 1000
+    high, low = robot.transit_height / 1000, grasp_height(robot, geometry) / 1000
     over_start, at_start = (_at(start, grasp_yaw, z) for z in (high, low))
     over_goal, at_goal = (_at(goal, grasp_yaw, z) for z in (high, low))
     jaws = timing.jaw_seconds(opened, width)

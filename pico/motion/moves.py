@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -12,7 +13,7 @@ from pico.motion import timing
 from pico.motion.explain import Errand, blocked
 from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.paths import Stand, distance, plumb, route, stand, swing, usable
-from pico.motion.reach import opening
+from pico.motion.reach import grasp_height, opening
 from pico.motion.scene import Hit, Scene
 from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, Standing
 
@@ -54,7 +55,7 @@ class Move:
     def __post_init__(self) -> None:
         grasp = self.geometry.grasp
         assert grasp is not None  # the caller asked `check_grip`
-        self.low, self.high = grasp.height, self.scene.robot.transit_height
+        self.low, self.high = grasp_height(self.scene.robot, self.geometry), self.scene.robot.transit_height
         self.width, self.opening = grasp.width, opening(self.scene.robot, self.geometry)
         self.others = {name: thing for name, thing in self.standing.items() if name != self.component}
         self.errand = Errand(self.scene.name, self.component, self.start, self.goal)
@@ -151,6 +152,7 @@ class Move:
             there = self.others | {self.component: Standing(pose, self.geometry)}
         scene.arrange(there)
         scene.hold(self.geometry if carrying else None, self.grasp_yaw)
+        scene.ignored = frozenset([self.component] if self.scene.robot.gripper.fingers == "none" else [])  # sucked at
         scene.open(self.width if carrying else self.width + _JAW_GAP if phase == "grip" else self.opening)
         scene.required["held"] = _TOUCHING if phase == "lift" else margins.body
         scene.required["finger"] = 0.0 if phase == "grip" else margins.fingers
@@ -180,6 +182,7 @@ def find_park(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) ->
     opened = robot.gripper.stroke / 2
     scene.arrange(standing)
     scene.hold(None)
+    scene.ignored = frozenset()
     scene.open(opened)
     scene.required.update(held=scene.setup.lab.margins.body, finger=scene.setup.lab.margins.fingers)
     rise = ascend(scene, joints, standing)
@@ -194,9 +197,7 @@ def find_park(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) ->
 
 def parked(scene: Scene) -> Joints:
     """Return the robot's park pose [rad]."""
-    from math import radians
-
-    return tuple(radians(q) for q in scene.robot.park)
+    return tuple(math.radians(q) for q in scene.robot.park)
 
 
 def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> list[Joints] | Hit:
@@ -214,11 +215,12 @@ def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> li
         upright = _upright(scene, joints)
         hit = swing(scene, joints, upright)
         return [joints, upright] if hit is None else hit
+    before = scene.ignored
     scene.ignored = frozenset(
         name for name, thing in standing.items() if thing.pose.distance(Pose(x, y)) < thing.geometry.footprint.radius
     )
     hit = plumb(scene, here.column, z, height)
-    scene.ignored = frozenset()
+    scene.ignored = before
     return [joints, _top(here.column, height)] if hit is None else hit
 
 

@@ -21,6 +21,14 @@ def opening(robot: Robot, geometry: Geometry) -> float:
     return geometry.grasp.width + 2 * robot.gripper.fingers.opening
 
 
+def grasp_height(robot: Robot, geometry: Geometry) -> float:
+    """Return the height of the tool center point at which a part of `geometry` is held [mm]; a vacuum gripper holds
+    it by its top. Raises ValueError for a part that nothing may hold."""
+    if geometry.grasp is None:
+        raise ValueError("the part has no grasp")
+    return geometry.height if robot.gripper.fingers == "none" else geometry.grasp.height
+
+
 def check_grip(name: str, robot: Robot, component: str, geometry: Geometry) -> Blocked | None:
     """Return why the gripper of the robot called `name` can't hold `component`, or None where it can."""
     gripper, grasp = robot.gripper, geometry.grasp
@@ -61,9 +69,7 @@ def check_table(lab: Lab, component: str, geometry: Geometry, pose: Pose) -> Blo
 
 def check_reach(name: str, robot: Robot, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:
     """Return why the arm can't hold its tool vertical over `pose` at the height of the grasp and of the transit."""
-    grasp = geometry.grasp
-    assert grasp is not None  # check_grip comes first
-    for height in (grasp.height, robot.transit_height):
+    for height in (grasp_height(robot, geometry), robot.transit_height):
         if not reaches(robot, pose.x, pose.y, height):
             return Blocked("reach", _too_far(name, robot, component, pose, height))
     return None

@@ -20,6 +20,7 @@ from pico.model.catalog import Geometry
 from pico.model.lab import KeepOut, Setup
 from pico.model.pose import Pose
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm, build_arm
+from pico.motion.reach import grasp_height
 from pico.motion.solids import add_solids
 from pico.motion.types import Joints, Standing
 
@@ -116,7 +117,7 @@ class Scene:
         """Give the gripper a body for each geometry that it may carry."""
         for number, geometry in enumerate(self.pool):
             if geometry.grasp is not None:
-                depth = (self.robot.gripper.tool + geometry.grasp.height) / 1000
+                depth = (self.robot.gripper.tool + grasp_height(self.robot, geometry)) / 1000
                 body = arm.body("gripper").add_body(name=f"held:{number}", pos=[0, 0, depth])
                 add_solids(arm, body, geometry, contype=ARM_BIT, conaffinity=ARM_BIT | WORLD_BIT)
 

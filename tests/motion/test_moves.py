@@ -2,12 +2,13 @@ from __future__ import annotations
 
 import math
 import random
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 from benchtop import DISC, PART, TALL, TRIANGLE, WIDE, bench, collisions, moved, refused, stands
 
-from pico.model.lab import Box2, KeepOut, Mount, Robot
+from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import fk, ik, tool_pose
@@ -195,3 +196,10 @@ def test_accepted_paths_collide_nowhere_when_looked_at_four_times_finer():
 def test_jaws_that_close_askew_on_a_square_part_are_refused():
     blocked = refused(MOTION.move("arm1", "a", START, GOAL, 33, ALONE))
     assert (blocked.segment, blocked.obstacle) == ("grip", "a")
+
+
+def test_a_vacuum_gripper_takes_a_part_by_its_top_and_needs_no_room_beside_it():
+    motion = ArmMotion(bench(robots={"arm1": replace(ARM, gripper=Gripper(fingers="none"))}))
+    standing = ALONE | stands(at={"b": (PART, START.compose(Pose(60, 0))), "c": (PART, START.compose(Pose(0, 60)))})
+    path = moved(motion.move("arm1", "a", START, GOAL, 0, standing))
+    assert tool_pose(ARM, path.segments[2].joints[0])[2] == pytest.approx(PART.height)
