@@ -62,12 +62,12 @@ def _in_order(entries: list[Entry], state: bool) -> list[Entry]:
     entries = sorted(entries, key=lambda e: ranks.get(_name(e), 9))
     for entry in entries:
         if state and entry.key is not None and _name(entry) == "components":
-            entry.below = _first_flush(sorted(entry.below, key=_name))
+            entry.below = sorted(entry.below, key=_name)
             for component in entry.below:
                 component.below = sorted(component.below, key=lambda e: (_PLACE.get(_name(e), 2), _name(e)))
     for entry in entries:
         _order_poses(entry)
-    return _first_flush(entries)
+    return entries
 
 
 def _order_poses(entry: Entry) -> None:
@@ -77,21 +77,15 @@ def _order_poses(entry: Entry) -> None:
         _order_poses(below)
 
 
-def _first_flush(entries: list[Entry]) -> list[Entry]:
-    """Take blank lines off the first entry, where sorting may have put one."""
-    if entries:
-        entries[0].lead = _stripped(entries[0].lead[:1]) + entries[0].lead[1:] if entries[0].lead else []
-    return entries
-
-
 def _name(entry: Entry) -> str:
     return (entry.key or "").strip("'\"")
 
 
 def _lines(entries: list[Entry], indent: int) -> list[str]:
     lines: list[str] = []
-    for entry in entries:
-        lines += [f"{' ' * indent}{line}" if line else "" for line in entry.lead]
+    for i, entry in enumerate(entries):
+        lead = entry.lead if i else _stripped(entry.lead[:1]) + entry.lead[1:]  # no blank line above the first
+        lines += [f"{' ' * indent}{line}" if line else "" for line in lead]
         lines += _item(entry, indent) if entry.key is None else _entry(entry, indent)
         lines += [f"{' ' * (indent + _STEP)}{line}" for line in entry.foot]
     return lines

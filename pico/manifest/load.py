@@ -46,8 +46,9 @@ class Manifests:
                 return where(document, "components", head, *rest) if rest else where_key(document, "components", head)
         for document in self.documents.get("Lab", ()):
             path = [head, *rest] if find(document, head) else ["inventory", head, *rest]
-            if find(document, *path[:2]):
-                return where(document, *path) if len(path) > 2 else where_key(document, *path)
+            if entry := find(document, *path[:2]):
+                named = len(path) == 2 and isinstance(entry[1], Map)
+                return where_key(document, *path) if named else where(document, *path)
         return None
 
     def require(self) -> tuple[Setup, LabState]:
