@@ -34,8 +34,7 @@ def make_example(name: str, folder: Path) -> Repository:
     if name not in example_names():
         hint = did_you_mean(name, example_names())
         raise PicoError(error("unknown-example", f"there is no example `{name}`", hint=hint))
-    _make_folder(folder)
-    if any(folder.iterdir()):
+    if _make_folder(folder):
         raise PicoError(error("exists", f"{folder} is not empty", hint="name a new folder, or an empty one"))
     source = labs_dir() / name
     history = yaml.safe_load((source / _HISTORY).read_text(encoding="utf-8"))
@@ -65,14 +64,16 @@ def init_empty(folder: Path) -> Repository:
     repository = Repository.discover(folder) or Repository.init(folder)
     ignored = {} if (folder / ".gitignore").exists() else {".gitignore": GITIGNORE}
     for path, text in (SKELETON | ignored).items():
-        (folder / path).parent.mkdir(exist_ok=True)
+        _make_folder((folder / path).parent)
         (folder / path).write_text(text.replace("NAME", name), encoding="utf-8")
     return repository
 
 
-def _make_folder(folder: Path) -> None:
+def _make_folder(folder: Path) -> list[Path]:
+    """Make a folder where there is none, and return what it holds."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        return list(folder.iterdir())
     except OSError as exc:
         raise PicoError(error("folder", f"can't make the folder {folder}: {exc.strerror}")) from exc
 

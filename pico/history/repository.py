@@ -66,10 +66,13 @@ class Repository:
 
     @classmethod
     def init(cls, path: Path) -> Repository:
-        """Make an empty repository with branch `main` in the folder `path` and return it."""
+        """Make an empty repository with branch `main` in the folder `path` and return it; raises PicoError."""
         import pygit2
 
-        pygit2.init_repository(str(path), initial_head="main")
+        try:
+            pygit2.init_repository(str(path), initial_head="main")
+        except (pygit2.GitError, OSError) as exc:
+            raise PicoError(error("folder", f"can't make a repository in {path}", detail=str(exc))) from exc
         return cls(pygit2.Repository(str(path)), path.resolve())
 
     def head(self) -> Head:

@@ -69,6 +69,9 @@ def _unknown(handle: Any, revision: str) -> Diagnostic:
     if len(alike) > 1:
         hint = "write more of it: " + ", ".join(f"`{c[:12]}`" for c in alike[:4])
         return error("revision", f"several commits begin with `{revision}`", hint=hint)
+    if handle.is_shallow:
+        hint = "this clone holds only the last commits; `git fetch --unshallow --tags` brings the others"
+        return error("revision", f"there is no revision `{revision}`", hint=hint)
     names = {name for refs in names_at(handle).values() for name in refs}
     folded = {name.lower(): name for name in names}
     recent = {commit[:7] for commit in islice(_history(handle), 200)}

@@ -100,6 +100,15 @@ def test_a_clone_resolves_branches_that_only_its_remote_has(repo: Path, git: Git
     assert copy.checkout("side").branch == "side"
 
 
+def test_a_shallow_clone_says_how_to_get_the_rest(repo: Path, git: Git, tmp_path: Path) -> None:
+    git("clone", "-q", "--depth=1", repo.as_uri(), "copy", at=".")
+    shallow = opened(tmp_path / "copy")
+    assert [c.summary for c in shallow.log()] == ["commit 1"]
+    with pytest.raises(PicoError) as caught:
+        shallow.resolve("HEAD~1")
+    assert "--unshallow" in caught.value.diagnostics[0].hint
+
+
 def test_files_are_read_without_a_checkout(repo: Path) -> None:
     repository = opened(repo)
     assert repository.files("side") == {"lab.yaml": b"kind: Lab\n", "state/table.yaml": b"x: 2\n"}
