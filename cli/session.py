@@ -30,6 +30,7 @@ class View(Protocol):
 class Session:
     """One call of `pico`."""
 
+    context: typer.Context | None = None
     folder: Path = Path()
     json: bool = False
     debug: bool = False
@@ -38,13 +39,16 @@ class Session:
     @classmethod
     def of(cls, context: typer.Context) -> Session:
         """Return the session of a command, from the options given before and after its name."""
-        return cls(**context.meta.get("pico.session", {}))
+        return cls(context=context, **context.meta.get("pico.session", {}))
 
     def bench(self, fidelity: str | None = None, speed: float | None = None) -> Bench:
         """Open the lab of this session; raises PicoError."""
         from pico.bench import Bench
 
-        return Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
+        bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
+        if self.context is not None:
+            self.context.call_on_close(bench.close)
+        return bench
 
     def show(self, view: View, *args: Any, **options: Any) -> None:
         """Print an answer, for people or as one JSON document."""

@@ -253,8 +253,9 @@ class Bench(Reader):
 
     def close(self) -> None:
         """Let go of the backend and end the private thread."""
-        self._thread.wait(self._bench.close())
-        self._thread.close()
+        if self._thread.started:
+            self._thread.wait(self._bench.close())
+            self._thread.close()
 
     def __enter__(self) -> Bench:
         return self

@@ -128,7 +128,7 @@ def single(
 
 def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool) -> int:
     """Show and run the plan of one operation. Nobody is asked: the command named it."""
-    session.show(view, plan)
+    session.show(view, plan, single=True)
     if not session.json:
         session.report(plan.diagnostics)
     if plan.errored:

@@ -15,9 +15,10 @@ from .style import WIDTH, columns, count, listed, paint, place, seconds, width, 
 SHOWN_TOLERATED = 5
 
 
-def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "") -> str:
-    """Return the screen of a plan. `head` and `goal` name the commits; `next_step` says what to type."""
-    blocks = [header(plan, head, goal)]
+def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "", single: bool = False) -> str:
+    """Return the screen of a plan. `head` and `goal` name the commits; `next_step` says what to type; `single`: one
+    operation that somebody asked for."""
+    blocks = [header(plan, head, goal, single)]
     if plan.operations:
         blocks.append("\n".join(operations(plan)))
     blocks.append("\n".join([*_tolerated(plan), *(f"  {line}" for line in _summary(plan))]))
@@ -34,19 +35,14 @@ def data(plan: Plan, **_: Any) -> dict[str, Any]:
     return found
 
 
-def header(plan: Plan, head: str = "", goal: str = "") -> str:
+def header(plan: Plan, head: str = "", goal: str = "", single: bool = False) -> str:
     """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted")`."""
     parts = [paint("bold", plan.lab.name), f"{plan.backend} ({plan.fidelity})"]
-    if asked_for(plan):
+    if single:
         return " · ".join([*parts, "one operation"])
     target = goal or plan.target.revision or "the manifest"
     parts.append(f"HEAD {head} → {target}" if head else f"→ {target}")
     return " · ".join(parts)
-
-
-def asked_for(plan: Plan) -> bool:
-    """Return whether the plan is one operation that somebody asked for."""
-    return plan.target.revision is None and bool(plan.operations) and plan.operations[0].reason.kind == "asked"
 
 
 def operations(plan: Plan) -> list[str]:

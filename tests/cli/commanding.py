@@ -1,0 +1,30 @@
+"""What the tests of the command line share."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Answer:
+    code: int
+    out: str
+    err: str
+
+    @property
+    def data(self) -> Any:
+        return json.loads(self.out)
+
+
+Pico = Callable[..., Answer]
+
+
+def edit(path: Path, before: str, after: str) -> None:
+    """Change a manifest as somebody with an editor would."""
+    text = path.read_text()
+    assert before in text
+    path.write_text(text.replace(before, after, 1))

@@ -1,0 +1,45 @@
+"""The command line in process: `pico("plan", "e1")` gives exit code, output and errors."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from commanding import Answer, Pico
+from pico_cli.main import main
+
+from pico.history.example import make_example
+
+
+@pytest.fixture(scope="session")
+def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("example") / "shel"
+    make_example("shel", folder)
+    return folder
+
+
+@pytest.fixture
+def shel(example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The example with a new simulated bench, as the current directory; an author, and no git configuration."""
+    folder = tmp_path / "shel"
+    shutil.copytree(example, folder)
+    monkeypatch.chdir(folder)
+    for who in ("AUTHOR", "COMMITTER"):
+        monkeypatch.setenv(f"GIT_{who}_NAME", "A Physicist")
+        monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    monkeypatch.setenv("GIT_CONFIG_SYSTEM", os.devnull)
+    return folder
+
+
+@pytest.fixture
+def pico(capsys: pytest.CaptureFixture[str]) -> Pico:
+    def call(*words: str) -> Answer:
+        capsys.readouterr()
+        code = main(words)
+        captured = capsys.readouterr()
+        return Answer(int(code), captured.out, captured.err)
+
+    return call

@@ -1,0 +1,100 @@
+"""One operation at a time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from commanding import Pico
+
+
+def test_a_tunable_is_set_and_read(shel: Path, pico: Pico) -> None:
+    assert pico("set", "p1", "angle=3").code == 0
+    assert "p1.angle  3 deg" in pico("get", "p1").out
+    assert pico("do", "p1", "set", "angle=0.5 rad").code == 0
+    assert pico("get", "p1", "angle", "--json").data["values"]["angle"]["value"] == pytest.approx(28.6479, abs=1e-3)
+
+
+def test_a_component_is_moved_turned_and_stowed(shel: Path, pico: Pico) -> None:
+    assert pico("move", "p1", "x=350", "y=420").code == 0
+    assert pico("rotate", "p1", "-30").code == 0
+    assert "(350, 420, -30°)" in pico("get", "p1").out
+    assert pico("rotate", "p1", "by=-5").code == 0
+    assert "(350, 420, -35°)" in pico("get", "p1").out
+    assert pico("stow", "p1").code == 0
+    assert "storage/b1" in next(line for line in pico("parts").out.splitlines() if line.startswith("p1 "))
+
+
+def test_a_lens_is_placed_after_another_component(shel: Path, pico: Pico) -> None:
+    pico("apply", "--auto-approve")
+    assert pico("place", "ly_150", "--after", "p2", "--distance", "150").code == 0
+    assert "(670, 420, 0°)" in pico("get", "ly_150").out
+
+
+def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) -> None:
+    pico("apply", "--auto-approve")
+    answer = pico("set", "p1", "angle=3")
+    assert "`pico capture` takes the bench into it" in answer.out
+    assert pico("plan", "--detailed-exitcode").code == 2
+    pico("capture")
+    assert pico("plan", "--detailed-exitcode").code == 0
+
+
+def test_a_dry_run_moves_nothing(shel: Path, pico: Pico) -> None:
+    assert "storage/b1 → (290, 420, 0°)" in pico("move", "p1", "290", "420", "--dry-run").out
+    assert "(110, 220, 0°)" in pico("get", "p1").out
+
+
+def test_home_drives_the_axis_to_its_home(shel: Path, pico: Pico) -> None:
+    pico("set", "p1", "angle=3")
+    assert pico("home", "p1").code == 0
+    assert "p1.angle  0 deg" in pico("get", "p1").out
+
+
+def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pico) -> None:
+    pico("apply", "--auto-approve")
+    answer = pico("move", "p2", "300", "420")
+    assert answer.code == 3
+    assert "p1" in answer.err
+    assert "(520, 420, 0°)" in pico("get", "p2").out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["set", "p1", "angel=3"], "did you mean `angle`?"),
+        (["set", "p1", "angle=2 kg"], "mass"),
+        (["set", "p1", "angle=9000"], "from 0 to 360 deg"),
+        (["set", "p1", "3"], "no `key=value`"),
+        (["set", "laser", "shutter=ajar"], "no choice `ajar`"),
+        (["set", "laser", "emission=3"], "true or false"),
+        (["move", "p9", "1", "2"], "there is no component `p9`"),
+        (["move", "p1", "storage/b9"], "there is no slot `storage/b9`"),
+        (["move", "p1"], "where to move p1?"),
+        (["move", "p1", "x=1", "x=2"], "given twice"),
+        (["do", "laser", "move", "x=1"], "no primitive `move`"),
+        (["do", "cam", "measure"], "no light is simulated"),
+        (["rotate", "p1", "x=2"], "one of `yaw=DEGREES` and `by=DEGREES`"),
+        (["home", "cam"], "no primitive `home`"),
+        (["home", "p1", "tilt"], "`tilt` of p1 does not home"),
+        (["stow", "laser"], "stow"),
+        (["place", "p1", "--after", "p9", "--distance", "3"], "there is no component `p9`"),
+        (["move", "p1", "290", "420", "--speed", "7"], "share of the joint limits"),
+        (["get", "p1", "nothing"], "no tunable `nothing`"),
+        (["sim", "nudge", "p9", "--dx", "1"], "there is no component `p9`"),
+    ],
+)  # fmt: skip
+def test_what_makes_no_sense_is_refused_in_words(shel: Path, pico: Pico, words: list[str], said: str) -> None:
+    answer = pico(*words)
+    assert answer.code == 1, answer
+    assert said in answer.err
+    assert "Traceback" not in answer.err
+
+
+def test_a_removed_component_is_missing_and_reset_brings_it_back(shel: Path, pico: Pico) -> None:
+    pico("apply", "--auto-approve")
+    assert pico("sim", "remove", "p2").code == 0
+    assert "missing" in pico("status").out
+    assert "p2" in pico("plan").err
+    assert pico("sim", "reset").code == 0
+    assert "storage/b2" in pico("status").out
