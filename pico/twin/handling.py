@@ -1,7 +1,8 @@
 """Picking, carrying and placing one component by friction, step by step as a real cell would do it.
 
-After the lift the part's pose in the hand is measured above the goal (exactly, for now), and the goal is shifted so
-that the part, not the hand, comes to stand where it should.
+Above the goal the part's pose in the hand is measured (exactly, for now), and the goal is shifted so that the part, not
+the hand, comes to stand where it should. It is measured once more just over the table: on the way down the part slides
+between the fingers by a few tenths of a millimetre.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ AIMED = 0.01
 """A part in the hand is above its goal within this [mm, deg]."""
 AIM_SECONDS = 0.4
 """How long the arm takes for the shift of the goal."""
+HOVER = 2.0
+"""Height above the table at which a part is measured for the last time [mm]."""
 CLEARANCE = 0.05
 """Height above the table at which a part is let go [mm]."""
 STILL = 0.2
@@ -99,14 +102,15 @@ class Handling:
         yield from settle(self.twin, self.path.robot)
         yield from self._watch()
         correction = self._off()
-        aim = yield from self._aim()
-        yield from self._follow(self._shifted(legs["lower"], aim, self._touch_down()))
+        column = yield from self._aim()
+        yield from self._follow(self._shifted(legs["lower"], column, self._touch_down() + HOVER))
         yield from settle(self.twin, self.path.robot)
-        yield from self._watch()
+        column = yield from self._aim()
+        yield from self._put_down(column)
         self._carrying = False
         self.twin.grip(self.path.robot, legs["release"].opening)
         yield from _pass(legs["release"].seconds)
-        yield from self._follow(self._shifted(legs["retreat"], aim, None))
+        yield from self._follow(self._shifted(legs["retreat"], column, None))
         yield from self._rest()
         if _lies(self.twin.placement(self.component)):
             yield from self._lose("toppled", f"{self.component} toppled when {self.path.robot} let go of it")
@@ -166,6 +170,15 @@ class Handling:
             yield from settle(self.twin, self.path.robot)
             yield from self._watch()
         return column
+
+    def _put_down(self, column: Column) -> Steps:
+        """Lower the part the last little way, and wait until the arm rests."""
+        start = self.twin.joints(self.path.robot)
+        end = column.at(self._touch_down())
+        self.twin.drive(self.path.robot, *_eased(start, end or start))
+        yield from _pass(AIM_SECONDS)
+        yield from settle(self.twin, self.path.robot)
+        yield from self._watch("lower")
 
     def _column(self, tool: Pose, z: float, near: Joints) -> Column:
         """The posture over `tool` that is nearest to `near`; raises Lost at the end of the reach."""

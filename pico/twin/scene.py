@@ -28,6 +28,9 @@ CLEAR_GROUP = 0
 PART_FRICTION = 0.6
 """Sliding friction coefficient of a base on the table."""
 
+_HARD = (0.005, 1.0)  # s, time constant of contacts; softer ones let a part sink by 0.1 mm
+_FIRM = (0.95, 0.99, 0.001, 0.5, 2.0)
+_GRIPPY = (0.9, 0.95, 0.001, 0.5, 2.0)
 _BASE_SHARE = 0.6  # of a component's mass lies in what touches the table: magnetic bases are steel, the rest aluminium
 _TOUCHES = 1.0  # mm
 _STEEL = (0.66, 0.68, 0.70, 1.0)
@@ -87,6 +90,8 @@ def _add_table(spec: Any, setup: Setup) -> None:
         conaffinity=WORLD_BIT | ARM_BIT,
         condim=4,
         friction=[PART_FRICTION, 0.005, 0.0001],
+        solref=list(_HARD),
+        solimp=list(_FIRM),
         rgba=list(_STEEL),
         group=OPAQUE_GROUP,
     )
@@ -105,6 +110,7 @@ def _add_arms(spec: Any, setup: Setup, friction: float) -> None:
                 continue
             pad.friction = [friction, 0.005 * min(friction, 1.0), 0.0001]
             pad.condim, pad.priority = 4, 1  # the pad's friction counts, not the greater of the two
+            pad.solref, pad.solimp = list(_HARD), list(_GRIPPY)
 
 
 def _add_thing(spec: Any, name: str, thing: Thing) -> None:
@@ -139,6 +145,8 @@ def _add_shape(spec: Any, body: Any, name: str, shape: Body, mass: float) -> Non
         conaffinity=WORLD_BIT | ARM_BIT,
         condim=4,
         friction=[PART_FRICTION, 0.005, 0.0001],
+        solref=list(_HARD),
+        solimp=list(_FIRM),
     )
     if shape.shape == "box":
         geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [v / 2000 for v in shape.size]
