@@ -5,21 +5,24 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncGenerator, Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pico.backends.lease import BenchLock
+from pico.backends.lease import BenchLock, utc_now
 from pico.backends.protocol import Capabilities, Lease
 from pico.backends.sim import judge
-from pico.backends.sim.session import Session
 from pico.backends.sim.store import load_world
 from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.journal import Journal, utc_now
 from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Primitive
+from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
+
+if TYPE_CHECKING:
+    from pico.backends.sim.session import Session
+    from pico.journal import Journal
 
 PRIMITIVES: frozenset[Primitive] = frozenset({"move", "stow", "set", "home", "park"})
 
@@ -43,7 +46,7 @@ class SimBackend:
         self.setup, self.root, self.fidelity = setup, root, fidelity
         self.diagnostics: tuple[Diagnostic, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
-        self._motion = motion
+        self._motion = motion or DeferredMotion(setup)
         self._session: Session | None = None
         self._halted = False
         self._journal: Journal | None = None
@@ -55,6 +58,8 @@ class SimBackend:
     def journal(self) -> Journal:
         """The journal of the bench, opened when it is first needed; raises PicoError."""
         if self._journal is None:
+            from pico.journal import Journal
+
             self._journal = Journal(self.root / ".pico" / "journal.sqlite", self._clock)
         return self._journal
 
@@ -97,12 +102,14 @@ class SimBackend:
 
     async def acquire(self, holder: str) -> Lease:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
+        from pico.backends.sim.session import Session
+
         lease = self._lock.acquire(holder)
         try:
             world, self.diagnostics = load_world(self.setup, self.root)
             self._session = Session(
                 self.setup, self.root, world, fidelity=self.fidelity, journal=self.journal, token=lease.token,
-                motion=self._paths, tell=self._tell,
+                motion=self._motion, tell=self._tell,
             )  # fmt: skip
         except BaseException:
             self._lock.release()
@@ -163,10 +170,3 @@ class SimBackend:
     def _tell(self, event: Event) -> None:
         for queue in self._listeners:
             queue.put_nowait(event)
-
-    def _paths(self) -> Motion:
-        if self._motion is None:
-            from pico.motion.template import ArmMotion
-
-            self._motion = ArmMotion(self.setup)
-        return self._motion

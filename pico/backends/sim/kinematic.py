@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Generator
 from dataclasses import replace
@@ -74,7 +75,11 @@ class KinematicWorld:
         return replace(world, components=components, robots=robots)
 
     def _tool(self, robot: str) -> Pose:
-        x, y, _, yaw = tool_pose(self._setup.lab.robots[robot], self._joints[robot])
+        mounted, joints = self._setup.lab.robots[robot], self._joints[robot]
+        if mounted.model == "gantry":
+            x, y, _, turn = joints
+            return Pose(1000 * x, 1000 * y, math.degrees(turn))
+        x, y, _, yaw = tool_pose(mounted, joints)
         return Pose(x, y, yaw)
 
     def _walk(self, robot: str, segment: Segment) -> Generator[float, None, None]:

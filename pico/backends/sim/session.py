@@ -41,7 +41,7 @@ class Session:
         fidelity: str,
         journal: Journal,
         token: int,
-        motion: Callable[[], Motion],
+        motion: Motion,
         tell: Callable[[Event], None],
     ) -> None:
         self.token = token
@@ -123,7 +123,7 @@ class Session:
         name, robot = operation.component, operation.robot or ""
         planned, goal, slot = judge.places(operation)
         start = judge.require_ready(self._setup, self.world(), operation, planned)
-        path = self._motion().move(
+        path = self._motion.move(
             robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)),
             judge.standing(self._setup, self.world()), self.world().robots[robot].joints,
         )  # fmt: skip
@@ -139,7 +139,7 @@ class Session:
         if robot not in self._setup.lab.robots:
             raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
         joints = self.world().robots[robot].joints
-        path = self._motion().park(robot, joints, judge.standing(self._setup, self.world()))
+        path = self._motion.park(robot, joints, judge.standing(self._setup, self.world()))
         if isinstance(path, Blocked):
             raise judge.blocked(robot, path)
         return (yield from self._reported(operation, key, path, self._mover.park(path)))

@@ -17,6 +17,7 @@ from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.state import home_state, place_of
+from pico.motion import gantry
 
 SCHEMA = "pico.world/v1"
 
@@ -98,7 +99,10 @@ def new_body(setup: Setup, name: str, pose: Pose | None) -> Body:
 
 def parked(setup: Setup, robot: str) -> ObservedRobot:
     """Return the robot at its park pose with an empty gripper."""
-    return ObservedRobot(joints=tuple(math.radians(angle) for angle in setup.lab.robots[robot].park))
+    mounted = setup.lab.robots[robot]
+    if mounted.model == "gantry":
+        return ObservedRobot(joints=gantry.park_joints(mounted))
+    return ObservedRobot(joints=tuple(math.radians(angle) for angle in mounted.park))
 
 
 def shapes_of(setup: Setup) -> dict[str, Shape]:

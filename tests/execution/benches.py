@@ -1,0 +1,77 @@
+"""The bench of the case study for tests, with its arm or, quicker, with a gantry; plans and runs on it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from pico.backends.sim.backend import SimBackend
+from pico.execution import RunResult, run
+from pico.manifest.load import load_folder
+from pico.model.event import Event
+from pico.model.lab import Setup
+from pico.model.observation import live_state
+from pico.model.plan import Base, Plan, Target
+from pico.model.state import ComponentState, LabState
+from pico.motion.arms import ArmMotion
+from pico.planning import plan
+
+SHEL = Path(__file__).resolve().parent.parent.parent / "labs" / "shel"
+NOON = "2026-11-01T12:00:00Z"
+
+
+def shel(model: str = "xarm7") -> tuple[Setup, LabState]:
+    """Return the bench and its state C3."""
+    setup, state = load_folder(SHEL).require()
+    robots = {name: replace(robot, model=model) for name, robot in setup.lab.robots.items()}
+    return replace(setup, lab=replace(setup.lab, robots=robots)), state
+
+
+def changed(state: LabState, components: Mapping[str, Mapping[str, Any]]) -> LabState:
+    """Return the state with fields of some components replaced; `values` are added to those that are there."""
+    parts = dict(state.components)
+    for name, fields in components.items():
+        old = parts.get(name, ComponentState())
+        values = {**old.values, **fields.get("values", {})}
+        place = {k: v for k, v in fields.items() if k in ("slot", "pose")}
+        if place:
+            old = replace(old, slot=None, pose=None)
+        parts[name] = replace(old, **place, values=values)
+    return replace(state, components=parts)
+
+
+def sim(setup: Setup, root: Path, **options: Any) -> SimBackend:
+    """Return the simulated bench in folder `root`, at noon."""
+    return SimBackend(setup, root, **{"fidelity": "kinematic", "clock": lambda: NOON} | options)
+
+
+async def plan_to(backend: SimBackend, wanted: LabState) -> Plan:
+    """Return the plan from the bench as it stands to `wanted`."""
+    setup, seen = backend.setup, await backend.observe()
+    base = Base(observed_at=seen.observed_at, state=live_state(setup, seen).as_json())
+    return plan(
+        setup, seen, wanted, motion=ArmMotion(setup), backend="sim", fidelity="kinematic", base=base,
+        target=Target(state=wanted.as_json()),
+    )  # fmt: skip
+
+
+async def execute(
+    backend: SimBackend, planned: Plan, run_id: str = "r1", cancelled: Callable[[], bool] = lambda: False
+) -> tuple[RunResult, list[Event]]:
+    """Run a plan to its end."""
+    events = [e async for e in run(planned, backend, run_id=run_id, holder="test", cancelled=cancelled)]
+    return RunResult.of(events), events
+
+
+def apply(backend: SimBackend, wanted: LabState, run_id: str = "r1") -> tuple[Plan, RunResult, list[Event]]:
+    """Plan to a state and run that."""
+
+    async def both() -> tuple[Plan, RunResult, list[Event]]:
+        planned = await plan_to(backend, wanted)
+        assert not planned.errored, [d.summary for d in planned.diagnostics]
+        return planned, *(await execute(backend, planned, run_id))
+
+    return asyncio.run(both())

@@ -1,0 +1,266 @@
+"""What may stop a run before it starts, what a failure takes with it, and how a run is interrupted."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from benches import apply, changed, execute, plan_to, shel, sim
+
+from pico.backends.sim.backend import SimBackend
+from pico.backends.sim.hand import nudge, remove
+from pico.backends.sim.store import change_world
+from pico.backends.sim.world import World
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.execution import RunResult, run
+from pico.model.event import Event
+from pico.model.operation import Operation
+from pico.model.plan import Plan
+from pico.model.pose import Pose
+from pico.model.state import LabState
+
+SETUP, C3 = shel("gantry")
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> SimBackend:
+    return sim(SETUP, tmp_path)
+
+
+def disturb(bench: SimBackend, change: Callable[[World], World]) -> None:
+    change_world(bench.setup, bench.root, "test", change)
+
+
+def replanned(bench: SimBackend, wanted: LabState, change: Callable[[Plan], Plan]) -> Plan:
+    return change(asyncio.run(plan_to(bench, wanted)))
+
+
+def refusal(bench: SimBackend, planned: Plan) -> PicoError:
+    with pytest.raises(PicoError) as caught:
+        asyncio.run(execute(bench, planned))
+    assert not (bench.root / ".pico" / "sim" / "world.json").exists() or not bench.journal.records()
+    return caught.value
+
+
+def test_a_plan_with_errors_is_refused_as_impossible(bench: SimBackend) -> None:
+    broken = replanned(bench, C3, lambda p: replace(p, diagnostics=(error("impossible", "p1 cannot stand there"),)))
+    found = refusal(bench, broken)
+    assert found.exit_code == ExitCode.IMPOSSIBLE
+    assert "p1 cannot stand there" in str(found)
+
+
+def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench: SimBackend) -> None:
+    def ask(planned: Plan) -> Plan:
+        first, second, *rest = planned.operations
+        return replace(planned, operations=(replace(first, robot="arm2"), replace(second, primitive="measure"), *rest))
+
+    found = refusal(bench, replanned(bench, C3, ask))
+    assert [d.code for d in found.diagnostics] == ["capability", "capability"]
+    assert "measure" in str(found)
+    assert "arm2" in str(found)
+
+
+def test_what_needs_a_person_is_refused_with_the_way_to_do_it(bench: SimBackend) -> None:
+    moved = changed(C3, {"hwp": {"pose": Pose(222, 420, 3)}})
+    found = refusal(bench, asyncio.run(plan_to(bench, moved)))
+    assert "hwp needs a person" in found.diagnostics[0].summary
+    assert "pico sim nudge hwp" in found.diagnostics[0].hint
+
+
+def test_a_plan_for_another_lab_is_stale(bench: SimBackend) -> None:
+    planned = replanned(bench, C3, lambda p: replace(p, lab=replace(p.lab, digest="sha256:other")))
+    assert refusal(bench, planned).exit_code == ExitCode.STALE
+
+
+@pytest.mark.parametrize("slot", [True, False])
+def test_a_part_that_moved_since_the_plan_makes_it_stale_and_says_by_how_much(bench: SimBackend, slot: bool) -> None:
+    if not slot:
+        apply(bench, C3)
+    wanted = changed(C3, {"p2": {"pose": Pose(520, 420, 30)}})
+    planned = asyncio.run(plan_to(bench, wanted))
+    disturb(bench, lambda w: nudge(SETUP, w, "p2", dx=3.0, dy=4.0))
+    with pytest.raises(PicoError, match="p2") as caught:
+        asyncio.run(execute(bench, planned, "r2"))
+    assert caught.value.exit_code == ExitCode.STALE
+    assert "5 mm" in str(caught.value) or "523" in str(caught.value)
+
+
+def test_a_move_within_tolerance_does_not_make_a_plan_stale_and_the_part_ends_at_its_goal(bench: SimBackend) -> None:
+    planned = asyncio.run(plan_to(bench, C3))
+    disturb(bench, lambda w: nudge(SETUP, w, "p2", dx=0.3, dyaw=0.3))
+    result, _ = asyncio.run(execute(bench, planned))
+    assert result.outcome == "done"
+    assert asyncio.run(bench.observe()).components["p2"].pose == Pose(520, 420, 0)
+
+
+def while_running(
+    bench: SimBackend, planned: Plan, when: Callable[[Event], bool], act: Callable[[], Awaitable[None] | None]
+) -> tuple[RunResult, list[Event]]:
+    """Run a plan, and act once when an event comes."""
+
+    async def go() -> list[Event]:
+        events, acted = [], False
+        async for event in run(planned, bench, run_id="r1", holder="test"):
+            events.append(event)
+            if when(event) and not acted:
+                acted = True
+                waiting = act()
+                if waiting is not None:
+                    await waiting
+        return events
+
+    events = asyncio.run(go())
+    return RunResult.of(events), events
+
+
+def hidden(bench: SimBackend, name: str) -> None:
+    """A hand takes a part away in the middle of a run, lock or no lock."""
+    session = bench._session
+    assert session is not None
+    session._world = remove(SETUP, session.world(), name)
+
+
+def test_a_failure_skips_what_depends_on_it_and_nothing_else_and_the_next_apply_goes_on(bench: SimBackend) -> None:
+    wanted = changed(C3, {"lx_100": {"pose": Pose(420, 420)}})
+    planned = asyncio.run(plan_to(bench, wanted))
+    moves = {op.component: op for op in planned.operations if op.primitive == "move"}
+    first, *later = [op for op in planned.operations if op.primitive == "move"]
+    chained = replace(planned, operations=tuple(
+        replace(op, after=(*op.after, later[0].id)) if op.primitive == "set" and op.component == "p2" else op
+        for op in planned.operations
+    ))  # fmt: skip
+    lost = later[0].component
+    result, events = while_running(bench, chained, lambda e: e.kind == "operation_started", lambda: hidden(bench, lost))
+    assert result.outcome == "failed"
+    assert result.exit_code == ExitCode.ERROR
+    failed = {k: r for k, r in result.operations.items() if r.outcome == "failed"}
+    assert later[0].id in failed
+    assert f"{lost} is not on the table" in failed[later[0].id].data["diagnostic"]["summary"]
+    skipped = {k: r.data["because"] for k, r in result.operations.items() if r.outcome == "skipped"}
+    assert set(skipped.values()) == {later[0].id}
+    assert "park" in {op.primitive for op in planned.operations if op.id in skipped}
+    assert result.operations[first.id].outcome == result.operations[moves["lx_100"].id].outcome == "done"
+    assert result.done + result.failed + result.skipped == len(planned.operations)
+    assert events[-1].kind == "run_finished"
+    assert asyncio.run(bench.observe()).components[lost].presence == "missing"
+    disturb(bench, lambda w: nudge(SETUP, w, lost))
+    assert apply(bench, wanted, "r2")[1].outcome == "done"
+
+
+def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing_more(bench: SimBackend) -> None:
+    planned, pressed = asyncio.run(plan_to(bench, C3)), [False]
+
+    async def go() -> list[Event]:
+        events = []
+        async for event in run(planned, bench, run_id="r1", holder="test", cancelled=lambda: pressed[0]):
+            events.append(event)
+            pressed[0] = True
+        return events
+
+    events = asyncio.run(go())
+    result = RunResult.of(events)
+    assert (result.outcome, result.exit_code) == ("interrupted", ExitCode.INTERRUPTED)
+    under_way = {e.operation for e in events if e.kind == "operation_started"}
+    assert {k for k, r in result.operations.items() if r.outcome == "done"} == under_way
+    assert result.skipped == len(planned.operations) - len(under_way)
+    assert asyncio.run(bench.observe()).robots["arm1"].holding is None
+    assert bench.journal.runs()[0].outcome == "interrupted"
+    assert apply(bench, C3, "r2")[1].outcome == "done"
+
+
+def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: SimBackend) -> None:
+    planned = asyncio.run(plan_to(bench, C3))
+    events: list[Event] = []
+
+    async def read() -> None:
+        async for event in run(planned, bench, run_id="r1", holder="test"):
+            events.append(event)
+
+    async def go() -> bool:
+        task = asyncio.create_task(read())
+        while not any(e.kind == "operation_started" for e in events):
+            await asyncio.sleep(0)
+        task.cancel()
+        await asyncio.wait([task])
+        return task.cancelled()
+
+    assert asyncio.run(go())
+    assert RunResult.of(events).outcome == "interrupted"
+    assert not bench.journal.unfinished()
+
+
+def test_a_reader_that_leaves_ends_the_run_safely_and_gives_the_bench_back(bench: SimBackend) -> None:
+    planned = asyncio.run(plan_to(bench, C3))
+
+    async def leave() -> None:
+        events = run(planned, bench, run_id="r1", holder="test")
+        async for event in events:
+            if event.kind == "operation_progress":
+                break
+        await events.aclose()
+
+    asyncio.run(leave())
+    assert bench.journal.runs()[0].outcome == "interrupted"
+    assert not bench.journal.unfinished()
+    assert apply(bench, C3, "r2")[1].outcome == "done"
+
+
+def test_halt_lets_the_move_end_and_stop_leaves_the_part_in_the_gripper(tmp_path: Path) -> None:
+    def carrying(event: Event) -> bool:
+        return event.kind == "operation_progress" and event.data["phase"] == "transit"
+
+    outcome: dict[str, Mapping[str, Any]] = {}
+    for name in ("halt", "stop"):
+        bench = sim(SETUP, tmp_path / name)
+        planned = asyncio.run(plan_to(bench, C3))
+        result, _ = while_running(bench, planned, carrying, getattr(bench, name))
+        assert result.outcome == "interrupted"
+        seen = asyncio.run(bench.observe())
+        outcome[name] = {"p2": seen.components["p2"].presence, "holding": seen.robots["arm1"].holding}
+    assert outcome == {"halt": {"p2": "seen", "holding": None}, "stop": {"p2": "held", "holding": "p2"}}
+
+
+def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: SimBackend) -> None:
+    planned = asyncio.run(plan_to(bench, changed(C3, {"p1": {"slot": "storage/b1"}})))
+    misses = iter([4.0, 1.0, 0.0])
+
+    async def go(plan: Plan) -> tuple[RunResult, list[Event]]:
+        real = bench.execute
+
+        async def clumsy(operation: Operation, key: str, lease: Any) -> Any:
+            session = bench._session
+            assert session is not None
+            result = await real(operation, key, lease)
+            miss = next(misses) if operation.primitive == "move" else 0.0
+            if not miss:
+                return result
+            session._mover._placed["p2"] = Pose(520 + miss, 420)  # type: ignore[attr-defined]
+            seen = (await bench.observe()).components["p2"]
+            return replace(result, outcome="failed", error=error("misplaced", "p2 is off"), after=seen)
+
+        bench.execute = clumsy  # type: ignore[method-assign]
+        return await execute(bench, plan)
+
+    result, events = asyncio.run(go(planned))
+    assert result.outcome == "done"
+    assert asyncio.run(bench.observe()).components["p2"].pose == Pose(520, 420, 0)
+    keys = [r.key for r in bench.journal.records() if r.kind == "started" and r.component == "p2" and "op1/" in r.key]
+    assert keys == ["r1/op1/1", "r1/op1/2", "r1/op1/3"]
+    assert sum(e.kind == "operation_done" and e.operation == "op1" for e in events) == 1
+
+
+def test_a_run_whose_journal_breaks_stops_and_says_so(bench: SimBackend, monkeypatch: pytest.MonkeyPatch) -> None:
+    planned = asyncio.run(plan_to(bench, C3))
+
+    def full(*_: object) -> None:
+        raise PicoError(error("journal", "the journal cannot be used: disk full"))
+
+    monkeypatch.setattr(bench.journal, "started", full)
+    result, _ = asyncio.run(execute(bench, planned))
+    assert result.outcome == "interrupted"
+    assert result.done == 0
+    assert result.unknown > 0
