@@ -109,6 +109,9 @@ def _edit_component(editor: Editor, components: Map, name: str, wanted: Mapping[
                 leaving.add(entry)
         elif entry in part.entries:
             _edit_entry(editor, *part.entries[entry], value, flow=part.flow)
+            if other in part.entries:
+                editor.remove(part, other)
+                leaving.add(other)
         elif other in part.entries:
             editor.replace(*part.entries[other], entry, _data(value), flow=part.flow, step=editor.step(key, part))
         else:

@@ -106,7 +106,7 @@ def _item(entry: Entry, indent: int) -> list[str]:
         first, *more = _lines(entry.below, indent + _STEP)
         return [f"{pad}- {first.lstrip(' ')}", *more]
     first, *more = entry.value.split("\n")
-    return [f"{pad}- {first}{entry.trail}".rstrip(), *(f"{pad}  {line}" if line else "" for line in more)]
+    return [f"{pad}- {first}".rstrip() + entry.trail, *(f"{pad}  {line}" if line else "" for line in more)]
 
 
 def _verify(content: str, documents: list[Document], result: str) -> None:

@@ -59,7 +59,7 @@ class Layout:
         for name, (key, value) in node.entries.items():
             column = self._column(key.start)
             lead = self._lead(entries, key.start, column)
-            entry = Entry(self.content[key.start : key.end], column, lead)
+            entry = Entry(self.content[key.start : key.end] or '""', column, lead)
             self.at = key.end
             self._fill(entry, value, frozenset({"*"}) if name in spread or "*" in spread else frozenset())
             entries.append(entry)
