@@ -16,7 +16,10 @@ def get(
     component: Component,
     tunable: Annotated[str | None, typer.Argument(metavar="TUNABLE", help="Without it, all of them.")] = None,
 ) -> int:
-    """Read the tunables of a component, pose included, as they are on the bench."""
+    """Read the tunables of a component.
+
+    Pose included, as they are on the bench.
+    """
     session = Session.of(context)
     session.show(view, session.bench().read(component, tunable), component=component)
     return 0

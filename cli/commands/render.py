@@ -25,7 +25,10 @@ def render(
         bool, typer.Option("--plan", help="Show what would move on the way to REV or the manifest.")
     ] = False,
 ) -> int:
-    """Draw the bench as a PNG: as it is, or as a revision wants it. Needs no OpenGL."""
+    """Draw the bench as a PNG.
+
+    As it is, or as a revision wants it. Needs no OpenGL.
+    """
     session = Session.of(context)
     bench = session.bench()
     if looking not in ("perspective", "top"):

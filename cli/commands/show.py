@@ -13,7 +13,10 @@ from ..views import revision as revision_view
 
 
 def show(context: typer.Context, what: PlanOrRevision = None) -> int:
-    """Show a revision (what it changed, and the state it holds) or a saved plan. Without an argument: HEAD."""
+    """Show a revision or a saved plan.
+
+    Of a revision (HEAD without an argument): what it changed, and the state that it holds.
+    """
     session = Session.of(context)
     bench = session.bench()
     found = bench.find(what or "HEAD", folder=session.folder)

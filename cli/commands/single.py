@@ -44,7 +44,11 @@ def move(
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
 ) -> int:
-    """Move a component to a pose or a slot: `x=500 y=420 yaw=30` (what is not named stays), or `slot=storage/b2`."""
+    """Move a component to a pose or a slot.
+
+    `pico move p2 x=500 y=420 yaw=30`; what is not named stays. `pico move p2 500 420 30` is the same.
+    `pico move p2 storage/b2` takes it to a slot.
+    """
     return single(context, component, "move", pairs(arguments, ("x", "y", "yaw")), speed, dry_run, fidelity)
 
 
@@ -56,7 +60,10 @@ def rotate(
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
 ) -> int:
-    """Turn a component about the vertical: `yaw=30` (or just 30), or `by=-5` from where it stands. Degrees."""
+    """Turn a component about the vertical.
+
+    Degrees: `pico rotate p2 30` turns it to yaw 30, `pico rotate p2 by=-5` from where it stands.
+    """
     given = pairs(arguments, ("yaw",))
     if not given.keys() <= {"yaw", "by"} or len(given) != 1:
         raise PicoError(error("usage", "rotate takes one of `yaw=DEGREES` and `by=DEGREES`"))
@@ -81,7 +88,10 @@ def set_(
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
 ) -> int:
-    """Set a tunable: `pico set p1 angle=3`, `pico set cam exposure="2 ms"`."""
+    """Set a tunable.
+
+    `pico set p1 angle=3`, `pico set cam exposure="2 ms"`.
+    """
     return single(context, component, "set", pairs(arguments), None, dry_run, fidelity)
 
 

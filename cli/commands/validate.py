@@ -9,7 +9,10 @@ from ..views import validation as view
 
 
 def validate(context: typer.Context) -> int:
-    """Check the manifests: all errors at once, each with its place. Asks neither the bench nor Git."""
+    """Check the manifests.
+
+    All errors at once, each with its place. Asks neither the bench nor Git.
+    """
     from pico.manifest.folders import check_folder
 
     session = Session.of(context)

@@ -1,0 +1,251 @@
+"""Names, help, options before and after the command, and errors that are nobody's traceback."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commanding import Pico, edit
+from pico_cli.app import build
+from pico_cli.commands import GROUPS
+from pico_cli.complete import GROUPS as SUBCOMMANDS
+from pico_cli.complete import OPTIONS, SHARED, VALUES, candidates
+from pico_cli.session import write
+from pico_cli.summary import COMMANDS, help_text
+
+LEAVES = [name for name in COMMANDS if name not in GROUPS] + [f"{g} {s}" for g, ss in SUBCOMMANDS.items() for s in ss]
+
+
+def command(name: str) -> Any:
+    """Return the real command behind a name such as `plan` or `sim nudge`."""
+    first, *rest = name.split()
+    found = build([first]).commands[first]
+    for word in rest:
+        found = found.commands[word]
+    return found
+
+
+def test_the_table_of_the_top_level_help_lists_the_commands_that_there_are() -> None:
+    assert set(build([]).commands) == set(COMMANDS)
+    for name in COMMANDS:
+        assert command(name).help.strip().splitlines()[0] == COMMANDS[name], name
+        assert f"  {name} " in help_text()
+
+
+@pytest.mark.parametrize("name", LEAVES)
+def test_every_command_has_help_and_the_shared_options(name: str, pico: Pico) -> None:
+    answer = pico(*name.split(), "--help")
+    assert answer.code == 0
+    assert f"Usage: pico {name}" in answer.out
+    for option in SHARED:
+        assert option in answer.out, option
+    for parameter in command(name).params:
+        assert getattr(parameter, "help", "") or parameter.name == "help", f"{name} {parameter.name} says nothing"
+
+
+@pytest.mark.parametrize("name", LEAVES)
+def test_completion_knows_the_options_of_every_command(name: str) -> None:
+    real = {word for p in command(name).params for word in p.opts if word.startswith("-")}
+    assert real - set(SHARED) == set(OPTIONS.get(name, ()))
+    taking = {word for p in command(name).params for word in p.opts if word.startswith("-") and not p.is_flag}
+    assert taking <= set(VALUES)
+
+
+def test_tab_offers_commands_names_and_revisions(shel: Path) -> None:
+    assert candidates(["pl"]) == ["place", "plan"]
+    assert candidates(["move", "l"]) == ["laser", "lx_100", "lx_125", "ly_150", "ly_200"]
+    assert candidates(["diff", "C1", "E1"]) == ["E1-1", "E1-2", "E1-3"]
+    assert candidates(["-C", ".", "plan", "--fidelity", ""]) == ["kinematic", "physics"]
+    assert candidates(["sim", "n"]) == ["nudge"]
+    assert candidates(["-C", str(shel), "sim", "nudge", "p"]) == ["p1", "p2"]
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_a_completion_script_is_printed(shell: str, pico: Pico) -> None:
+    assert "_PICO_COMPLETE=1 pico" in pico("completion", shell).out
+
+
+def test_options_count_before_and_after_the_command(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir("/")
+    for words in (["-C", str(shel), "--json", "status"], ["status", "--json", "-C", str(shel)],
+                  ["-C", "/nowhere", "status", "-C", str(shel), "--json"]):  # fmt: skip
+        answer = pico(*words)
+        assert answer.code == 0, answer
+        assert answer.data["schema"] == "pico.status/v1"
+
+
+@pytest.mark.parametrize(
+    ("words", "schema"),
+    [
+        (["plan", "e1"], "plan"), (["status"], "status"), (["diff", "C3", "E1-3"], "diff"), (["log"], "log"),
+        (["log", "--graph"], "log"), (["show", "E1-3"], "revision"), (["drift"], "drift"), (["parts"], "parts"),
+        (["catalog", "list"], "catalog"), (["catalog", "show", "linear_polarizer"], "component-type"),
+        (["validate"], "validation"), (["fmt", "--check"], "fmt"), (["get", "p1"], "values"), (["version"], "version"),
+        (["sim", "nudge", "p1", "--dx", "1"], "sim"), (["capture"], "capture"), (["completion", "zsh"], "completion"),
+    ],
+)  # fmt: skip
+def test_every_answer_can_be_json(shel: Path, pico: Pico, words: list[str], schema: str) -> None:
+    answer = pico(*words, "--json")
+    assert answer.code == 0, answer
+    assert answer.err == ""
+    assert answer.data["schema"] == f"pico.{schema}/v1"
+
+
+def test_the_plan_as_json_is_the_file_that_out_writes(shel: Path, pico: Pico) -> None:
+    from pico.model.plan import plan_from_json
+
+    shown = pico("plan", "e1", "--json", "--out", "e1.plan").data
+    assert plan_from_json((shel / "e1.plan").read_text()).digest == shown["digest"]
+    assert shown["target"]["revision"] == "e1"
+    assert shown["base"]["commit"]
+
+
+def test_manifest_errors_come_all_at_once_with_place_and_caret(shel: Path, pico: Pico) -> None:
+    edit(shel / "state" / "table.yaml", "exposure: 10", "exposure: 2 kg")
+    edit(shel / "state" / "table.yaml", "angle: 22.75", "angel: 22.75")
+    for words in (["validate"], ["plan"], ["apply", "--auto-approve"], ["status"]):
+        answer = pico(*words)
+        assert answer.code == 1
+        assert "--> state/table.yaml:10:15" in answer.err
+        assert "exposure: 2 kg" in answer.err
+        assert "^^^^" in answer.err
+        assert "did you mean `angle`?" in answer.err
+        assert "2 errors" in answer.err
+    found = pico("validate", "--json").data["diagnostics"]
+    assert [d["source"]["start"]["line"] for d in found] == [10, 16]
+
+
+def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert "beam_camera" in pico("catalog", "list").out
+    shown = pico("catalog", "show", "linear_polarizer").out
+    assert "0 to 360 deg" in shown
+    assert "repeats every 180 deg" in shown
+    wrong = pico("catalog", "show", "linear_polariser")
+    assert wrong.code == 1
+    assert "did you mean `linear_polarizer`?" in wrong.err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["nosuch"], "no command `nosuch`"),
+        (["aply"], "did you mean `apply`?"),
+        (["plan", "--bogus"], "no such option: --bogus"),
+        (["checkout"], "missing argument"),
+        (["commit"], "--message"),
+        (["sim", "kick"], "kick"),
+        (["plan", "e1", "e2"], "extra argument"),
+        (["plan", "e9"], "there is no revision `e9`"),
+        (["plan", "--backend", "hardware"], "there is no hardware backend yet"),
+        (["plan", "--backend", "sin"], "did you mean `sim`?"),
+        (["plan", "--fidelity", "physic"], "did you mean `physics`?"),
+        (["commit", "-m", "x", "--capture", "--planned"], "contradict"),
+        (["render", "--view", "side"], "no view `side`"),
+        (["render", "--plan"], "from above only"),
+        (["completion", "tcsh"], "no completion for `tcsh`"),
+        (["fmt", "nosuch.yaml"], "nosuch.yaml"),
+        (["plan", "--out", "no/such/folder/x.plan"], "no/such/folder/x.plan"),
+        (["init", "."], "exist"),
+        (["init", "d", "--example", "shell"], "did you mean `shel`?"),
+        (["-C", "/nowhere", "plan"], "there is no folder /nowhere"),
+    ],
+)  # fmt: skip
+def test_mistakes_exit_1_with_a_sentence(shel: Path, pico: Pico, words: list[str], said: str) -> None:
+    answer = pico(*words)
+    assert answer.code == 1, answer
+    assert said in answer.err
+    assert "error[" in answer.err
+    assert "Traceback" not in answer.err
+    as_json = pico(*words, "--json")
+    assert as_json.code == 1
+    assert as_json.data["diagnostics"][0]["severity"] == "error"
+
+
+def test_a_mistake_in_pico_itself_is_one_line_with_what_to_report(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("division by zero")
+
+    monkeypatch.setattr("pico.bench.AsyncBench.status", broken)
+    answer = pico("status")
+    assert answer.code == 1
+    assert "error[internal]: PICO itself failed: ZeroDivisionError: division by zero" in answer.err
+    assert "--debug" in answer.err
+    assert "Traceback" not in answer.err
+    assert "Traceback" in pico("--debug", "status").err
+
+
+def test_init_makes_a_lab_that_validates_and_says_what_next(
+    tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    answer = pico("init", "mybench")
+    assert answer.code == 0
+    assert "cd mybench" in answer.out
+    assert pico("-C", "mybench", "validate").code == 0
+    assert pico("-C", "mybench", "plan").code == 0
+
+
+def test_fmt_check_names_the_file_and_fmt_writes_it(shel: Path, pico: Pico) -> None:
+    edit(shel / "state" / "table.yaml", "    exposure: 10", "    exposure:   10   # ms")
+    assert pico("fmt", "--check").code == 1
+    assert pico("fmt").out.startswith("state/table.yaml\n1 file brought")
+    assert "exposure: 10" in (shel / "state" / "table.yaml").read_text()
+    assert "# ms" in (shel / "state" / "table.yaml").read_text()
+    assert pico("fmt", "--check").code == 0
+
+
+def test_the_graph_shows_all_branches_with_their_motions(shel: Path, pico: Pico) -> None:
+    out = pico("log", "--graph", "--oneline").out
+    assert len([line for line in out.splitlines() if "*" in line]) == 11
+    assert "C3, main (HEAD)" in out
+    assert "p2 turned +30°, p1.angle 90 → 1 deg" in out
+    assert "|/" in out
+    assert len([line for line in pico("log", "--oneline").out.splitlines() if line]) == 3
+    assert len(pico("log", "-n", "1", "--json").data["commits"]) == 1
+
+
+def test_a_bench_in_use_is_told_with_its_holder(shel: Path, pico: Pico) -> None:
+    from pico.backends.lease import BenchLock
+
+    with BenchLock(shel).held("somebody's apply"):
+        answer = pico("apply", "e1", "--auto-approve")
+    assert answer.code == 5
+    assert "somebody's apply" in answer.err
+
+
+def test_a_closed_pipe_ends_nothing(shel: Path) -> None:
+    pico = f"{sys.executable} -c 'import sys; from pico_cli.main import main; sys.exit(main())'"
+    done = subprocess.run(
+        ["bash", "-c", f"{pico} apply e1 --auto-approve | true; echo ${{PIPESTATUS[0]}}; {pico} plan e1 --json"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    code, plan = done.stdout.splitlines()
+    assert code == "0", done.stderr
+    assert done.stderr == ""
+    assert json.loads(plan)["operations"] == []
+
+
+def test_color_only_on_a_terminal_and_never_with_no_color(monkeypatch: pytest.MonkeyPatch) -> None:
+    import io
+
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    def written(stream: io.StringIO) -> str:
+        write(stream, "\x1b[31mred\x1b[0m")
+        return stream.getvalue()
+
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    assert written(Terminal()) == "\x1b[31mred\x1b[0m\n"
+    assert written(io.StringIO()) == "red\n"
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert written(Terminal()) == "red\n"

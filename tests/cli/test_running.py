@@ -1,0 +1,104 @@
+"""What is shown while a run goes on, and what Ctrl-C does to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from pico_cli.running import execute, question
+from pico_cli.session import Session
+
+from pico.model.event import Event
+from pico.model.operation import Operation, Reason
+from pico.model.plan import Base, LabRef, Plan, Target
+from pico.model.report import RunReport
+
+
+def operation(number: int, component: str, **more: Any) -> Operation:
+    places = {"from": {"slot": "storage/a1", "pose": {"x": 1, "y": 2}}, "to": {"pose": {"x": 395, "y": 420, "yaw": 0}}}
+    return Operation(
+        id=f"op{number}", primitive="move", component=component, robot="arm1", reason=Reason(kind="changed"),
+        arguments=places, seconds=10.0, **more,
+    )  # fmt: skip
+
+
+PLAN = Plan(
+    lab=LabRef(name="shel", digest=""), backend="sim", fidelity="physics", base=Base(), target=Target(revision="e1"),
+    operations=(operation(1, "lx_125"), operation(2, "ly_150", after=("op1",))),
+)  # fmt: skip
+
+
+def event(kind: Any, number: int | None = None, **data: Any) -> Event:
+    return Event(run="r", seq=1, kind=kind, time=0.0, operation=f"op{number}" if number else None, data=data)
+
+
+class Interrupted:
+    """A run in which Ctrl-C is pressed `presses` times after its first event."""
+
+    def __init__(self, presses: int) -> None:
+        self.presses, self.over, self.calls = presses, False, list[str]()
+        self.events = iter([event("operation_started", 1), event("operation_done", 1, seconds=9.8, error_mm=0.11),
+                            event("operation_skipped", 2, interrupted=True)])  # fmt: skip
+        self.seen = 0
+
+    def __iter__(self) -> Iterator[Event]:
+        return self
+
+    def __next__(self) -> Event:
+        if self.seen and self.presses:
+            self.presses -= 1
+            raise KeyboardInterrupt
+        self.seen += 1
+        try:
+            return next(self.events)
+        except StopIteration:
+            self.over = True
+            raise
+
+    def halt(self) -> None:
+        self.calls.append("halt")
+
+    def stop(self) -> None:
+        self.calls.append("stop")
+
+    report = RunReport(run="r", goal="e1", outcome="interrupted", done=1, skipped=1, seconds=9.8, absent=("ly_150",))
+
+
+class OneRun:
+    def __init__(self, run: Any) -> None:
+        self._run = run
+
+    def run(self, plan: Plan) -> Any:
+        return self._run
+
+
+@pytest.mark.parametrize(("presses", "calls"), [(1, ["halt"]), (2, ["halt", "stop"])])
+def test_ctrl_c_halts_then_stops_and_ends_with_a_tally(
+    presses: int, calls: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = Interrupted(presses)
+    code = execute(Session(), OneRun(run), PLAN)  # type: ignore[arg-type]
+    assert (code, run.calls) == (130, calls)
+    out = capsys.readouterr().out
+    assert "press again to stop at once" in out
+    assert "✓ 1/2 lx_125 storage/a1 → (395, 420, 0°)" in out
+    assert "off by 0.11 mm" in out
+    assert "Interrupted: 1 of 2 operations done, 1 not started · 9.8 s simulated" in out
+
+
+def test_a_failure_names_its_dependents(capsys: pytest.CaptureFixture[str]) -> None:
+    run = Interrupted(0)
+    dropped = {"severity": "error", "code": "dropped", "summary": "lx_125 slipped out of the fingers"}
+    run.events = iter([event("operation_failed", 1, diagnostic=dropped), event("operation_skipped", 2, because="op1")])
+    execute(Session(), OneRun(run), PLAN)  # type: ignore[arg-type]
+    out = capsys.readouterr().out
+    assert "✗ 1/2 lx_125 storage/a1 → (395, 420, 0°)  failed: lx_125 slipped out of the fingers" in out
+    assert "- 2/2 ly_150 storage/a1 → (395, 420, 0°)  skipped: lx_125 did not get there" in out
+
+
+def test_the_question_counts_right() -> None:
+    assert question(PLAN) == "Move 2 components on sim (physics)?"
+    from dataclasses import replace
+
+    assert question(replace(PLAN, operations=PLAN.operations[:1])) == "Move 1 component on sim (physics)?"

@@ -1,0 +1,78 @@
+"""Text as it is read: carets, counts, numbers, columns."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pico_cli.views import diagnostics as view
+from pico_cli.views.style import columns, count, listed, number, paint, plain, seconds, shorten, width
+
+from pico.diagnostics import Position, SourceRange, error, warning
+
+
+def at(line: int, start: int, end: int, snippet: str) -> SourceRange:
+    return SourceRange("state/table.yaml", Position(line, start), Position(line, end), snippet)
+
+
+def test_a_diagnostic_shows_the_line_with_a_caret_and_what_would_be_right() -> None:
+    found = error(
+        "unit", "exposure of cam is a time, not a mass", hint="for example `2` or `2 ms`",
+        label="expected milliseconds", source=at(31, 15, 19, "    exposure: 2 kg"),
+    )  # fmt: skip
+    assert plain(view.text([found])) == (
+        "error[unit]: exposure of cam is a time, not a mass\n"
+        "  --> state/table.yaml:31:15\n"
+        "   |\n"
+        "31 |     exposure: 2 kg\n"
+        "   |               ^^^^ expected milliseconds\n"
+        "   |\n"
+        "   = help: for example `2` or `2 ms`"
+    )
+
+
+def test_errors_stand_last_and_are_counted() -> None:
+    text = plain(view.text([error("a", "one"), warning("b", "two"), error("c", "three")]))
+    assert text.splitlines()[0] == "warning[b]: two"
+    assert text.splitlines()[-1] == "2 errors, 1 warning"
+
+
+def test_a_long_line_is_cut_around_its_caret() -> None:
+    snippet = "x" * 300 + "HERE" + "y" * 300
+    lines = plain(view.text([error("a", "far out", source=at(1, 301, 305, snippet))])).splitlines()
+    line, caret = lines[3], lines[4]
+    assert max(map(len, lines)) <= 100
+    assert line[caret.index("^") : caret.rindex("^") + 1] == "HERE"
+
+
+@given(st.text(max_size=200), st.integers(1, 250), st.integers(0, 50))
+def test_no_source_line_breaks_the_view(snippet: str, start: int, length: int) -> None:
+    text = view.text([error("a", "odd", label="here", source=at(3, start, start + length, snippet))])
+    assert "error[a]: odd" in plain(text)
+    assert all(c.isprintable() or c == "\n" for c in plain(text))
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(420.0, "420"), (12.5, "12.5"), (0.004, "0"), (-0.001, "0"), (-30.0, "-30"), (100.0, "100")]
+)
+def test_numbers_have_no_needless_zeros(value: float, text: str) -> None:
+    assert number(value) == text
+
+
+def test_words_agree_with_their_number() -> None:
+    assert (count(1, "move"), count(2, "move"), count(0, "move")) == ("1 move", "2 moves", "0 moves")
+    assert count(2, "step by hand", "steps by hand") == "2 steps by hand"
+    assert listed(["a"]) == "a"
+    assert listed(["a", "b", "c"]) == "a, b and c"
+    assert listed([str(i) for i in range(9)], 3) == "0, 1, 2 and 6 more"
+    assert (seconds(0.4), seconds(41.26), seconds(125)) == ("0.4 s", "41.3 s", "2 min 05 s")
+
+
+def test_columns_align_whatever_their_color() -> None:
+    lines = columns([[paint("red", "a"), "x"], ["bbb", "y"]])
+    assert [plain(line) for line in lines] == ["a    x", "bbb  y"]
+
+
+@given(st.text(alphabet=st.characters(blacklist_categories=["Cs", "Cc"]), max_size=40), st.integers(1, 30))
+def test_a_shortened_text_fits(text: str, room: int) -> None:
+    assert width(shorten(text, room)) <= room
