@@ -207,3 +207,14 @@ def test_capture_adds_what_no_file_names_to_the_largest_file() -> None:
     written = capture(files, setup, wanted, LabState(lab="bench", components=placed))
     assert written.keys() == {"state/table.yaml"}
     assert leaves(written["state/table.yaml"].decode())["p2"] == {"pose": {"x": 600, "y": 420, "yaw": 0}, "angle": 7}
+
+
+def test_a_component_with_both_keeps_only_what_is_set() -> None:
+    text = HEAD + "components:\n  p1:\n    slot: storage/a1  # stowed\n    pose: {x: 1, y: 2}\n    angle: 3\n"
+    assert leaves(set_values(text, {"p1": {"slot": "storage/a2"}})) == {"p1": {"slot": "storage/a2", "angle": 3}}
+
+
+def test_a_layout_that_can_not_be_edited_is_refused_unchanged() -> None:
+    with pytest.raises(PicoError) as caught:
+        set_values(HEAD + "components:\n  p1:\n    - slot: storage/a1\n", {"p1": {"angle": 3.0}})
+    assert "p1" in caught.value.diagnostics[0].summary
