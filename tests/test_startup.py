@@ -13,19 +13,6 @@ from pico.history.example import make_example
 HEAVY = (
     "rich", "pydantic", "numpy", "mujoco", "cv2", "networkx", "pygit2", "scipy", "typer", "yaml", "pint", "asyncio",
 )  # fmt: skip
-    "rich",
-    "pydantic",
-    "numpy",
-    "mujoco",
-    "cv2",
-    "networkx",
-    "pygit2",
-    "scipy",
-    "typer",
-    "yaml",
-    "pint",
-    "asyncio",
-)
 PROGRAM = """
 import sys
 from pico_cli.main import main
