@@ -98,6 +98,8 @@ def _edit_component(editor: Editor, components: Map, name: str, wanted: Mapping[
     if wanted is None:
         editor.remove(components, name)
         return
+    if not isinstance(node, Map) and plain(node) is not None:
+        raise PicoError(_cannot({name: wanted}))
     part = node if isinstance(node, Map) else Map(node.start, False, node.end)
     added: dict[str, Any] = {}
     leaving: set[str] = set()
@@ -127,6 +129,8 @@ def _edit_entry(editor: Editor, key: Scalar, node: Node, value: Value | Pose, *,
             editor.set_scalar(key, node, value)
         return
     if not isinstance(node, Map):
+        if plain(node) is not None:
+            raise PicoError(_cannot({key.text: None}))
         editor.insert(key, node, _data(value), _axis_order, flow=flow)
         return
     added: dict[str, float] = {}
@@ -157,6 +161,8 @@ def _add(state: Document, editor: Editor, missing: Mapping[str, Mapping[str, Cha
     new = {name: _ordered(wanted) for name, wanted in missing.items()}
     if "components" in root.entries:
         key, node = root.entries["components"]
+        if not isinstance(node, Map) and plain(node) is not None:
+            raise PicoError(_cannot(missing))
         editor.insert(key, node, new, str, flow=root.flow)
     else:
         sorted_new = {name: new[name] for name in sorted(new)}
