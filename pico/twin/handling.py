@@ -24,14 +24,14 @@ Steps = Generator[float, None, None]
 
 CHUNK = 0.1
 """An operation in progress is resumed at least this often [s], to see whether the part is still in the hand."""
-SETTLE = 0.2
-"""Time between two corrections of an arm at rest [s]: four time constants of its servos."""
+SETTLE = 0.1
+"""Time between two corrections of an arm at rest [s]: two time constants of its servos."""
 ROUNDS = 3
-CLOSE = 2e-5
+CLOSE = 5e-5
 """An arm is where it should be within this [rad]: at the tool about 0.01 mm."""
 AIMED = 0.01
 """A part in the hand is above its goal within this [mm, deg]."""
-AIM_SECONDS = 0.4
+AIM_SECONDS = 0.25
 """How long the arm takes for the shift of the goal."""
 HOVER = 2.0
 """Height above the table at which a part is measured for the last time [mm]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -10,6 +10,7 @@ from pico.diagnostics import PicoError, error
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.motion.types import Joints
+from pico.twin.beams import Place, beam_paths
 from pico.twin.placement import Placement, upright
 
 if TYPE_CHECKING:
@@ -23,10 +24,8 @@ if TYPE_CHECKING:
     Image = NDArray[np.uint8]
 
 View = Literal["perspective", "top"]
-Place = Pose | Placement
 
 _AZIMUTH, _ELEVATION, _FIELD = -80.0, 30.0, 24.0
-_STOPS = ("detector", "block", "mirror")
 
 
 def render(
@@ -87,7 +86,7 @@ def _perspective(
     model, data = posed_model(setup, places, joints)
     points = _extent(setup, model, data)
     view = viewpoint(setup, points, width, height)
-    light = beam_lines(setup, poses) if beams else ()
+    light = _glow(setup, poses) if beams else ()
     stage = Stage(model, data, surfaces(setup, model, places), light, _middle(setup))
     image = photograph(stage, view)
     if labels:
@@ -131,8 +130,8 @@ def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
     return framing(points, _AZIMUTH, _ELEVATION, _FIELD, width, height, margin=0.04)
 
 
-def beam_lines(setup: Setup, poses: Mapping[str, Place]) -> tuple[Beam, ...]:
-    """Return the light of each source, straight on at the height of its exit, up to what stops it."""
+def _glow(setup: Setup, poses: Mapping[str, Place]) -> tuple[Beam, ...]:
+    """The light of each source, at the height of its exit."""
     import numpy as np
 
     from pico.twin.perspective import Beam
@@ -142,50 +141,6 @@ def beam_lines(setup: Setup, poses: Mapping[str, Place]) -> tuple[Beam, ...]:
         z = setup.type_of(name).frames.optical[2]
         found.append(Beam(np.array((*start, z)) / 1000, np.array((*end, z)) / 1000))
     return tuple(found)
-
-
-def beam_paths(
-    setup: Setup, poses: Mapping[str, Place]
-) -> Sequence[tuple[str, tuple[float, float], tuple[float, float]]]:
-    """Return (source, start, end) [mm] of straight beams seen from above, each up to the first detector, block or
-    mirror that it meets, or the table's edge."""
-    flat = {name: at.pose if isinstance(at, Placement) else at for name, at in poses.items()}
-    found = []
-    for name, pose in sorted(flat.items()):
-        kind = setup.type_of(name)
-        if kind.optics.element != "source":
-            continue
-        start = Pose(*pose.apply(*kind.frames.optical[:2]), pose.yaw)
-        length = min([_to_edge(setup, start), *_stops(setup, flat, name, start)])
-        found.append((name, (start.x, start.y), start.apply(length, 0.0)))
-    return found
-
-
-def _stops(setup: Setup, poses: Mapping[str, Pose], source: str, axis: Pose) -> list[float]:
-    """Distances from the source to the optics that stop its beam [mm]."""
-    found = []
-    for name, pose in poses.items():
-        kind = setup.type_of(name)
-        if name == source or kind.optics.element not in _STOPS:
-            continue
-        aperture = kind.geometry.clear_aperture
-        center = aperture.center if aperture else kind.frames.optical
-        local = axis.inverse().compose(Pose(*pose.apply(center[0], center[1])))
-        if local.x > 0 and abs(local.y) < (aperture.diameter / 2 if aperture else 12.0):
-            found.append(local.x)
-    return found
-
-
-def _to_edge(setup: Setup, axis: Pose) -> float:
-    ahead = axis.apply(1.0, 0.0)
-    ways = [
-        ((size if step > 0 else 0.0) - at) / step
-        for at, step, size in zip(
-            (axis.x, axis.y), (ahead[0] - axis.x, ahead[1] - axis.y), setup.lab.table.size, strict=True
-        )
-        if abs(step) > 1e-9
-    ]
-    return max(0.0, min(ways))
 
 
 def _middle(setup: Setup) -> Any:

@@ -1,0 +1,265 @@
+"""The bench from above, as a drawing: footprints and where they face, slots, beams, reach, what is to move where."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from pico.model.catalog import Footprint
+from pico.model.lab import Box2, Robot, Setup
+from pico.model.pose import Pose, angle_between
+from pico.motion.kinematics import span, tool_pose
+from pico.motion.types import Joints
+from pico.twin.beams import Place, beam_paths, flat
+from pico.twin.canvas import Canvas, Point
+from pico.twin.lettering import Color
+from pico.twin.names import write_names
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+_PAPER, _TABLE, _EDGE = (252, 252, 253), (240, 242, 245), (120, 128, 138)
+_HOLES, _INK, _FAINT = (212, 216, 222), (34, 40, 49), (126, 134, 146)
+_REGION, _SLOT, _REACH = (226, 235, 246), (168, 176, 187), (122, 152, 190)
+_BEAM, _MOVE, _FORBIDDEN = (224, 36, 36), (224, 112, 0), (196, 60, 60)
+_ARM = (150, 164, 184)
+_COLORS: dict[str, Color] = {
+    "source": (42, 74, 128),
+    "lens": (58, 138, 196),
+    "polarizer": (52, 136, 108),
+    "waveplate": (128, 92, 182),
+    "mirror": (176, 132, 44),
+    "beam_splitter": (60, 150, 160),
+    "detector": (188, 58, 50),
+    "none": (104, 112, 124),
+}
+_OPTIC_WIDTH = 3.0  # pixels
+_GRASP_HEIGHT = 100.0  # mm, where nothing that can be grasped says otherwise
+
+
+def draw(
+    setup: Setup,
+    poses: Mapping[str, Place],
+    joints: Mapping[str, Joints],
+    *,
+    width: int,
+    height: int,
+    ghosts: Mapping[str, Pose],
+    labels: bool,
+    beams: bool,
+) -> NDArray[np.uint8]:
+    """Return the drawing (height, width, 3); see `pico.twin.picture.render`."""
+    canvas = _canvas(setup, width, height)
+    size = max(9.0, min(width / 64, height / 48))
+    _draw_table(canvas, setup)
+    _draw_areas(canvas, setup, size)
+    _draw_slots(canvas, setup, poses, size)
+    for robot in setup.lab.robots.values():
+        if robot.model == "xarm7":
+            _draw_reach(canvas, setup, robot)
+    if beams:
+        for _, start, end in beam_paths(setup, poses):
+            canvas.line((start, end), _BEAM, 1.2)
+    places = flat(poses)
+    for name, pose in sorted(places.items()):
+        _draw_component(canvas, setup, name, pose)
+    for name, goal in sorted(ghosts.items()):
+        _draw_ghost(canvas, setup, name, places.get(name), goal, size, labels)
+    for name, robot in sorted(setup.lab.robots.items()):
+        if robot.model == "xarm7":
+            _draw_arm(canvas, name, robot, joints.get(name), size)
+    if labels:
+        outlines = {name: _outline(setup.type_of(name).geometry.footprint, pose) for name, pose in places.items()}
+        write_names(canvas, outlines, size, _INK)
+    _draw_legend(canvas, setup, size)
+    return canvas.finished()
+
+
+def _canvas(setup: Setup, width: int, height: int) -> Canvas:
+    """The canvas on which table and mounts fit, with room for a title above and a scale below."""
+    x, y = setup.lab.table.size
+    mounts = [robot.mount for robot in setup.lab.robots.values()]
+    left, right = min([0.0, *(m.x - 80 for m in mounts)]), max([x, *(m.x + 80 for m in mounts)])
+    low, high = min([0.0, *(m.y - 80 for m in mounts)]), max([y, *(m.y + 80 for m in mounts)])
+    head, foot, side = 0.075 * height, 0.085 * height, 0.035 * width
+    scale = min((width - 2 * side) / (right - left), (height - head - foot) / (high - low))
+    spare = height - head - foot - scale * (high - low)
+    origin = ((width - scale * (left + right)) / 2, height - foot - spare / 2 + scale * low)
+    return Canvas(width, height, scale, origin, _PAPER)
+
+
+def _draw_table(canvas: Canvas, setup: Setup) -> None:
+    x, y = setup.lab.table.size
+    outline = ((0.0, 0.0), (x, 0.0), (x, y), (0.0, y))
+    canvas.fill([(px + 6, py - 8) for px, py in outline], (222, 225, 230))  # a shadow
+    canvas.fill(outline, _TABLE)
+    holes = setup.lab.table.holes
+    columns = range(int((x - holes.first[0]) / holes.pitch) + 1)
+    rows = range(int((y - holes.first[1]) / holes.pitch) + 1)
+    grid = [(holes.first[0] + i * holes.pitch, holes.first[1] + j * holes.pitch) for i in columns for j in rows]
+    canvas.dots(grid, 2.6, _HOLES)
+    canvas.line(outline, _EDGE, 1.2, closed=True)
+
+
+def _draw_areas(canvas: Canvas, setup: Setup, size: float) -> None:
+    for name, region in sorted(setup.lab.regions.items()):
+        canvas.fill(_corners(region.area), _REGION, 0.55)
+        canvas.dashes(_closed(region.area), (160, 184, 214), 1.0, (6, 4))
+        at = (region.area.x[1], region.area.y[1])
+        canvas.text(name, at, 0.8 * size, (96, 124, 160), align="right", shift=(0, -3))
+    for name, zone in sorted(setup.lab.keep_out.items()):
+        canvas.fill(_corners(zone.area), (250, 226, 226), 0.7)
+        canvas.dashes(_closed(zone.area), _FORBIDDEN, 1.2, (5, 4))
+        at = (zone.area.x[0], zone.area.y[1])
+        canvas.text(f"keep out: {name}", at, 0.8 * size, _FORBIDDEN, shift=(5, 1.05 * size))
+
+
+def _draw_slots(canvas: Canvas, setup: Setup, poses: Mapping[str, Place], size: float) -> None:
+    half = 36.0
+    taken = list(flat(poses).values())
+    for name, slot in sorted(setup.lab.slots.items()):
+        corners = [slot.pose.apply(sx * half, sy * half) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        canvas.fill(corners, (255, 255, 255), 0.8)
+        canvas.line(corners, _SLOT, 1.0, closed=True)
+        if all(slot.pose.distance(pose) > half for pose in taken):
+            at = (slot.x, slot.y)
+            canvas.text(
+                name.rpartition("/")[2], at, 0.95 * size, _FAINT, align="center", shift=(0, 0.35 * size), weight=500
+            )
+
+
+def _draw_reach(canvas: Canvas, setup: Setup, robot: Robot) -> None:
+    """Where the tool reaches at the height at which parts are held, and how far at least."""
+    grasps = [k.geometry.grasp.height for k in setup.catalog.values() if k.geometry.grasp]
+    for radius in span(robot, max(grasps, default=_GRASP_HEIGHT)):
+        if radius < 1.0:
+            continue
+        for arc in _on_table(setup, _circle((robot.mount.x, robot.mount.y), radius, 180)):
+            canvas.dashes(arc, _REACH, 1.2, (8, 5))
+
+
+def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None:
+    """Footprint, a line where the optic stands across the beam, and a tick where the component faces."""
+    kind = setup.type_of(name)
+    color = _COLORS.get(kind.optics.element, _COLORS["none"])
+    outline = _outline(kind.geometry.footprint, pose)
+    canvas.fill(outline, _mixed(color, 0.80))
+    canvas.line(outline, color, 1.3, closed=True)
+    front = _front(kind.geometry.footprint)
+    ox, oy, _ = kind.frames.optical
+    if kind.geometry.clear_aperture and kind.optics.element not in ("source", "none"):
+        ox, oy, _ = kind.geometry.clear_aperture.center
+        half = max(9.0, kind.geometry.clear_aperture.diameter / 2)
+        canvas.line((pose.apply(ox, oy - half), pose.apply(ox, oy + half)), color, _OPTIC_WIDTH)
+        canvas.line((pose.apply(ox, oy), pose.apply(front, oy)), color, 1.2)
+    else:
+        canvas.line((pose.apply(0, 0), pose.apply(front, 0)), color, 1.6)
+    tick = [pose.apply(front + 4.5, 0), pose.apply(front - 3.5, 4.5), pose.apply(front - 3.5, -4.5)]
+    canvas.fill(tick, color)
+
+
+def _draw_ghost(
+    canvas: Canvas, setup: Setup, name: str, now: Pose | None, goal: Pose, size: float, labels: bool
+) -> None:
+    """Where a component is to go: a dashed outline, a tick, and an arrow from where it is."""
+    footprint = setup.type_of(name).geometry.footprint
+    outline = _outline(footprint, goal)
+    stays = now is not None and now.distance(goal) <= footprint.radius
+    if not stays:
+        canvas.fill(outline, (255, 240, 222), 0.55)
+    canvas.dashes([*outline, outline[0]], _MOVE, 1.5, (6, 4))
+    front = _front(footprint)
+    canvas.line((goal.apply(0.45 * front, 0), goal.apply(front, 0)), _MOVE, 1.6)
+    if now is not None and now.distance(goal) > 1.0:
+        canvas.arrow((now.x, now.y), (goal.x, goal.y), _MOVE, 2.0, 11.0)
+    if labels and not stays:
+        write_names(canvas, {name: outline}, size, _MOVE)
+    elif labels and now is not None and abs(turn := angle_between(now.yaw, goal.yaw)) > 0.05:
+        top = max(y for _, y in outline)
+        canvas.text(f"{turn:+.3g}°", (goal.x, top), 0.85 * size, _MOVE, align="center", weight=600, shift=(0, -4))
+
+
+def _draw_arm(canvas: Canvas, name: str, robot: Robot, joints: Joints | None, size: float) -> None:
+    mount = robot.mount
+    x, y, _, yaw = tool_pose(robot, joints or tuple(math.radians(a) for a in robot.park))
+    canvas.fill(_strip((mount.x, mount.y), (x, y), 21.0), _ARM, 0.35)
+    hand = Pose(x, y, yaw)
+    canvas.fill([hand.apply(a * 55, b * 24) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))], _ARM, 0.55)
+    for side in (-1, 1):
+        jaw = [hand.apply(side * (38 + 8 * a), 11 * b) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        canvas.fill(jaw, (88, 98, 114), 0.8)
+    base = _circle((mount.x, mount.y), 62.0, 48)
+    canvas.fill(base, (214, 221, 230))
+    canvas.line(base, (96, 108, 126), 1.5, closed=True)
+    canvas.text(name, (mount.x, mount.y), 0.95 * size, _INK, align="center", weight=600, shift=(0, 0.35 * size))
+
+
+def _draw_legend(canvas: Canvas, setup: Setup, size: float) -> None:
+    """Title above, and below the scale bar, the axes and what the dashed lines are."""
+    x, y = setup.lab.table.size
+    canvas.text(setup.lab.title or setup.lab.name, (0, y), 1.25 * size, _INK, weight=600, shift=(0, -0.9 * size))
+    canvas.text(
+        f"{x:g} x {y:g} mm, beam {setup.lab.table.beam_height:g} mm high",
+        (x, y), 0.85 * size, _FAINT, align="right", shift=(0, -0.9 * size),
+    )  # fmt: skip
+    length = next((s for s in (50.0, 100.0, 200.0, 500.0) if s * canvas.scale > 60), 1000.0)
+    down = 1.4 * size / canvas.scale
+    tick = 4 / canvas.scale
+    for a, b in (((0, -down), (length, -down)), *(((e, -down - tick), (e, -down + tick)) for e in (0.0, length))):
+        canvas.line((a, b), _INK, 1.5)
+    canvas.text(f"{length:g} mm", (length, -down), 0.85 * size, _INK, shift=(8, 0.3 * size))
+    words = "dashed arcs: reach of the arm · tick: where a component faces"
+    canvas.text(words, (x, -down), 0.85 * size, _FAINT, align="right", shift=(0, 0.3 * size))
+
+
+def _outline(footprint: Footprint, pose: Pose) -> list[Point]:
+    if footprint.disc is not None:
+        return _circle((pose.x, pose.y), footprint.disc, 48)
+    return [pose.apply(x, y) for x, y in footprint.vertices]
+
+
+def _front(footprint: Footprint) -> float:
+    return footprint.disc if footprint.disc is not None else max(x for x, _ in footprint.vertices)
+
+
+def _circle(center: Point, radius: float, count: int) -> list[Point]:
+    angles = (2 * math.pi * i / count for i in range(count))
+    return [(center[0] + radius * math.cos(a), center[1] + radius * math.sin(a)) for a in angles]
+
+
+def _on_table(setup: Setup, ring: list[Point]) -> list[list[Point]]:
+    """The stretches of a closed line that lie on the table."""
+    x, y = setup.lab.table.size
+    inside = [0 <= px <= x and 0 <= py <= y for px, py in ring]
+    if all(inside):
+        return [[*ring, ring[0]]]
+    first = inside.index(False)
+    arcs: list[list[Point]] = [[]]
+    for i in range(first, first + len(ring)):
+        if inside[i % len(ring)]:
+            arcs[-1].append(ring[i % len(ring)])
+        elif arcs[-1]:
+            arcs.append([])
+    return [arc for arc in arcs if len(arc) > 1]
+
+
+def _strip(start: Point, end: Point, half: float) -> list[Point]:
+    length = math.hypot(end[0] - start[0], end[1] - start[1]) or 1.0
+    nx, ny = -(end[1] - start[1]) / length * half, (end[0] - start[0]) / length * half
+    return [(p[0] + s * nx, p[1] + s * ny) for p, s in ((start, 1), (end, 1), (end, -1), (start, -1))]
+
+
+def _corners(area: Box2) -> list[Point]:
+    return [(area.x[0], area.y[0]), (area.x[1], area.y[0]), (area.x[1], area.y[1]), (area.x[0], area.y[1])]
+
+
+def _closed(area: Box2) -> list[Point]:
+    corners = _corners(area)
+    return [*corners, corners[0]]
+
+
+def _mixed(color: Color, white: float) -> Color:
+    r, g, b = (round(c * (1 - white) + 255 * white) for c in color)
+    return r, g, b
