@@ -8,7 +8,7 @@ from typing import Any
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, slot_at
-from pico.model.pose import Pose, angle_between
+from pico.model.pose import Pose, angle_between, short
 from pico.model.quantities import Value
 from pico.model.record import as_json, record
 from pico.model.state import LabState, place_of
@@ -63,8 +63,8 @@ def diff_states(setup: Setup, a: LabState, b: LabState) -> tuple[Change, ...]:
 def diff_observed(setup: Setup, seen: Observation, wanted: LabState, *, exact: bool = False) -> tuple[Change, ...]:
     """Return what must change for the bench as observed to be as wanted, sorted by component and tunable.
 
-    Differences within tolerance are listed as `tolerated` unless `exact`. Missing, held and toppled components are
-    left to the caller; tunables that the observation does not hold are not compared.
+    Differences below the resolution are none; those within tolerance are listed as `tolerated` unless `exact`. Missing,
+    held and toppled components are left to the caller; tunables that the observation does not hold are not compared.
     """
     changes: list[Change] = []
     for name in sorted(setup.lab.inventory):
@@ -82,9 +82,9 @@ def _observed_move(setup: Setup, name: str, pose: Pose, wanted: LabState, exact:
     slot, goal = place_of(setup, wanted, name)
     if slot is not None and slot_at(setup, pose) == slot:
         return None  # in the slot, at any yaw, is right
-    tolerance = setup.type_of(name).pose.tolerance
+    tunable = setup.type_of(name).pose
     away, turned = pose.distance(goal), abs(angle_between(pose.yaw, goal.yaw))
-    if away < 1e-6 and turned < 1e-6:
+    if away < tunable.resolution.position and turned < tunable.resolution.yaw:
         return None
     live = slot_at(setup, pose) if setup.movable(name) else None
     return Change(
@@ -93,7 +93,7 @@ def _observed_move(setup: Setup, name: str, pose: Pose, wanted: LabState, exact:
         before=place_json(live, pose),
         after=place_json(slot, goal),
         text=describe_move(live, pose, slot, goal),
-        tolerated=slot is None and not exact and away <= tolerance.position and turned <= tolerance.yaw,
+        tolerated=slot is None and not exact and away <= tunable.tolerance.position and turned <= tunable.tolerance.yaw,
     )
 
 
@@ -108,12 +108,19 @@ def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: L
         value = None if live.status == "unknown" else live.value
         if value == goal:
             continue
-        near = value is not None and value_distance(kind, value, goal) <= kind.tolerance
-        if near and value is not None and value_distance(kind, value, goal) < 1e-9:
+        apart = math.inf if value is None else value_distance(kind, value, goal)
+        if apart < max(kind.resolution, 1e-9):
             continue
         text = describe_value(kind, value, goal)
         changes.append(
-            Change(component=name, tunable=tunable, before=value, after=goal, text=text, tolerated=near and not exact)
+            Change(
+                component=name,
+                tunable=tunable,
+                before=value,
+                after=goal,
+                text=text,
+                tolerated=apart <= kind.tolerance and not exact,
+            )
         )
     return changes
 
@@ -135,13 +142,17 @@ def describe_move(slot_a: str | None, a: Pose, slot_b: str | None, b: Pose) -> s
     if slot_a:
         return f"placed at {b}"
     words = []
-    if a.distance(b) > 5e-4:
-        steps = [f"d{axis} {d:+.4g}" for axis, d in (("x", b.x - a.x), ("y", b.y - a.y)) if abs(d) > 5e-4]
-        words.append(f"moved {a.distance(b):.4g} mm ({', '.join(steps)})")
+    if short(a.distance(b)) != "0":
+        steps = [f"d{axis} {_signed(d)}" for axis, d in (("x", b.x - a.x), ("y", b.y - a.y)) if short(d) != "0"]
+        words.append(f"moved {short(a.distance(b))} mm ({', '.join(steps)})")
     turned = angle_between(a.yaw, b.yaw)
-    if abs(turned) > 5e-4:
-        words.append(f"turned {turned:+.4g}°")
+    if short(turned) != "0":
+        words.append(f"turned {_signed(turned)}°")
     return ", ".join(words) or "unchanged"
+
+
+def _signed(number: float) -> str:
+    return ("+" if number > 0 else "") + short(number)
 
 
 def describe_value(kind: Tunable, before: Value | None, after: Value | None) -> str:

@@ -17,7 +17,7 @@ class Pose:
     yaw: Angle = 0.0
 
     def __str__(self) -> str:
-        return f"({self.x:.4g}, {self.y:.4g}, {self.yaw:.4g}°)"
+        return f"({short(self.x)}, {short(self.y)}, {short(self.yaw)}°)"
 
     def apply(self, x: float, y: float) -> tuple[float, float]:
         """Return the local point (x, y) [mm] in the frame that this pose stands in [mm]."""
@@ -40,6 +40,11 @@ class Pose:
 
 
 Pose.__pydantic_config__ = {"extra": "forbid"}  # type: ignore[attr-defined]
+
+
+def short(number: float) -> str:
+    """Return a length [mm] or an angle [deg] as a person reads it: two decimals at most."""
+    return f"{round(number, 2) + 0.0:.10g}"
 
 
 def wrap(angle: float, period: float = 360.0) -> float:
