@@ -14,7 +14,7 @@ import typer
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
 from .commands import register
-from .session import Session
+from .session import Session, write
 from .summary import COMMANDS
 
 PREFIX = "session_"  # so that a command may have an argument called `folder` of its own
@@ -91,9 +91,15 @@ def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
     session = Session(json="--json" in words, debug="--debug" in words)
     try:
-        code = build(words).main(args=words, prog_name="pico", standalone_mode=False)
+        group = build(words)
+        with group.make_context("pico", list(words)) as context:
+            code = group.invoke(context)
+    except typer.Exit as exc:
+        code = exc.exit_code
     except (Exception, KeyboardInterrupt) as exc:
         found, code = _explain(exc, words)
+        if isinstance(exc, KeyboardInterrupt) and sys.stderr.isatty():
+            write(sys.stderr, "")  # the terminal shows ^C where the cursor was
         if session.debug:
             traceback.print_exc()
         session.report(found)
@@ -105,7 +111,7 @@ def _explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], in
     if isinstance(exc, PicoError):
         return list(exc.diagnostics), exc.exit_code
     if isinstance(exc, KeyboardInterrupt):
-        return [error("interrupted", "interrupted; nothing was moving")], ExitCode.INTERRUPTED
+        return [error("interrupted", "interrupted; nothing has moved")], ExitCode.INTERRUPTED
     if isinstance(exc, typer.Abort):
         return [error("declined", "nothing was done")], ExitCode.ERROR
     if hasattr(exc, "format_message"):  # a usage error, whichever click typer carries

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from pico.model.record import as_json
@@ -15,6 +19,7 @@ from .views.style import plain
 
 if TYPE_CHECKING:
     from pico.bench import Bench
+    from pico.execution.blocking import Run
     from pico.model.event import Event
     from pico.model.plan import Plan
 
@@ -50,19 +55,32 @@ def execute(session: Session, bench: Bench, plan: Plan) -> int:
     """Run a plan, show how it goes and what became of it; return the exit code."""
     run = bench.run(plan)
     screen = Screen(session, Progress(plan))
-    presses = 0
-    while not run.over:
-        try:
-            for event in run:
-                screen.show(event)
-        except KeyboardInterrupt:
-            presses += 1
-            screen.stay("^C\n" + (STOPPING if presses == 1 else AT_ONCE))
-            run.halt() if presses == 1 else run.stop()
+    with interrupts(run):
+        for event in run:
+            screen.show(event)
     session.show(report_view, run.report)
     if not session.json:
         session.report(run.report.diagnostics)
     return int(run.report.exit_code)
+
+
+@contextmanager
+def interrupts(run: Run) -> Iterator[None]:
+    """While a run goes on, let Ctrl-C end it in order: nothing is raised, the events come to their end."""
+    presses = 0
+
+    def pressed(*_: object) -> None:
+        nonlocal presses
+        presses += 1
+        first = presses == 1
+        os.write(2, f"\n{STOPPING if first else AT_ONCE}\n".encode())  # print is not safe here
+        run.halt() if first else run.stop()
+
+    before = signal.signal(signal.SIGINT, pressed)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def question(plan: Plan) -> str:

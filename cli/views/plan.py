@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 from pico.model.diff import Change
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
+from pico.model.pose import wrap as wrap_angle
 from pico.model.record import as_json
 
 from .style import WIDTH, columns, count, listed, paint, place, seconds, width, wrap
@@ -135,10 +137,19 @@ def reason(why: Reason, change: Change | None = None) -> str:
 
 def _tolerated(plan: Plan) -> list[str]:
     near = [c for c in plan.changes if c.tolerated]
-    rows = [[f"  = {_name(c)}", f"{c.text}: within tolerance, stays"] for c in near[:SHOWN_TOLERATED]]
+    rows = [[f"  = {_name(c)}", _near(c)] for c in near[:SHOWN_TOLERATED]]
     more = len(near) - SHOWN_TOLERATED
     lines = columns(rows) + ([f"    and {more} more within tolerance"] if more > 0 else [])
     return [paint("dim", line) for line in lines] + ([""] if lines else [])
+
+
+def _near(change: Change) -> str:
+    before, after = change.before, change.after
+    if not isinstance(before, dict) or not isinstance(after, dict):
+        return f"{change.text}: within tolerance, stays"
+    away = math.hypot(after["x"] - before["x"], after["y"] - before["y"])
+    turned = wrap_angle(after.get("yaw", 0.0) - before.get("yaw", 0.0))
+    return f"already in place ({away:.2f} mm, {abs(turned):.2f}°)"
 
 
 def _name(change: Change) -> str:

@@ -8,7 +8,7 @@ from pico.model.record import as_json
 from pico.model.report import RunReport
 
 from .diff import brief
-from .style import count, listed, paint, seconds
+from .style import count, listed, paint, seconds, wrap
 
 
 def text(report: RunReport) -> str:
@@ -25,7 +25,8 @@ def text(report: RunReport) -> str:
     }
     took = f"{seconds(report.seconds)} {report.clock}, {seconds(report.wall)} here"
     said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
-    return "\n".join([f"{head[report.outcome]}: {said} · {took}", *_bench(report)])
+    lines = [f"{head[report.outcome]}: {said} · {took}"]
+    return "\n".join(lines + [part for line in _bench(report) for part in wrap(line, "")])
 
 
 def _bench(report: RunReport) -> list[str]:
@@ -35,10 +36,7 @@ def _bench(report: RunReport) -> list[str]:
         return ["As asked. The manifest is as it was: `pico capture` takes the bench into it."]
     lines = []
     if report.remaining:
-        verb = "differs" if len(report.remaining) == 1 else "differ"
-        lines.append(
-            f"{count(len(report.remaining), 'tunable')} still {verb} from {report.goal}: {brief(report.remaining)}."
-        )
+        lines.append(f"Still to do for {report.goal}: {brief(report.remaining)}.")
     if report.absent:
         lines.append(f"Not seen where it should stand: {listed(report.absent)}.")
     return [*lines, "Continue with the same command: it plans from what is observed now."]

@@ -54,7 +54,7 @@ class Progress:
             return took + (f"   {placement(data)}" if "error_mm" in data else "")
         if event.kind == "operation_skipped":
             because = self.operations.get(str(data.get("because", "")))
-            return f"skipped: {address(because)} did not get there" if because else "skipped"
+            return f"skipped: {address(because)} did not get there" if because else "not started"
         found = data.get("diagnostic")
         summary = found.get("summary", "") if isinstance(found, dict) else getattr(found, "summary", "")
         return f"{'failed' if event.kind == 'operation_failed' else 'outcome unknown'}: {summary}".rstrip(": ")

@@ -49,7 +49,7 @@ class LoopThread:
 class Run:
     """A plan under way: an iterator over its events; `report` once it is `over`.
 
-    An exception in the caller between two events (Ctrl-C) does not end the run: go on iterating, or `halt` it first.
+    An exception in the caller between two events does not end the run: go on iterating, or `halt` it first.
     """
 
     def __init__(self, run: AsyncRun, thread: LoopThread) -> None:
@@ -92,9 +92,9 @@ class Run:
         raise StopIteration
 
     def halt(self) -> None:
-        """Start nothing more, and bring every robot to a safe waypoint; then go on iterating to the end."""
-        self._thread.wait(self._run.halt())
+        """Start nothing more, and bring every robot to a safe waypoint; returns at once: go on iterating to the end."""
+        self._thread.submit(self._run.halt())
 
     def stop(self) -> None:
-        """Stop all motion now; then go on iterating to the end."""
-        self._thread.wait(self._run.stop())
+        """Stop all motion now; returns at once: go on iterating to the end."""
+        self._thread.submit(self._run.stop())
