@@ -21,13 +21,13 @@ async def run(
     *,
     run_id: str,
     holder: str,
-    setup: Setup | None = None,
+    setup: Setup,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> AsyncGenerator[Event, None]:
     """Execute `plan` on `backend` and yield what happens; the last event is `run_finished`, with the tally.
 
-    The bench is locked for `holder` meanwhile. `setup` says the tolerances; the backend's own where None. Before the
-    first operation raises PicoError: exit code IMPOSSIBLE for a plan with errors, STALE where the bench or the lab
+    The bench is locked for `holder` meanwhile. `setup` says the tolerances. Before the first operation
+    raises PicoError: exit code IMPOSSIBLE for a plan with errors, STALE where the bench or the lab
     changed since it was made, LOCKED where somebody else has the bench, ERROR where the backend can't do what the plan
     asks. A failure of an operation is an event.
 
@@ -38,7 +38,7 @@ async def run(
     lease = await backend.acquire(holder)
     try:
         seen = await backend.observe()
-        require_current(setup or backend.setup, plan, seen)  # type: ignore[attr-defined]
+        require_current(setup, plan, seen)
         journal: Journal | None = getattr(backend, "journal", None)  # one at the far end of a network keeps its own
         walk = Walk(plan, backend, lease, run=run_id, now=seen.time, cancelled=cancelled, journal=journal)
         async with aclosing(_events(walk, backend)) as events:

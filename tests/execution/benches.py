@@ -62,7 +62,9 @@ async def execute(
     backend: SimBackend, planned: Plan, run_id: str = "r1", cancelled: Callable[[], bool] = lambda: False
 ) -> tuple[RunResult, list[Event]]:
     """Run a plan to its end."""
-    events = [e async for e in run(planned, backend, run_id=run_id, holder="test", cancelled=cancelled)]
+    events = [
+        e async for e in run(planned, backend, run_id=run_id, holder="test", setup=backend.setup, cancelled=cancelled)
+    ]
     return RunResult.of(events), events
 
 

@@ -23,7 +23,7 @@ async def go():
     setup, state = shel("gantry")
     bench = sim(setup, Path(sys.argv[1]))
     planned, moves = await plan_to(bench, state), 0
-    async for event in run(planned, bench, run_id="r1", holder="test"):
+    async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
         moves += event.kind == "operation_done" and "error_mm" in event.data
         if moves == 1 and event.data.get("phase") == "transit":
             os.kill(os.getpid(), signal.SIGKILL)

@@ -104,7 +104,7 @@ def while_running(
 
     async def go() -> list[Event]:
         events, acted = [], False
-        async for event in run(planned, bench, run_id="r1", holder="test"):
+        async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
             events.append(event)
             if when(event) and not acted:
                 acted = True
@@ -156,7 +156,9 @@ def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing
 
     async def go() -> list[Event]:
         events = []
-        async for event in run(planned, bench, run_id="r1", holder="test", cancelled=lambda: pressed[0]):
+        async for event in run(
+            planned, bench, run_id="r1", holder="test", setup=bench.setup, cancelled=lambda: pressed[0]
+        ):
             events.append(event)
             pressed[0] = True
         return events
@@ -177,7 +179,7 @@ def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: Sim
     events: list[Event] = []
 
     async def read() -> None:
-        async for event in run(planned, bench, run_id="r1", holder="test"):
+        async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
             events.append(event)
 
     async def go() -> bool:
@@ -193,11 +195,70 @@ def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: Sim
     assert not bench.journal.unfinished()
 
 
+def test_cancelled_twice_it_stops_at_once_and_the_gripper_holds(bench: SimBackend) -> None:
+    planned = asyncio.run(plan_to(bench, C3))
+    events: list[Event] = []
+
+    async def read() -> None:
+        async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
+            events.append(event)
+
+    async def go() -> None:
+        task = asyncio.create_task(read())
+        while not any(e.data.get("phase") == "transit" for e in events):
+            await asyncio.sleep(0)
+        task.cancel()
+        await asyncio.sleep(0)
+        task.cancel()
+        await asyncio.wait([task])
+
+    asyncio.run(go())
+    result = RunResult.of(events)
+    assert result.outcome == "interrupted"
+    assert {r.data["diagnostic"]["code"] for r in result.operations.values() if r.outcome == "failed"} == {"stopped"}
+    assert asyncio.run(bench.observe()).robots["arm1"].holding == "p2"
+
+
+def chain(planned: Plan) -> Plan:
+    """The plan with a long setting of the laser beside short ones of the camera, one after the other."""
+    laser = next(op for op in planned.operations if op.component == "laser")
+    cam = next(op for op in planned.operations if op.component == "cam")
+    links = [
+        replace(
+            cam, id=f"cam{n}", after=(f"cam{n - 1}",) if n else (), arguments={"tunable": "exposure", "to": 1.0 + n}
+        )
+        for n in range(20)
+    ]
+    return replace(planned, operations=(laser, *links))
+
+
+def test_what_may_follow_starts_at_the_very_moment_of_the_end_while_others_go_on(bench: SimBackend) -> None:
+    planned = replanned(bench, C3, chain)
+    result, events = asyncio.run(execute(bench, planned))
+    starts = [e.time for e in events if e.kind == "operation_started" and e.component == "cam"]
+    each = result.operations["cam0"].data["seconds"]
+    assert starts == pytest.approx([n * each for n in range(20)])
+    assert result.seconds == pytest.approx(5.0)
+
+
+def test_a_slow_reader_changes_nothing(tmp_path: Path) -> None:
+    async def read(name: str, turns: int) -> list[Event]:
+        bench = sim(SETUP, tmp_path / name)
+        planned, events = await plan_to(bench, C3), []
+        async for event in run(planned, bench, run_id="r1", holder="test", setup=SETUP):
+            events.append(event)
+            for _ in range(turns):
+                await asyncio.sleep(0)
+        return events
+
+    assert asyncio.run(read("quick", 0)) == asyncio.run(read("slow", 50))
+
+
 def test_a_reader_that_leaves_ends_the_run_safely_and_gives_the_bench_back(bench: SimBackend) -> None:
     planned = asyncio.run(plan_to(bench, C3))
 
     async def leave() -> None:
-        events = run(planned, bench, run_id="r1", holder="test")
+        events = run(planned, bench, run_id="r1", holder="test", setup=bench.setup)
         async for event in events:
             if event.kind == "operation_progress":
                 break

@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 REACTION_TURNS = 16
 """Turns of the event loop between the end of an operation and the next moment of simulated time. Who waits for the
-end hears of it, and starts what may follow, in five; what starts in them starts at the same moment."""
+end hears of it, and starts what may follow, in four; what starts in them starts at the same moment."""
 
 
 class Timeline(Generic[T]):
