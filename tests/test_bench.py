@@ -139,6 +139,31 @@ def test_the_state_comes_from_the_revision_and_the_bench_as_it_is_now(bench: Ben
     assert moves["p1"].arguments["to"]["pose"]["x"] == 290
 
 
+def without_lens(bench: Bench) -> Bench:
+    """Take lx_125 out of the inventory, as somebody who gave it away."""
+    lab, table = bench.root / "lab.yaml", bench.root / "state" / "table.yaml"
+    text = lab.read_text()
+    lab.write_text(text[: text.index("  lx_125:")] + text[text.index("  ly_150:") :])
+    table.write_text(table.read_text().replace("  lx_125:\n    slot: storage/a3\n", ""))
+    return pico.open(bench.root)
+
+
+def test_history_stays_readable_when_the_inventory_has_changed(bench: Bench) -> None:
+    now = without_lens(bench)
+    assert [c.component for c in now.diff("E1-3", "E2-3")] == ["lx_100", "lx_125"]
+    assert not [e for e in now.log(every=True) if e.unreadable]
+    assert next(r for r in now.status().rows if r.address == "p2").committed == {"x": 520.0, "y": 420.0, "yaw": 0.0}
+
+
+def test_a_revision_that_needs_a_part_the_bench_has_not_any_more_is_refused(bench: Bench) -> None:
+    with pytest.raises(PicoError) as caught:
+        without_lens(bench).plan("e1")
+    (found,) = caught.value.diagnostics
+    assert "lx_125" in found.summary
+    assert "when the bench had it" in found.hint
+    assert found.source is not None and found.source.path == "e1:state/table.yaml"
+
+
 def test_capture_writes_what_stands_on_the_bench(bench: Bench) -> None:
     bench.apply("C3")
     bench.sim.nudge("p2", dx=5)

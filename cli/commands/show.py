@@ -23,5 +23,5 @@ def show(context: typer.Context, what: PlanOrRevision = None) -> int:
     if isinstance(found, Plan):
         session.show(plan_view, found, goal=bench.goal_name(found), next_step=f"Apply with `pico apply {what}`.")
     else:
-        session.show(revision_view, bench.entry(found), bench.setup, bench.state_at(found))
+        session.show(revision_view, bench.entry(found), *bench.folder.historic(found))
     return 0

@@ -58,7 +58,7 @@ def _short(shown: list[Entry], checked_out: str | None) -> Any:
 
 
 def _name(entry: Entry, checked_out: str | None) -> str:
-    name = ", ".join(entry.commit.refs[:2]) or entry.commit.short
+    name = ", ".join(list(dict.fromkeys(entry.commit.refs))[:2]) or entry.commit.short
     return f"{name} (HEAD)" if entry.commit.id == checked_out else name
 
 

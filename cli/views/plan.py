@@ -185,8 +185,11 @@ def _summary(plan: Plan) -> list[str]:
 
 def _staging(plan: Plan) -> str:
     s = plan.staging
-    known = "fewest possible, proven" if s.proven else f"at least {s.lower_bound} needed"
-    return f"{s.count} staged ({known})"
+    if s.proven:
+        return f"{s.count} staged (fewest possible, proven)"
+    return f"{s.count} staged" + (
+        f" (at least {s.lower_bound} needed)" if s.lower_bound else " (perhaps not the fewest)"
+    )
 
 
 def goal_name(plan: Plan) -> str:

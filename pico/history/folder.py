@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,12 +16,15 @@ from pico.history.commit import Commit, Head
 from pico.manifest.files import read_folder
 from pico.manifest.load import Manifests, find_lab, load_files, load_folder
 from pico.model.diff import Change, diff_states
+from pico.model.lab import Setup
 from pico.model.record import record
 from pico.model.report import Captured, Committed
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
     from pico.history.repository import Repository
+
+_STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
 
 
 @record
@@ -36,6 +41,7 @@ class LabFolder:
 
     def __init__(self, path: Path) -> None:
         self.root = find_lab(path)
+        self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
         self.reload()
 
     def reload(self) -> None:
@@ -76,33 +82,56 @@ class LabFolder:
     def manifests_at(self, revision: str) -> Manifests:
         """Return the manifests of a revision, its states read against the bench as it is now."""
         files = self.history().files(revision, self.root)
-        return load_files({f"{revision}:{path}": data for path, data in files.items()}, setup=self.setup)
+        manifests = load_files(_named(revision, files), setup=self.setup)
+        return replace(manifests, diagnostics=tuple(_at_revision(d, revision) for d in manifests.diagnostics))
+
+    def historic(self, revision: str) -> tuple[Setup, LabState]:
+        """Return the bench and the state as a revision holds them, both as they were then; raises PicoError.
+
+        A revision without a Lab of its own is read against the bench as it is now.
+        """
+        files = self.history().files(revision, self.root)
+        bench = tuple(sorted((p, data) for p, data in files.items() if not _STATE_ONLY.search(data)))
+        if bench not in self._benches:
+            self._benches[bench] = load_files(_named(revision, files)).setup
+        return load_files(_named(revision, files), setup=self._benches[bench] or self.setup).require()
 
     def committed(self) -> LabState | None:
-        """Return the state at HEAD; None outside a repository, before the first commit of the lab, or if unreadable."""
+        """Return the state at HEAD, as far as the bench as it is now has its parts and slots.
+
+        None outside a repository, before the first commit of the lab, or where it can't be read.
+        """
         head = self.head()
         if head is None or head.commit is None:
             return None
         try:
-            return self.state_at("HEAD")
+            _, state = self.historic(head.commit)
         except PicoError:
             return None
+        lab = self.setup.lab
+        fitting = {
+            name: part
+            for name, part in state.components.items()
+            if name in lab.inventory and (part.slot is None or part.slot in lab.slots)
+        }
+        return replace(state, components=fitting)
 
     def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
-        """Return what differs from revision `a` (HEAD) to revision `b` (the working tree), exactly."""
-        before = self.state_at(a or "HEAD")
-        return diff_states(self.setup, before, self.state_at(b) if b else self.state)
+        """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
+        return _between(self.historic(a or "HEAD"), self.historic(b) if b else (self.setup, self.state))
 
     def entry(self, commit: Commit) -> Entry:
         """Return a commit with its physical diff. What a first commit is compared with is every part at home."""
         try:
-            before = self.state_at(commit.parents[0]) if commit.parents else home_state(self.setup)
-        except PicoError:
-            before = home_state(self.setup)
-        try:
-            return Entry(commit=commit, changes=diff_states(self.setup, before, self.state_at(commit.id)))
+            after = self.historic(commit.id)
         except PicoError as exc:
             return Entry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
+        home = (after[0], home_state(after[0]))
+        try:
+            before = self.historic(commit.parents[0]) if commit.parents else home
+        except PicoError:
+            before = home
+        return Entry(commit=commit, changes=_between(before, after))
 
     def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
         """Yield the commits that changed the lab, newest first: of a revision (HEAD), or of `every` branch and tag."""
@@ -147,6 +176,30 @@ class LabFolder:
             captured=captured,
             realized=evidence != "planned",
         )
+
+
+def _named(revision: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files by the names that diagnostics show: `e1:state/table.yaml`."""
+    return {f"{revision}:{path}": data for path, data in files.items()}
+
+
+def _at_revision(d: Diagnostic, revision: str) -> Diagnostic:
+    """Return a diagnostic of a state from history: what the bench lacks now, it may have had then."""
+    if d.code != "unknown-component":
+        return d
+    hint = f"{revision} was made when the bench had it: take it into `inventory` again, or go to another revision"
+    return replace(d, hint=hint)
+
+
+def _between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Change, ...]:
+    """Return what differs between two states, each with its own bench; where the benches differ, the later counts."""
+    (bench_a, state_a), (bench_b, state_b) = a, b
+    lab = replace(
+        bench_b.lab,
+        inventory={**bench_a.lab.inventory, **bench_b.lab.inventory},
+        slots={**bench_a.lab.slots, **bench_b.lab.slots},
+    )
+    return diff_states(Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog}), state_a, state_b)
 
 
 def _replace(path: Path, data: bytes) -> None:

@@ -163,7 +163,7 @@ def _deviation(goal: Pose, live: Pose) -> str:
 
 def refuse_unapplied(status: Status) -> None:
     """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied."""
-    edits = [row for row in status.rows if row.edited and row.off]
+    edits = [row for row in status.rows if row.off and (row.edited or row.committed is None)]
     if edits:
         names = ", ".join(row.address for row in edits[:6]) + (" and others" if len(edits) > 6 else "")
         hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the edit is committed, unproven"

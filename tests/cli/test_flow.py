@@ -194,6 +194,15 @@ def test_commit_with_capture_lets_the_bench_win(shel: Path, pico: Pico) -> None:
     assert "x: 294" in text
 
 
+def test_a_first_commit_refuses_a_state_that_was_never_applied(shel: Path, pico: Pico) -> None:
+    assert pico("init", "fresh").code == 0
+    refused = pico("-C", "fresh", "commit", "-m", "first")
+    assert refused.code == 1
+    assert "error[unapplied]" in refused.err
+    assert pico("-C", "fresh", "apply", "--auto-approve").code == 0
+    assert pico("-C", "fresh", "commit", "-m", "first").code == 0
+
+
 def test_a_lab_outside_git_can_be_planned_but_has_no_history(shel: Path, pico: Pico) -> None:
     import shutil
 
