@@ -247,7 +247,8 @@ def whereabouts(component: str, placement: Placement) -> tuple[str, str]:
         return "it fell off the table", by_hand
     if _lies(placement):
         return f"it lies on its side at x = {pose.x:.0f}, y = {pose.y:.0f}", by_hand
-    return f"it stands at {pose}", "plan again: it starts from what stands on the table now"
+    tidy = Pose(round(pose.x, 1) + 0.0, round(pose.y, 1) + 0.0, round(pose.yaw, 1) + 0.0)
+    return f"it stands at {tidy}", "plan again: it starts from what stands on the table now"
 
 
 def _lies(placement: Placement) -> bool:

@@ -38,8 +38,9 @@ def key_points(middle: Array) -> Array:
     up = np.cross(side, towards)
     i = np.arange(_COUNT)
     radius, angle = _KEY_RADIUS * np.sqrt((i + 0.5) / _COUNT), i * _GOLDEN
-    disc = (radius * np.cos(angle))[:, None] * side + (radius * np.sin(angle))[:, None] * up
-    return middle + _DISTANCE * towards + disc
+    disc: Array = (radius * np.cos(angle))[:, None] * side + (radius * np.sin(angle))[:, None] * up
+    points: Array = middle + _DISTANCE * towards + disc
+    return points
 
 
 def sky_points(middle: Array) -> Array:

@@ -191,7 +191,7 @@ def _develop(color: Array) -> Array:
     import numpy as np
 
     soft = np.where(color > 0.8, 0.8 + 0.2 * np.tanh((color - 0.8) / 0.2), np.maximum(color, 0.0))
-    return 255.0 * soft ** (1 / 2.2)  # type: ignore[no-any-return]
+    return 255.0 * soft ** (1 / 2.2)
 
 
 def _edges(picture: Array, geom: Any, smooth: Any) -> Any:

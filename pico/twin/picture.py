@@ -84,7 +84,7 @@ def _perspective(
 
     places = placed(poses)
     model, data = posed_model(setup, places, joints)
-    points = _extent(setup, model, data)
+    points = scene_extent(setup, model, data)
     view = viewpoint(setup, points, width, height)
     light = _glow(setup, poses) if beams else ()
     stage = Stage(model, data, surfaces(setup, model, places), light, _middle(setup))
@@ -149,8 +149,8 @@ def _middle(setup: Setup) -> Any:
     return np.array((*(v / 2000 for v in setup.lab.table.size), 0.0))
 
 
-def _extent(setup: Setup, model: mujoco.MjModel, data: mujoco.MjData) -> Any:
-    """Points (n, 3) that enclose table, components and arms."""
+def scene_extent(setup: Setup, model: mujoco.MjModel, data: mujoco.MjData) -> Any:
+    """Return points (n, 3) [m] that enclose table, components and arms."""
     import numpy as np
 
     width, depth = (v / 1000 for v in setup.lab.table.size)

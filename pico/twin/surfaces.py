@@ -42,7 +42,7 @@ class Surfaces:
     table: NDArray[np.uint8]
     markers: dict[int, tuple[tuple[float, float, float], float, NDArray[np.uint8]]] = field(default_factory=dict)
 
-    def albedo(self, data: mujoco.MjData, point: Array, normal: Array, geom: NDArray[np.int32], pixel: Array) -> Array:
+    def albedo(self, data: mujoco.MjData, point: Array, normal: Array, geom: NDArray[np.int32], pixel: Array) -> Any:
         """Return the linear color (n, 3) of surface points [m]; `pixel` (n,): what a pixel spans there [mm]."""
         import numpy as np
 
@@ -70,7 +70,7 @@ class Surfaces:
         cover = np.clip((HOLE_RADIUS - np.hypot(dx, dy)) / np.maximum(pixel, 1e-3) + 0.5, 0, 1)[:, None]
         return color * (1 - 0.85 * cover) + linear(_HOLE) * 0.85 * cover  # type: ignore[no-any-return]
 
-    def _mark(self, color: Array, on: Array, local: Array, marker: Any) -> None:
+    def _mark(self, color: Array, on: Any, local: Array, marker: Any) -> None:
         import numpy as np
 
         at, size, image = marker
@@ -143,9 +143,10 @@ def _sample(image: Any, u: Array, v: Array) -> Any:
         return np.zeros((0, *image.shape[2:]))
     side = 8192  # remap takes no image longer than 32767
     count = -(-len(u) // side) * side
-    maps = [np.zeros(count, np.float32) for _ in range(2)]
-    maps[0][: len(u)], maps[1][: len(u)] = u, v
-    sampled = cv2.remap(image, *(m.reshape(-1, side) for m in maps), cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    across, down = np.zeros(count, np.float32), np.zeros(count, np.float32)
+    across[: len(u)], down[: len(u)] = u, v
+    maps = across.reshape(-1, side), down.reshape(-1, side)
+    sampled = cv2.remap(image, maps[0], maps[1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     return sampled.reshape(count, *image.shape[2:])[: len(u)].astype(np.float64)
 
 

@@ -51,7 +51,7 @@ def draw(
     beams: bool,
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.twin.picture.render`."""
-    canvas = _canvas(setup, width, height)
+    canvas = new_canvas(setup, width, height)
     size = max(9.0, min(width / 64, height / 48))
     _draw_table(canvas, setup)
     _draw_areas(canvas, setup, size)
@@ -77,8 +77,8 @@ def draw(
     return canvas.finished()
 
 
-def _canvas(setup: Setup, width: int, height: int) -> Canvas:
-    """The canvas on which table and mounts fit, with room for a title above and a scale below."""
+def new_canvas(setup: Setup, width: int, height: int) -> Canvas:
+    """Return the canvas on which table and mounts fit, with room for a title above and a scale below."""
     x, y = setup.lab.table.size
     mounts = [robot.mount for robot in setup.lab.robots.values()]
     left, right = min([0.0, *(m.x - 80 for m in mounts)]), max([x, *(m.x + 80 for m in mounts)])

@@ -31,8 +31,9 @@ class Viewpoint:
         import numpy as np
 
         x, y = (u - (self.width - 1) / 2) / self.focal, ((self.height - 1) / 2 - v) / self.focal
-        directions = x[:, None] * self.axes[0] + y[:, None] * self.axes[1] + self.axes[2]
-        return directions / np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None]
+        directions: Array = x[:, None] * self.axes[0] + y[:, None] * self.axes[1] + self.axes[2]
+        lengths: Array = np.sqrt(np.einsum("ij,ij->i", directions, directions))
+        return directions / lengths[:, None]
 
     def project(self, points: Array) -> Array:
         """Return u, v [pixels] and the depth [m] along the optical axis of `points` (n, 3), as (n, 3)."""

@@ -60,7 +60,8 @@ class PhysicsWorld:
         self._require_fingers(path.robot)
         goal = Pose(**operation.arguments["to"]["pose"])
         handling = Handling(self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal)
-        return (yield from self._guarded(path.robot, handling.run()))
+        found: dict[str, Any] = yield from self._guarded(path.robot, handling.run())
+        return found
 
     def park(self, path: MovePath) -> InProgress:
         """Bring `path.robot` along `path`, its gripper as it is."""
