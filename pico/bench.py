@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.execution.blocking import LoopThread, Run
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
@@ -122,10 +122,21 @@ class AsyncBench(Reader):
         self.folder.refuse_edits()
         return await self.plan(revision, exact=exact)
 
-    def checkout_files(self, revision: str) -> None:
-        """Check a revision out with git. Moves nothing; raises PicoError."""
+    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
+        """Check a revision out with git. Moves nothing; raises PicoError.
+
+        This bench stays what it is, for a revision can't change which parts there are; a warning says so where the
+        revision's own lab differs.
+        """
+        bench = self.setup
         self.folder.history().checkout(revision)
         self.folder.reload()
+        if self.setup.digest() == bench.digest():
+            return ()
+        self.folder.setup = bench
+        text = f"the lab's own files at {revision} describe the bench as it was then"
+        hint = "where parts came or went since: `git checkout BRANCH -- lab.yaml` brings today's bench back"
+        return (warning("lab-differs", text, hint=hint),)
 
     async def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
@@ -284,9 +295,9 @@ class Bench(Reader):
         """Return the plan to a revision that is about to be checked out; refused where edits would be lost."""
         return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
 
-    def checkout_files(self, revision: str) -> None:
-        """Check a revision out with git. Moves nothing."""
-        self._bench.checkout_files(revision)
+    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
+        """Check a revision out with git. Moves nothing; see `AsyncBench.checkout_files`."""
+        return self._bench.checkout_files(revision)
 
     def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive; see `AsyncBench.single`."""

@@ -45,7 +45,7 @@ def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool) -> i
     if plan.errored:
         return ExitCode.IMPOSSIBLE
     if not plan.operations:
-        return ExitCode.DONE
+        return ExitCode.ERROR if plan.absent else ExitCode.DONE
     session.say("")
     if not auto_approve and not session.confirm(question(plan)):
         session.say("Nothing moved.")

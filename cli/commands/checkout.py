@@ -36,6 +36,8 @@ def checkout(
     if plan.operations and not auto_approve and (session.json or not session.confirm("\n" + question(plan))):
         session.say("Nothing moved; the files are where they were.")
         return ExitCode.ERROR
-    bench.checkout_files(revision)
+    notes = bench.checkout_files(revision)
+    if not session.json:
+        session.report(notes)
     session.say(f"\nThe files are at {bench.head_name()}.")
     return execute(session, bench, plan) if plan.operations else ExitCode.DONE

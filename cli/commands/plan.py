@@ -39,4 +39,4 @@ def plan(
         session.report(found.diagnostics)
     if found.errored:
         return ExitCode.IMPOSSIBLE
-    return ExitCode.CHANGES if detailed_exitcode and found.operations else ExitCode.DONE
+    return ExitCode.CHANGES if detailed_exitcode and (found.operations or found.absent) else ExitCode.DONE

@@ -26,7 +26,7 @@ def _lines(d: Diagnostic) -> list[str]:
     lines = [head]
     if d.source:
         lines += _snippet(d, d.source)
-    lines += wrap(d.detail, "   ") if d.detail else []
+    lines += wrap(d.detail, "   ") if d.detail and d.detail != d.label else []
     if d.hint:
         first, *rest = wrap(d.hint, " " * 10)
         lines += [f"   = {paint('cyan', 'help')}: {first.strip()}", *rest]
@@ -51,7 +51,7 @@ def _snippet(d: Diagnostic, source: SourceRange) -> list[str]:
             f"{bar} {' ' * column}{caret}" if width(caret) + column < 110 else f"{bar} {' ' * column}{'^' * length}",
         ]
         + ([f"{bar} {d.label}"] if d.label and width(caret) + column >= 110 else [])
-        + ([bar] if d.detail or d.hint else [])
+        + ([bar] if d.hint or d.detail not in ("", d.label) else [])
     )
 
 

@@ -171,6 +171,8 @@ def tally(operations: Sequence[Operation]) -> str:
 
 def _summary(plan: Plan) -> list[str]:
     if not plan.operations:
+        if plan.absent:
+            return [f"Nothing to move, but {listed(plan.absent)} can't be seen: the bench is not {goal_name(plan)}."]
         return [f"Nothing to do: the bench equals {goal_name(plan)}."] if not plan.errored else []
     parts = [tally(plan.operations)]
     if any(op.primitive in ("move", "stow") for op in plan.operations):

@@ -14,7 +14,7 @@ def text(checked: Checked) -> str:
     """Return one line."""
     errors = sum(d.severity == "error" for d in checked.diagnostics)
     if errors:
-        return f"{checked.folder}: {count(errors, 'error')} in {count(checked.files, 'file')}"
+        return f"Checked {count(checked.files, 'file')}: not valid."
     what = f"{count(checked.files, 'file')}, {count(checked.parts, 'part')}"
     return f"{checked.lab}: the manifests are valid ({what})."
 

@@ -87,7 +87,7 @@ def run_report(
         evidence=evidence,
         whole=whole,
         remaining=_remaining(setup, plan, seen, whole),
-        absent=_absent(setup, plan, seen),
+        absent=_absent(setup, plan, seen) if whole else (),
         diagnostics=tuple(_diagnostics(result)),
     )
 

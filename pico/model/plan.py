@@ -77,6 +77,11 @@ class Plan:
     def errored(self) -> bool:
         return any(d.severity == "error" for d in self.diagnostics)
 
+    @property
+    def absent(self) -> tuple[str, ...]:
+        """Components that the target names and nobody saw standing: the bench can't equal the target without them."""
+        return tuple(sorted(self.target.state.keys() - self.base.state.keys()))
+
     def sealed(self) -> Plan:
         """Return the plan with its digest set. The digest leaves out itself and the time of the observation."""
         content = as_json(replace(self, digest=""))

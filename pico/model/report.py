@@ -43,7 +43,8 @@ class RunReport:
         """What a command ends with."""
         if self.outcome == "interrupted":
             return ExitCode.INTERRUPTED
-        return ExitCode.DONE if self.outcome == "done" and not self.remaining else ExitCode.ERROR
+        reached = self.outcome == "done" and not self.remaining and not self.absent
+        return ExitCode.DONE if reached else ExitCode.ERROR
 
 
 @record

@@ -101,6 +101,16 @@ def test_checkout_moves_files_and_bench(shel: Path, pico: Pico) -> None:
     assert pico("plan", "--detailed-exitcode").code == 0
 
 
+def test_checkout_brings_a_state_back_to_the_bench_as_it_is_now(shel: Path, pico: Pico) -> None:
+    pico("apply", "--auto-approve")
+    edit(shel / "lab.yaml", "seed: 1", "seed: 2")
+    subprocess.run(["git", "commit", "-qam", "another seed"], check=True)
+    answer = pico("checkout", "e1", "--auto-approve")
+    assert answer.code == 0, answer
+    assert "warning[lab-differs]" in answer.err
+    assert "The bench equals e1." in answer.out
+
+
 def test_checkout_refuses_to_lose_edits(shel: Path, pico: Pico) -> None:
     edit(shel / "state" / "table.yaml", "angle: 90", "angle: 80")
     answer = pico("checkout", "e2", "--auto-approve")

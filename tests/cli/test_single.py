@@ -95,6 +95,10 @@ def test_a_removed_component_is_missing_and_reset_brings_it_back(shel: Path, pic
     pico("apply", "--auto-approve")
     assert pico("sim", "remove", "p2").code == 0
     assert "missing" in pico("status").out
-    assert "p2" in pico("plan").err
+    planned = pico("plan", "--detailed-exitcode")
+    assert planned.code == 2
+    assert "p2 can't be seen" in planned.out
+    assert "warning[missing]" in planned.err
+    assert pico("apply", "e1", "--auto-approve").code == 1
     assert pico("sim", "reset").code == 0
     assert "storage/b2" in pico("status").out
