@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import Literal
 
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup
+from pico.model.lab import Setup, Slot
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import record
@@ -75,12 +75,30 @@ class Observation:
 
 def slot_at(setup: Setup, pose: Pose) -> str | None:
     """Return the slot in whose capture radius `pose` lies, the nearest of them, or None."""
+    near = _slot_cells(setup.lab.slots).get((int(pose.x // _CELL), int(pose.y // _CELL)), ())
     within = [
         (slot.pose.distance(pose), name)
-        for name, slot in setup.lab.slots.items()
-        if abs(slot.x - pose.x) <= slot.capture and slot.pose.distance(pose) <= slot.capture
+        for name in near
+        if (slot := setup.lab.slots[name]).pose.distance(pose) <= slot.capture
     ]
     return min(within)[1] if within else None
+
+
+_CELL = 50.0  # mm
+_cells_of: tuple[Mapping[str, Slot], dict[tuple[int, int], list[str]]] = ({}, {})
+
+
+def _slot_cells(slots: Mapping[str, Slot]) -> dict[tuple[int, int], list[str]]:
+    """Return the slots whose capture radius may reach into each square cell; those of the last lab are remembered."""
+    global _cells_of  # noqa: PLW0603
+    if _cells_of[0] is not slots:
+        cells: dict[tuple[int, int], list[str]] = {}
+        for name, slot in slots.items():
+            for column in range(int((slot.x - slot.capture) // _CELL), int((slot.x + slot.capture) // _CELL) + 1):
+                for row in range(int((slot.y - slot.capture) // _CELL), int((slot.y + slot.capture) // _CELL) + 1):
+                    cells.setdefault((column, row), []).append(name)
+        _cells_of = (slots, cells)
+    return _cells_of[1]
 
 
 def live_state(setup: Setup, seen: Observation) -> LabState:

@@ -105,7 +105,7 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
         return Compiled(diagnostics=(*put_off, *impossible))
     asides = () if request.alone else _asides(request, situation, movers)
     if request.alone:
-        movers = tuple(replace(m, staging=()) for m in movers)
+        movers = tuple(replace(m, stages=False) for m in movers)
     answer = solve(Problem(request.setup, request.seen, movers, tuple(obstacles), asides, request.motion))
     if not isinstance(answer, Solution):
         return Compiled(diagnostics=(*put_off, *explain(answer, request.source)))

@@ -21,12 +21,19 @@ from pico.geometry import (
     placed,
     reaches,
 )
+from pico.model.catalog import Footprint
 from pico.model.lab import Setup
+from pico.model.pose import Pose
 from pico.motion.types import Blocked, Motion
-from pico.planning.movers import Hold, Mover, Obstacle
+from pico.planning.movers import Hold, Mover, Obstacle, with_storage
+
+FEW, MANY_SLOTS, ENOUGH_SLOTS = 7, 60, 24
+"""With few movers up to so many of the free storage slots are considered for each, with more so many."""
 
 Spot = tuple[int, int]
 """A mover and one of its places, by index."""
+Look = tuple[Footprint, float, Pose]
+"""What a spot is to its neighbors: footprint, height and pose."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,17 +50,40 @@ class Conflicts:
     def __init__(
         self, setup: Setup, movers: Sequence[Mover], obstacles: Sequence[Obstacle], motion: Motion | None
     ) -> None:
-        self.setup, self.movers, self.motion = setup, tuple(movers), motion
+        self.setup, self.motion = setup, motion
         self.obstacles = {o.name: o for o in obstacles}
         self.static: Grid[str] = Grid.of({o.name: o.shape for o in obstacles})
+        self._mouths: Grid[str] = Grid.of({name: capture_disc(slot) for name, slot in setup.lab.slots.items()})
+        movers = self.movers = self._stored(movers)
         self.spots: list[Spot] = [(i, p) for i, m in enumerate(movers) for p in range(len(m.places))]
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
-        shapes = {(i, p): placed(movers[i].geometry.footprint, movers[i].places[p].pose) for i, p in self.spots}
-        self.mobile: Grid[Spot] = Grid.of(shapes)
+        self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
+        self._alike = self._group()
+        self._mobile: Grid[Look] = Grid.of({look: placed(look[0], look[2]) for look in self._alike})
         self._arrive: dict[Spot, int | None] = {}
         self._grip: dict[tuple[int, int, Hold], int | None] = {}
         self._ways: dict[tuple[int, int, int], tuple[Way, ...]] = {}
         self._paths: dict[tuple[int, int, int, Hold], int | None] = {}
+
+    def _stored(self, movers: Sequence[Mover]) -> tuple[Mover, ...]:
+        """Give movers the storage slots that nothing which stays keeps from being free."""
+        slots = self.setup.lab.slots if any(m.stages for m in movers) else {}
+        free = [name for name in sorted(slots) if not self.static.conflicts(self._mouths.shapes[name], 0.0)]
+        most = MANY_SLOTS if len(movers) <= FEW else ENOUGH_SLOTS
+        wanted = {m.goal.slot for m in movers}
+        return tuple(with_storage(self.setup, m, free, wanted, most) for m in movers)
+
+    def _group(self) -> dict[Look, int]:
+        """Return the bits of the spots that look the same: one comparison of shapes is enough for all of them."""
+        alike: dict[Look, int] = {}
+        for i, p in self.spots:
+            look = self._look(i, p)
+            alike[look] = alike.get(look, 0) | self._bits[i, p]
+        return alike
+
+    def _look(self, i: int, place: int) -> Look:
+        geometry = self.movers[i].geometry
+        return geometry.footprint, geometry.height, self.movers[i].places[place].pose
 
     def bit(self, mover: int, place: int) -> int:
         """Return the bit of a spot."""
@@ -68,7 +98,7 @@ class Conflicts:
 
     def shape(self, mover: int, place: int) -> Shape:
         """Return the footprint of a mover at one of its places."""
-        return self.mobile.shapes[mover, place]
+        return self._mobile.shapes[self._look(mover, place)]
 
     def arrive(self, i: int, place: int) -> int | None:
         """Return the spots that exclude the body of mover `i` at `place`."""
@@ -83,27 +113,25 @@ class Conflicts:
             return None
         if any(reaches(k, 0.0, mover.geometry.height) and conflict(shape, outline(k)) for k in lab.keep_out.values()):
             return None
-        mask = self._meeting(i, shape, margin, slot)
+        mask = self._meeting(i, shape, margin)
         if slot is not None:
-            mouth = capture_disc(lab.slots[slot])
+            mouth = self._mouths.shapes[slot]
             if self.static.conflicts(mouth, 0.0) or (place in mover.staging and self._covers_slot(shape, slot)):
                 return None
-            mask |= self._meeting(i, mouth, 0.0, slot)
+            mask |= self._meeting(i, mouth, 0.0)
         return mask
 
     def _covers_slot(self, shape: Shape, slot: str) -> bool:
         """Whether a part staged in `slot` would keep another slot from being free."""
-        return any(n != slot and conflict(shape, capture_disc(s)) for n, s in self.setup.lab.slots.items())
+        return any(other != slot for other in self._mouths.conflicts(shape, 0.0))
 
-    def _meeting(self, i: int, shape: Shape, margin: float, slot: str | None = None, above: float = -1.0) -> int:
+    def _meeting(self, i: int, shape: Shape, margin: float, above: float = -1.0) -> int:
+        """Return the spots of others, taller than `above`, that come too near to a shape that mover `i` needs."""
         mask = 0
-        for j, place in self.mobile.near(shape, margin):
-            other = self.movers[j]
-            if j == i or other.geometry.height <= above:
-                continue
-            together = slot is not None and place > 0 and other.places[place].slot == slot
-            if together or conflict(shape, self.mobile.shapes[j, place], margin):
-                mask |= self._bits[j, place]
+        for look in self._mobile.near(shape, margin):
+            others = self._alike[look] & ~self._own[i]
+            if look[1] > above and others and conflict(shape, self._mobile.shapes[look], margin):
+                mask |= others
         return mask
 
     def grip(self, i: int, place: int, hold: Hold) -> int | None:
@@ -129,6 +157,14 @@ class Conflicts:
         if self.unreachable(i, place, hold):
             return None
         return mask
+
+    def hindrances(self, i: int) -> int:
+        """Return the spots that exclude the direct move of mover `i` in one hold or another."""
+        mover = self.movers[i]
+        masks = [self.arrive(i, g) for g in mover.goals]
+        masks += [self.grip(i, p, h) for p in (0, *mover.goals) for h in mover.holds]
+        masks += [self._paths.get((i, 0, g, h)) for g in mover.goals for h in mover.holds]
+        return sum_of(m for m in masks if m)
 
     def unreachable(self, i: int, place: int, hold: Hold) -> Blocked | None:
         """Return why the robot of a hold can't pick or place mover `i` at `place`."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from heapq import nsmallest
 
 from pico.geometry import Shape, disc, fits, half_turn_symmetric, placed
 from pico.model.catalog import Footprint, Geometry
@@ -41,7 +42,8 @@ class Hold:
 class Mover:
     """A component that a plan may move. `places[0]` is where it stands; `goals` and `staging` index `places`.
 
-    `right`: it stands where it should, and is only moved to make room. `penalty`: extra cost of staging it, in moves.
+    `right`: it stands where it should, and is only moved to make room. `stages`: it may be put down in storage on its
+    way; `penalty`: at which extra cost, in moves.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Mover:
     holds: tuple[Hold, ...]
     right: bool = False
     penalty: float = 0.0
+    stages: bool = False
 
     @property
     def start(self) -> Place:
@@ -100,15 +103,24 @@ def mover(
     places = [Place(pose, slot_at(setup, pose) if movable else None)]
     ends = turned(setup, slot, footprint) if slot and movable else [Place(goal, slot)]
     goals = tuple(range(1, 1 + len(ends)))
-    spots: list[Place] = []
-    if movable and part.stage != "never":
-        for other, storage in sorted(setup.lab.slots.items()):
-            if other != slot and fits(storage, footprint):
-                spots += turned(setup, other, footprint)
-    staging = tuple(range(1 + len(ends), 1 + len(ends) + len(spots)))
     holds = _holds(setup, name, robots) if movable else (Hold(None),)
     penalty = AVOID_PENALTY if part.stage == "avoid" else 0.0
-    return Mover(name, kind.geometry, (*places, *ends, *spots), goals, staging, holds, right, penalty)
+    stages = movable and part.stage != "never"
+    return Mover(name, kind.geometry, (*places, *ends), goals, (), holds, right, penalty, stages)
+
+
+def with_storage(setup: Setup, mover: Mover, free: Sequence[str], wanted: Set[str | None], most: int) -> Mover:
+    """Return a mover that may be put down meanwhile in those of the `free` slots that take it: at most so many, those
+    that are not `wanted` by others before the rest, the nearest to its goal first."""
+    if not mover.stages:
+        return mover
+    footprint, goal = mover.geometry.footprint, mover.goal
+    slots = [s for s in free if s != goal.slot and fits(setup.lab.slots[s], footprint)]
+    slots = nsmallest(most, slots, key=lambda s: (s in wanted, setup.lab.slots[s].pose.distance(goal.pose), s))
+    spots = [place for slot in slots for place in turned(setup, slot, footprint)]
+    known = len(mover.places)
+    staging = tuple(range(known, known + len(spots)))
+    return replace(mover, places=(*mover.places, *spots), staging=staging)
 
 
 def _holds(setup: Setup, name: str, robots: tuple[str, ...]) -> tuple[Hold, ...]:

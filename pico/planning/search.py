@@ -140,7 +140,7 @@ class _Search:
     def _stagings(self, i: int, places: Configuration, taken: int) -> Iterator[tuple[Step, float]]:
         mover, tried = self.table.movers[i], 0
         for place in self.storage(i):
-            if place == places[i]:
+            if place == places[i] or (not self.effort.everyone and self._same_slot(i, place, places[i])):
                 continue
             way = self.table.way(i, places[i], place, taken)
             if way is None:
@@ -149,6 +149,10 @@ class _Search:
             tried += 1
             if self.effort.slots is not None and tried >= self.effort.slots:
                 return
+
+    def _same_slot(self, i: int, a: int, b: int) -> bool:
+        spots = self.table.movers[i].places
+        return spots[a].slot is not None and spots[a].slot == spots[b].slot
 
     def storage(self, i: int) -> tuple[int, ...]:
         """Return the storage places of a component, those first that nobody needs and that hinder least, then near

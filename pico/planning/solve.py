@@ -9,14 +9,14 @@ from itertools import combinations
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.motion.types import Motion
-from pico.planning.conflicts import Conflicts
+from pico.planning.conflicts import FEW, Conflicts, sum_of
 from pico.planning.movers import Mover, Obstacle
 from pico.planning.order import arranged, precedence
 from pico.planning.paths import NoPath, Paths, find_paths
 from pico.planning.search import Configuration, Effort, Found, Step, search
 from pico.planning.shorten import shortened
 
-COMPLETE = 7
+COMPLETE = FEW
 """Up to so many movers nothing solvable is refused: the last search prunes nothing."""
 
 EFFORTS = (
@@ -26,6 +26,8 @@ EFFORTS = (
 )
 EVERYTHING = Effort(weight=2.0, limit=200_000, everyone=True)
 PROOF = Effort(weight=2.0, limit=3000, everyone=True)
+PROOF_WORK = 30_000
+"""Expansions spent in all on proving that a few movers are enough to make a problem impossible."""
 PATH_ROUNDS = 200
 """How often the search may start again because a path was blocked."""
 
@@ -126,22 +128,29 @@ def _core(table: Conflicts, closest: Configuration) -> tuple[int, ...]:
     threes are looked for only among those that the search did not bring home."""
     who = [i for i, m in enumerate(table.movers) if not m.right]
     stuck = [i for i in who if closest[i] not in table.movers[i].finished]
-    for size, names in ((2, who), (3, who if len(who) <= COMPLETE else stuck[:12])):
+    small, arcs = len(who) <= COMPLETE, _arcs(table, who)
+    work = PROOF_WORK
+    for size, names in ((2, who), (3, who if small else stuck[:12])):
         for group in combinations(names, size):
-            if _linked(table, group) and search(table, PROOF, group).exhausted:
-                return group
+            if work > 0 and _linked(group, arcs):
+                found = search(table, PROOF, group)
+                work -= found.expanded
+                if found.exhausted:
+                    return group
     return ()
 
 
-def _linked(table: Conflicts, group: Sequence[int]) -> bool:
-    """Whether each of the group needs a spot empty that another of it starts from or goes to."""
-    for i in group:
-        others = [table.bit(j, p) for j in group if j != i for p in (0, *table.movers[j].goals)]
-        masks = [w.mask for g in table.movers[i].goals for w in table.ways(i, 0, g)] or [-1]
-        bodies = [table.arrive(i, g) or 0 for g in table.movers[i].goals]
-        if not any((m | b) & bit for m in masks for b in bodies for bit in others):
-            return False
-    return True
+def _arcs(table: Conflicts, who: Sequence[int]) -> set[tuple[int, int]]:
+    """Return the pairs (a, b) where, in some hold, `a` must move before `b`: it stands in the way of `b`, or `b` at
+    its goal would stand in its way."""
+    needs = {i: table.hindrances(i) for i in who}
+    goals = {i: sum_of(table.bit(i, g) for g in table.movers[i].goals) for i in who}
+    return {(a, b) for a in who for b in who if a != b and (needs[b] & table.bit(a, 0) or needs[a] & goals[b])}
+
+
+def _linked(group: Sequence[int], arcs: set[tuple[int, int]]) -> bool:
+    """Whether each of the group waits for another of it and is waited for, as in a ring."""
+    return all(any((a, b) in arcs for b in group) and any((b, a) in arcs for b in group) for a in group)
 
 
 def _asides(problem: Problem, refused: Refusal) -> Iterator[frozenset[str]]:
