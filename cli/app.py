@@ -125,6 +125,9 @@ def _explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], in
 def _usage(exc: Any, words: list[str]) -> Diagnostic:
     context = getattr(exc, "ctx", None)
     path = context.command_path if context else "pico"
+    if type(exc).__name__ == "NoArgsIsHelpError":
+        known = ", ".join(context.command.commands) if context else ""
+        return error("usage", f"`{path}` needs one of: {known}", hint=f"`{path} --help` says what they do")
     message = exc.format_message().rstrip(".")
     hint = f"`{path} --help` shows how it is used"
     if " (Possible options: " in message:

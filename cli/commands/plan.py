@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import typer
 
 from pico.diagnostics import ExitCode
@@ -26,17 +28,19 @@ def plan(
     session = Session.of(context)
     bench = session.bench(fidelity)
     found = bench.plan(revision, exact=exact)
-    saved = None
     if out and not found.errored:
-        saved = session.folder / out
-        saved.write_text(found.to_json() + "\n")
-    apply = f"pico apply {revision}" if revision else "pico apply"
-    step = f"Saved. Apply with `pico apply ./{out}`." if saved else (
-        f"Apply with `{apply}`, or save with `{apply.replace('apply', 'plan')} --out {revision or 'my'}.plan`."
-    )  # fmt: skip
-    session.show(view, found, head=bench.head_name(), goal=bench.goal_name(found), next_step=step)
+        (session.folder / out).write_text(found.to_json() + "\n")
+    session.show(view, found, head=bench.head_name(), goal=bench.goal_name(found), next_step=_next(revision, out))
     if not session.json:
         session.report(found.diagnostics)
     if found.errored:
         return ExitCode.IMPOSSIBLE
     return ExitCode.CHANGES if detailed_exitcode and (found.operations or found.absent) else ExitCode.DONE
+
+
+def _next(revision: str | None, out: Path | None) -> str:
+    """Return what to type after a plan."""
+    if out:
+        return f"Saved. Apply with `pico apply {out if out.is_absolute() else f'./{out}'}`."
+    name = f" {revision}" if revision else ""
+    return f"Apply with `pico apply{name}`, or save with `pico plan{name} --out {revision or 'my'}.plan`."
