@@ -5,6 +5,7 @@ Joints in radians, openings of a gripper in mm, times in seconds.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -38,16 +39,19 @@ class _Arm:
 
 @dataclass(eq=False)
 class _Drive:
-    """What an arm's servos are told: joints (n, 7) over time (n,) from `begun`, plus `trim` (7,)."""
+    """What an arm's servos are told: joints over times from `begun`, plus `trim` (7,)."""
 
     begun: float
-    times: Array
-    joints: Array
+    times: tuple[float, ...]
+    joints: tuple[Joints, ...]
     trim: Array
 
 
 class Twin:
-    """A bench in motion. `things` by name, arms at `joints`; a gripper in `holding` is closed on what it holds."""
+    """A bench in motion, with `things` by name and arms at `joints` (parked where missing).
+
+    `holding`: what a gripper is closed on, by robot.
+    """
 
     def __init__(
         self,
@@ -60,7 +64,6 @@ class Twin:
     ) -> None:
         import mujoco
 
-        self._setup = setup
         self.model = build_scene(setup, things, pad_friction=pad_friction).compile()
         self.data = mujoco.MjData(self.model)
         self._body = {name: self.model.body(name).id for name in things}
@@ -70,7 +73,10 @@ class Twin:
         self._time = 0.0
         for name in self._arms:
             width = self._width(things, (holding or {}).get(name))
-            self._start(name, joints[name], setup.lab.robots[name].gripper.stroke if width is None else width)
+            parked = tuple(math.radians(angle) for angle in setup.lab.robots[name].park)
+            self._start(
+                name, joints.get(name) or parked, setup.lab.robots[name].gripper.stroke if width is None else width
+            )
             if width is not None:
                 self.grip(name)
         mujoco.mj_forward(self.model, self.data)
@@ -86,7 +92,7 @@ class Twin:
         arm = self._arms[name]
         self.data.qpos[arm.qpos] = joints
         self.data.qpos[arm.fingers] = opening / 2000
-        self._drives[name] = _Drive(0.0, np.zeros(1), np.array([joints]), np.zeros(7))
+        self._drives[name] = _Drive(0.0, (0.0,), (joints,), np.zeros(7))
         self.data.ctrl[arm.servos] = joints
         if arm.gripper is not None:
             self.data.ctrl[arm.gripper] = opening / 2000
@@ -95,11 +101,6 @@ class Twin:
     def arms(self) -> tuple[str, ...]:
         """The robots that the twin has a model of."""
         return tuple(self._arms)
-
-    @property
-    def time(self) -> float:
-        """Simulated seconds since the twin was made."""
-        return self._time
 
     def advance(self, seconds: float) -> None:
         """Let `seconds` pass; what is less than a step is kept for the next time."""
@@ -119,15 +120,13 @@ class Twin:
 
         drive, arm = self._drives[name], self._arms[name]
         elapsed = self.data.time - drive.begun + TIMESTEP * np.arange(0, max(steps, 1), _CONTROL_STEPS)
-        columns = [np.interp(elapsed + arm.lag[i], drive.times, drive.joints[:, i]) for i in range(7)]
+        way = np.array(drive.joints)
+        columns = [np.interp(elapsed + arm.lag[i], drive.times, way[:, i]) for i in range(7)]
         return np.column_stack(columns) + drive.trim
 
     def drive(self, robot: str, times: tuple[float, ...], joints: tuple[Joints, ...]) -> None:
         """Start an arm along `joints` at `times` from now; it keeps to the last of them."""
-        import numpy as np
-
-        trim = self._drives[robot].trim
-        self._drives[robot] = _Drive(self.data.time, np.array(times), np.array(joints), trim)
+        self._drives[robot] = _Drive(self.data.time, times, joints, self._drives[robot].trim)
 
     def hold(self, robot: str) -> None:
         """Stop an arm where it is."""
@@ -153,10 +152,6 @@ class Twin:
         actuator = self._arms[robot].gripper
         if actuator is not None:
             self.data.ctrl[actuator] = 0.0 if opening is None else opening / 2000
-
-    def opening(self, robot: str) -> float:
-        """Return the distance between the pads [mm]."""
-        return float(self.data.qpos[self._arms[robot].fingers].sum()) * 1000
 
     def gripped(self, robot: str) -> str | None:
         """Return the component that both pads touch, or None."""

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Setup
+from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
+from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints
 from pico.twin.beams import Place, beam_paths
 from pico.twin.placement import Placement, upright
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 View = Literal["perspective", "top"]
 
+_IN_HAND = 8.0
+"""A part whose grasp is nearer to the tool center point than this is drawn as held [mm]."""
 _AZIMUTH, _ELEVATION, _FIELD = -80.0, 30.0, 24.0
 
 
@@ -116,11 +119,25 @@ def posed_model(
         angles = joints.get(name) or tuple(math.radians(a) for a in robot.park)
         for number, angle in enumerate(angles, 1):
             data.joint(f"{name}/joint{number}").qpos[0] = angle
-        for finger in ("left", "right"):
-            data.joint(f"{name}/{finger}_slide").qpos[0] = robot.gripper.stroke / 2000
+        if robot.gripper.fingers != "none":
+            opening = _opening(setup, robot, angles, places)
+            for finger in ("left", "right"):
+                data.joint(f"{name}/{finger}_slide").qpos[0] = opening / 2000
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     return model, data
+
+
+def _opening(setup: Setup, robot: Robot, joints: Joints, places: Mapping[str, Placement]) -> float:
+    """How far a gripper is open [mm]: closed on the part that it holds, or else all the way."""
+    x, y, z, _ = tool_pose(robot, joints)
+    for name, place in places.items():
+        grasp = setup.type_of(name).geometry.grasp
+        if grasp is None or place.pose.distance(Pose(x, y)) > _IN_HAND:
+            continue
+        if abs(place.position[2] * 1000 + grasp.height - z) < _IN_HAND:
+            return grasp.width
+    return robot.gripper.stroke
 
 
 def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
