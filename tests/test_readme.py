@@ -55,3 +55,12 @@ def test_every_file_the_readme_links_to_exists() -> None:
     for page in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")]:
         for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.relative_to(ROOT)} links to {target}, which is not there"
+
+
+def test_the_command_reference_names_every_command() -> None:
+    from pico_cli.summary import GROUPS
+
+    page = (ROOT / "docs/reference/commands.md").read_text()
+    commands = [name for group in GROUPS.values() for name in group]
+    assert commands
+    assert not [name for name in commands if f"`{name}" not in page]
