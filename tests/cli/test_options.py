@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -250,3 +251,11 @@ def test_color_only_on_a_terminal_and_never_with_no_color(monkeypatch: pytest.Mo
     assert written(io.StringIO()) == "red\n"
     monkeypatch.setenv("NO_COLOR", "1")
     assert written(Terminal()) == "red\n"
+
+
+def test_the_page_about_json_has_every_schema_that_is_printed() -> None:
+    root = Path(__file__).resolve().parents[2]
+    page = (root / "docs" / "reference" / "json.md").read_text()
+    for view in (root / "cli").rglob("*.py"):
+        for schema in re.findall(r'"(pico\.[a-z-]+/v1)"', view.read_text()):
+            assert f"`{schema}`" in page, schema
