@@ -37,6 +37,8 @@ def disc(x: float, y: float, radius: float) -> Shape:
 def polygon(vertices: tuple[Point, ...]) -> Shape:
     """Return the convex polygon with these counter-clockwise corners."""
     xs, ys = [p[0] for p in vertices], [p[1] for p in vertices]
+    if math.isnan(sum(xs) + sum(ys)):
+        return Shape(math.nan, math.nan, math.nan, vertices)
     x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
     return Shape(x, y, max(math.hypot(px - x, py - y) for px, py in vertices), vertices)
 
@@ -79,7 +81,9 @@ def conflict(a: Shape, b: Shape, margin: float = 0.0) -> bool:
     """Return whether two shapes come nearer than `margin` [mm]; touching counts, and so does what is not a number."""
     gap = math.hypot(a.x - b.x, a.y - b.y) - (a.radius + b.radius)
     enough = max(CONTACT, margin - CONTACT)
-    return not gap > enough and not separation(a, b) > enough
+    if gap > enough:
+        return False
+    return math.isnan(gap) or not separation(a, b) > enough
 
 
 def _along_normals(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:

@@ -187,4 +187,6 @@ def _first_reach(table: Conflicts, i: int, places: Sequence[int], mover: Mover) 
 
 
 def _list(names: Sequence[str], word: str = "and") -> str:
+    if len(names) > 6:
+        return f"{', '.join(names[:4])} {word} {len(names) - 4} more"
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}" if names else "nothing"
