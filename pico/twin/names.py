@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from pico.twin.canvas import Canvas, Point
 from pico.twin.lettering import Color, extent
 
 Box = tuple[float, float, float, float]
-Outlines = Mapping[str, Sequence[Point]]
 
 _WEIGHT = 600
 _SIZES = (0.92, 0.78, 0.66)
 _WHITE: Color = (255, 255, 255)
 
 
-def write_names(canvas: Canvas, outlines: Outlines, size: float, color: Color) -> None:
-    """Write each name at its outline [mm], where it covers the least of other names and outlines."""
-    shapes = {name: _box([canvas.pixel(p) for p in points]) for name, points in outlines.items()}
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A name, the outline that it belongs to [mm], and the color of its letters."""
+
+    name: str
+    outline: Sequence[Point]
+    color: Color
+
+
+def write_names(canvas: Canvas, things: Sequence[Named], size: float) -> None:
+    """Write each name at its outline, where it covers the least of other names and outlines."""
+    shapes = [_box([canvas.pixel(p) for p in thing.outline]) for thing in things]
     taken: list[Box] = []
-    for name in sorted(shapes, key=lambda n: (shapes[n][1], n)):
-        others = [box for other, box in shapes.items() if other != name]
-        options = _options(name, shapes[name], size)
+    for index in sorted(range(len(things)), key=lambda i: (shapes[i][1], things[i].name)):
+        others = [box for number, box in enumerate(shapes) if number != index]
+        options = _options(things[index].name, shapes[index], size)
         costs = [_covered(box, taken) * 4 + _covered(box, others) + rank for rank, (box, _) in enumerate(options)]
         box, letters = options[costs.index(min(costs))]
         taken.append(box)
-        inside = shapes[name][1] < (box[1] + box[3]) / 2 < shapes[name][3]
-        canvas.label(
-            name, ((box[0] + box[2]) / 2, box[3] - 2), letters, color, weight=_WEIGHT, halo=None if inside else _WHITE
-        )
+        inside = shapes[index][1] < (box[1] + box[3]) / 2 < shapes[index][3]
+        foot, halo = ((box[0] + box[2]) / 2, box[3] - 2), None if inside else _WHITE
+        canvas.label(things[index].name, foot, letters, things[index].color, weight=_WEIGHT, halo=halo)
 
 
 def _options(name: str, shape: Box, size: float) -> list[tuple[Box, float]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from pico.model.catalog import Footprint
@@ -14,7 +14,7 @@ from pico.motion.types import Joints
 from pico.twin.beams import Place, beam_paths, flat
 from pico.twin.canvas import Canvas, Point
 from pico.twin.lettering import Color
-from pico.twin.names import write_names
+from pico.twin.names import Named, write_names
 
 if TYPE_CHECKING:
     import numpy as np
@@ -55,7 +55,7 @@ def draw(
     size = max(9.0, min(width / 64, height / 48))
     _draw_table(canvas, setup)
     _draw_areas(canvas, setup, size)
-    _draw_slots(canvas, setup, poses, size)
+    _draw_slots(canvas, setup, [*flat(poses).values(), *ghosts.values()], size)
     for robot in setup.lab.robots.values():
         if robot.model == "xarm7":
             _draw_reach(canvas, setup, robot)
@@ -66,13 +66,16 @@ def draw(
     for name, pose in sorted(places.items()):
         _draw_component(canvas, setup, name, pose)
     for name, goal in sorted(ghosts.items()):
-        _draw_ghost(canvas, setup, name, places.get(name), goal, size, labels)
+        _draw_ghost(canvas, setup, name, places.get(name), goal, size)
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model == "xarm7":
             _draw_arm(canvas, name, robot, joints.get(name), size)
     if labels:
-        outlines = {name: _outline(setup.type_of(name).geometry.footprint, pose) for name, pose in places.items()}
-        write_names(canvas, outlines, size, _INK)
+        gone = {name: goal for name, goal in ghosts.items() if not _stays(setup, name, places.get(name), goal)}
+        named = [(name, pose, _INK) for name, pose in places.items()]
+        named += [(name, goal, _MOVE) for name, goal in gone.items()]
+        things = [Named(n, _outline(setup.type_of(n).geometry.footprint, pose), ink) for n, pose, ink in named]
+        write_names(canvas, things, size)
     _draw_legend(canvas, setup, size)
     return canvas.finished()
 
@@ -116,9 +119,9 @@ def _draw_areas(canvas: Canvas, setup: Setup, size: float) -> None:
         canvas.text(f"keep out: {name}", at, 0.8 * size, _FORBIDDEN, shift=(5, 1.05 * size))
 
 
-def _draw_slots(canvas: Canvas, setup: Setup, poses: Mapping[str, Place], size: float) -> None:
+def _draw_slots(canvas: Canvas, setup: Setup, taken: Sequence[Pose], size: float) -> None:
+    """Plates, with their names where nothing stands on them."""
     half = 36.0
-    taken = list(flat(poses).values())
     for name, slot in sorted(setup.lab.slots.items()):
         corners = [slot.pose.apply(sx * half, sy * half) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         canvas.fill(corners, (255, 255, 255), 0.8)
@@ -160,25 +163,26 @@ def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None
     canvas.fill(tick, color)
 
 
-def _draw_ghost(
-    canvas: Canvas, setup: Setup, name: str, now: Pose | None, goal: Pose, size: float, labels: bool
-) -> None:
-    """Where a component is to go: a dashed outline, a tick, and an arrow from where it is."""
+def _draw_ghost(canvas: Canvas, setup: Setup, name: str, now: Pose | None, goal: Pose, size: float) -> None:
+    """Where a component is to go: a dashed outline, a tick, and an arrow from where it is, or by how much it turns."""
     footprint = setup.type_of(name).geometry.footprint
     outline = _outline(footprint, goal)
-    stays = now is not None and now.distance(goal) <= footprint.radius
+    stays = _stays(setup, name, now, goal)
     if not stays:
         canvas.fill(outline, (255, 240, 222), 0.55)
     canvas.dashes([*outline, outline[0]], _MOVE, 1.5, (6, 4))
     front = _front(footprint)
-    canvas.line((goal.apply(0.45 * front, 0), goal.apply(front, 0)), _MOVE, 1.6)
+    canvas.line((goal.apply(0.45 * front, 0), goal.apply(front, 0)), _MOVE, 1.5)
     if now is not None and now.distance(goal) > 1.0:
-        canvas.arrow((now.x, now.y), (goal.x, goal.y), _MOVE, 2.0, 11.0)
-    if labels and not stays:
-        write_names(canvas, {name: outline}, size, _MOVE)
-    elif labels and now is not None and abs(turn := angle_between(now.yaw, goal.yaw)) > 0.05:
+        canvas.arrow((now.x, now.y), (goal.x, goal.y), _MOVE, 1.6, 10.0)
+    if now is not None and stays and abs(turn := angle_between(now.yaw, goal.yaw)) > 0.05:
         top = max(y for _, y in outline)
         canvas.text(f"{turn:+.3g}°", (goal.x, top), 0.85 * size, _MOVE, align="center", weight=600, shift=(0, -4))
+
+
+def _stays(setup: Setup, name: str, now: Pose | None, goal: Pose) -> bool:
+    """Whether a component moves so little that its goal overlaps it."""
+    return now is not None and now.distance(goal) <= setup.type_of(name).geometry.footprint.radius
 
 
 def _draw_arm(canvas: Canvas, name: str, robot: Robot, joints: Joints | None, size: float) -> None:
