@@ -49,10 +49,9 @@ def header(plan: Plan, head: str = "", goal: str = "", single: bool = False) -> 
 
 def operations(plan: Plan) -> list[str]:
     """Return one line an operation, two where the reason is long."""
-    by_address = {(c.component, c.tunable): c for c in plan.changes}
+    changes = {op.id: change_of(plan, op) for op in plan.operations}
     moving = any(op.robot for op in plan.operations)
-    changes = [by_address.get((op.component, op.arguments.get("tunable", "pose"))) for op in plan.operations]
-    rows = [[*_cells(op, c), _why(op, c, moving)] for op, c in zip(plan.operations, changes, strict=True)]
+    rows = [[*_cells(op, changes[op.id]), _why(op, changes[op.id], moving)] for op in plan.operations]
     lines = columns([row[:-1] for row in rows], indent="  ")
     whole = []
     room = max((width(line) for line in lines), default=0)
@@ -103,10 +102,20 @@ def step(op: Operation) -> str:
     return f"{place(before)} → {goal}" if before is not None else f"→ {goal}"
 
 
+def change_of(plan: Plan, op: Operation) -> Change | None:
+    """Return the change that an operation brings about."""
+    key = (op.component, op.arguments.get("tunable", "pose"))
+    return next((c for c in plan.changes if (c.component, c.tunable) == key), None)
+
+
+def what(op: Operation, change: Change | None) -> str:
+    """Return what an operation does, values with their unit: `90 → 1 deg`."""
+    return change.text if change and op.primitive == "set" else step(op)
+
+
 def _cells(op: Operation, change: Change | None) -> list[str]:
     took = seconds(op.seconds) if op.seconds >= 0.05 else ""
-    what = change.text if change and op.primitive == "set" else step(op)
-    return [f"{symbol(op)} {address(op)}", what, f"{took:>6}"]
+    return [f"{symbol(op)} {address(op)}", what(op, change), f"{took:>6}"]
 
 
 def _why(op: Operation, change: Change | None, moving: bool) -> str:

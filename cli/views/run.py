@@ -7,7 +7,7 @@ from typing import Any
 from pico.model.event import Event
 from pico.model.plan import Plan
 
-from .plan import address, step
+from .plan import address, change_of, what
 from .style import WIDTH, pad, paint, seconds, shorten, width
 
 
@@ -17,7 +17,8 @@ class Progress:
     def __init__(self, plan: Plan) -> None:
         self.operations = {op.id: op for op in plan.operations}
         self.order = {op.id: i for i, op in enumerate(plan.operations, 1)}
-        self.names = max((width(f"{address(op)} {step(op)}") for op in plan.operations), default=0)
+        self.titles = {op.id: f"{address(op)} {what(op, change_of(plan, op))}" for op in plan.operations}
+        self.names = max(map(width, self.titles.values()), default=0)
 
     def line(self, event: Event) -> str:
         """Return the line that stays after an event; empty for none."""
@@ -45,7 +46,7 @@ class Progress:
     def _head(self, event: Event) -> str:
         op = self.operations[event.operation or ""]
         total = len(self.operations)
-        return f"{self.order[op.id]:>{len(str(total))}}/{total} " + pad(f"{address(op)} {step(op)}", self.names)
+        return f"{self.order[op.id]:>{len(str(total))}}/{total} " + pad(self.titles[op.id], self.names)
 
     def _tail(self, event: Event) -> str:
         data = event.data
