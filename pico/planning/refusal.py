@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from pico.diagnostics import Diagnostic, error
-from pico.geometry import finger_height, finger_zones, separation
+from pico.geometry import finger_height, finger_zones, fits, separation
 from pico.motion.types import Blocked
 from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Hold, Mover
@@ -34,7 +34,8 @@ def _alone(refused: Refusal, i: int, source: Source) -> Diagnostic:
     mover = table.movers[i]
     own = [b for b in refused.blocked if b.step.mover == i]
     if own:
-        return _no_path(table, own[-1], source)
+        direct = [b for b in own if b.step.start == 0 and b.step.goal in mover.goals]
+        return _no_path(table, (direct or own)[0], source)
     if not mover.holds:
         return error("blocked", f"{mover.name} can't be moved: no robot has its gripper free", address=mover.name)
     for verb, places in (("picked up", (0,)), ("put down", mover.goals)):
@@ -116,7 +117,8 @@ def _ring(table: Conflicts, stuck: Sequence[int], proven: bool, source: Source) 
         summary = f"{_list(names)} can't all reach their places in any order"
     else:
         summary = f"found no order in which {_list(names)} reach their places, within the limit of the search"
-    allowed = [table.movers[i].name for i in (ring or stuck) if not table.movers[i].staging]
+    inventory = table.setup.lab.inventory
+    allowed = [name for name in names if inventory[name].stage == "never"]
     hint = "free one slot within reach, or leave more room between them"
     if allowed and len(allowed) < 6:
         hint = f"free one slot within reach, or allow staging of {_list(allowed, 'or')}"
@@ -168,8 +170,10 @@ def _storage_line(table: Conflicts, i: int) -> str:
     mover = table.movers[i]
     if table.setup.lab.inventory[mover.name].stage == "never":
         return f"{mover.name}: stage: never"
-    if not mover.staging:
-        return f"{mover.name}: {'only a person can move it' if not mover.holds[0].robot else 'no slot takes it'}"
+    if not mover.holds or mover.holds[0].robot is None:
+        return f"{mover.name}: only a person can move it"
+    if not any(fits(slot, mover.geometry.footprint) for slot in table.setup.lab.slots.values()):
+        return f"{mover.name}: no slot takes it"
     free = [p for p in mover.staging if table.arrive(i, p) is not None]
     if not free:
         return f"{mover.name}: every slot that takes it is occupied"

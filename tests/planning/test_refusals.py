@@ -1,0 +1,88 @@
+"""What a person reads where a state is not possible: both components, by how much, what would help."""
+
+from __future__ import annotations
+
+from benches import bench, part, planned, see, want
+
+from pico.diagnostics import Position, SourceRange
+from pico.model.lab import Box2, KeepOut, Margins, Slot
+
+
+def test_an_overlap_names_both_the_depth_and_the_nearest_free_place() -> None:
+    setup = bench({"lx": "block", "p2": "block"})
+    seen = see(setup, {"lx": (200, 420), "p2": (520, 420)})
+    line = SourceRange("state/table.yaml", Position(14, 7), Position(14, 13), "      x: 505")
+    asked: list[str] = []
+
+    def source(address: str) -> SourceRange:
+        asked.append(address)
+        return line
+
+    made = planned(setup, seen, want({"lx": (505, 420), "p2": (520, 420)}), source=source)
+    (found,) = made.diagnostics
+    assert found.code == "impossible" and made.errored and made.operations == ()
+    assert found.summary == "lx cannot stand at (505, 420, 0°): it would overlap p2 by 45 mm"
+    assert found.label == "p2 stands at (520, 420); the bases need 62 mm between centers along x"
+    assert found.hint == "nearest free place along x is x = 458; or move p2 first"
+    assert found.source is line and set(asked) == {"lx.pose.x"}
+
+
+def test_two_goals_that_overlap_are_told_once() -> None:
+    setup = bench({"a": "block", "b": "block"})
+    seen = see(setup, {"a": (200, 420), "b": (300, 420)})
+    made = planned(setup, seen, want({"a": (505, 420), "b": (520, 420)}))
+    assert len(made.diagnostics) == 1
+    assert "b is to stand at (520, 420)" in made.diagnostics[0].detail
+
+
+def test_every_impossible_goal_is_told_at_once() -> None:
+    setup = bench(
+        {"a": "block", "b": "block", "c": part("rail"), "d": "block"},
+        {"s1": Slot(x=60, y=60), "tight": Slot(x=160, y=60, fits=50)},
+        keep_out={"beam": KeepOut(area=Box2(x=(600, 700), y=(100, 200)), z=(50, 90), reason="open beam")},
+    )
+    seen = see(setup, {"a": (100, 400), "b": (200, 400), "c": (350, 400), "d": (500, 400)})
+    made = planned(setup, seen, want({"a": (790, 300), "b": (650, 150), "c": "tight", "d": (500, 400)}))
+    assert [d.summary for d in made.diagnostics] == [
+        "a cannot stand at (790, 300, 0°): it would stick out 20 mm over the table's edge",
+        "b cannot stand at (650, 150, 0°): it would reach into keep-out beam",
+        "c does not fit in tight: it reaches 67.1 mm from its center, the slot takes 50 mm",
+    ]
+
+
+def test_a_ring_that_nothing_breaks_is_printed_as_a_chain() -> None:
+    names = ("m1", "m2", "m3")
+    setup = bench({n: part(stage="never") for n in names})
+    spots = [(200, 300), (400, 300), (600, 300)]
+    seen = see(setup, dict(zip(names, spots, strict=True)))
+    made = planned(setup, seen, want(dict(zip(names, spots[1:] + spots[:1], strict=True))))
+    (found,) = made.diagnostics
+    assert found.code == "impossible"
+    assert found.summary == "m1, m3 and m2 block one another in a ring that no storage slot breaks"
+    assert found.detail.splitlines() == [
+        "m1 must leave before m3 arrives (bodies overlap by 60 mm)",
+        "m3 must leave before m2 arrives (bodies overlap by 60 mm)",
+        "m2 must leave before m1 arrives (bodies overlap by 60 mm)",
+        "m1: stage: never",
+        "m3: stage: never",
+        "m2: stage: never",
+    ]
+    assert found.hint == "free one slot within reach, or allow staging of m1, m3 or m2"
+
+
+def test_a_ring_says_that_the_slots_are_taken() -> None:
+    setup = bench({"m1": "block", "m2": "block", "kept": part(seating="bolted")}, {"s1": Slot(x=60, y=60)})
+    seen = see(setup, {"m1": (200, 300), "m2": (400, 300), "kept": "s1"})
+    made = planned(setup, seen, want({"m1": (400, 300), "m2": (200, 300), "kept": "s1"}))
+    assert "m1: every slot that takes it is occupied" in made.diagnostics[0].detail
+
+
+def test_fingers_without_room_name_what_they_would_touch() -> None:
+    setup = bench({"a": part("one_way"), "wall": part(seating="bolted")}, margins=Margins(body=2, fingers=2))
+    seen = see(setup, {"a": (300, 300), "wall": (600, 300)})
+    made = planned(setup, seen, want({"a": (536, 300), "wall": (600, 300)}))
+    (found,) = made.diagnostics
+    assert found.code == "blocked"
+    assert found.summary == (
+        "a can't be put down at (536, 300, 0°): a finger of the gripper would touch wall by 5 mm, every grasp yaw tried"
+    )
