@@ -48,11 +48,15 @@ class AsyncBench(Reader):
     ) -> AsyncBench:
         """Open the lab that `path` lies in. Nothing is contacted yet.
 
-        `backend`: `sim`. `fidelity`: `kinematic` or `physics`, the lab's own word where None. `speed`: share of the
-        joint limits for every robot, instead of the lab's. Raises PicoError.
+        `backend`: `sim`; `hardware` says what it lacks. `fidelity`: `kinematic` or `physics`, the lab's own word where
+        None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
         """
         _require_backend(backend, fidelity, speed)
         folder = LabFolder(Path(path))
+        if backend == "hardware":
+            from pico.backends.hardware import HardwareBackend
+
+            HardwareBackend(folder.setup, folder.root)  # says what is missing
         if speed is not None:
             robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
             folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
@@ -347,10 +351,7 @@ class Bench(Reader):
 
 
 def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:
-    if backend == "hardware":
-        detail = "An arm, cameras and stages need drivers, and PICO has none yet; today it moves a simulated bench."
-        raise PicoError(error("backend", "there is no hardware backend yet", detail=detail, hint="leave out --backend"))
-    if backend != "sim":
+    if backend not in ("sim", "hardware"):
         raise PicoError(
             error("backend", f"there is no backend `{backend}`", hint=did_you_mean(backend, ["sim", "hardware"]))
         )

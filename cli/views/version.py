@@ -10,7 +10,7 @@ from typing import Any
 
 from .style import columns
 
-STANDS_ON = ("mujoco", "numpy", "pygit2", "pydantic", "PyYAML", "ruamel.yaml", "ruckig", "typer")
+STANDS_ON = ("mujoco", "numpy", "pygit2", "pydantic", "PyYAML", "ruckig", "typer")
 
 
 def text() -> str:

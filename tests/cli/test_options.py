@@ -143,7 +143,7 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["sim"], "reset, nudge, remove"),
         (["plan", "e1", "e2"], "extra argument"),
         (["plan", "e9"], "there is no revision `e9`"),
-        (["plan", "--backend", "hardware"], "there is no hardware backend yet"),
+        (["plan", "--backend", "hardware"], "no driver for the arm arm1 (xarm7)"),
         (["plan", "--backend", "sin"], "did you mean `sim`?"),
         (["plan", "--fidelity", "physic"], "did you mean `physics`?"),
         (["commit", "-m", "x", "--capture", "--planned"], "contradict"),
