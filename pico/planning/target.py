@@ -107,11 +107,18 @@ def room_between(a: Shape, b: Shape, margin: float) -> tuple[float, str]:
 
 
 def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str]) -> str:
-    free = nearest_free(setup, mover, grid)
-    move = f"move {other.name} first" if not other.moves else f"move {other.name} elsewhere"
+    ways = []
     if mover.goal.slot:
-        return f"choose a free slot; or {move}"
-    return f"nearest free place along {free[0]} is {free[0]} = {free[1]:g}; or {move}" if free else move
+        ways.append("choose a free slot")
+    elif free := nearest_free(setup, mover, grid):
+        ways.append(f"nearest free place along {free[0]} is {free[0]} = {free[1]:g}")
+    if other.moves:
+        ways.append(f"move {other.name} elsewhere")
+    elif other.name not in setup.lab.inventory:
+        ways.append(f"take {other.name} away by hand")
+    elif setup.movable(other.name):
+        ways.append(f"move {other.name} first")
+    return "; or ".join(ways)
 
 
 def nearest_free(setup: Setup, mover: Mover, grid: Grid[str]) -> tuple[str, float] | None:

@@ -35,6 +35,13 @@ def test_two_goals_that_overlap_are_told_once() -> None:
     assert "b is to stand at (520, 420)" in made.diagnostics[0].detail
 
 
+def test_nobody_is_told_to_move_what_is_bolted() -> None:
+    setup = bench({"a": "block", "laser": part(seating="bolted")})
+    seen = see(setup, {"a": (200, 420), "laser": (520, 420)})
+    (found,) = planned(setup, seen, want({"a": (505, 420), "laser": (520, 420)})).diagnostics
+    assert found.hint == "nearest free place along x is x = 458"
+
+
 def test_every_impossible_goal_is_told_at_once() -> None:
     setup = bench(
         {"a": "block", "b": "block", "c": part("rail"), "d": "block"},
