@@ -13,7 +13,9 @@ Status = Literal["waiting", "running", "done", "failed", "unknown", "skipped"]
 
 class Graph:
     """Operations and their status. An operation may start when what it comes after is done, and every earlier one in
-    the plan that needs one of its resources is over: each resource takes its operations in the plan's order."""
+    the plan that needs one of its resources is over: each resource takes its operations in the plan's order.
+
+    A robot parks when what comes before is over, done or not: it does not stay in the beam because a move failed."""
 
     def __init__(self, operations: Sequence[Operation]) -> None:
         """Raises PicoError where an operation comes after itself or after one that the plan does not have."""
@@ -29,10 +31,15 @@ class Graph:
             if status not in ("waiting", "running"):
                 continue
             free = taken.isdisjoint(op.resources)
-            if status == "waiting" and free and all(self.status[a] == "done" for a in op.after):
+            if status == "waiting" and free and self._may_follow(op):
                 found.append(op)
             taken.update(op.resources)
         return found
+
+    def _may_follow(self, op: Operation) -> bool:
+        if op.primitive == "park":
+            return all(self.status[a] not in ("waiting", "running") for a in op.after)
+        return all(self.status[a] == "done" for a in op.after)
 
     def start(self, op: Operation) -> None:
         """Mark an operation as under way."""
@@ -49,7 +56,8 @@ class Graph:
             return []
         lost, skipped = {op.id}, []
         for other in self.operations:
-            if self.status[other.id] == "waiting" and not lost.isdisjoint(other.after):
+            waits = self.status[other.id] == "waiting" and other.primitive != "park"
+            if waits and not lost.isdisjoint(other.after):
                 lost.add(other.id)
                 skipped.append(other)
                 self.status[other.id] = "skipped"

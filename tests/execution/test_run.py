@@ -142,7 +142,7 @@ def test_a_failure_skips_what_depends_on_it_and_nothing_else_and_the_next_apply_
     assert f"{lost} is not on the table" in failed[later[0].id].data["diagnostic"]["summary"]
     skipped = {k: r.data["because"] for k, r in result.operations.items() if r.outcome == "skipped"}
     assert set(skipped.values()) == {later[0].id}
-    assert "park" in {op.primitive for op in planned.operations if op.id in skipped}
+    assert {op.primitive for op in planned.operations if op.id in skipped} == {"set"}  # the arm parks all the same
     assert result.operations[first.id].outcome == result.operations[moves["lx_100"].id].outcome == "done"
     assert result.done + result.failed + result.skipped == len(planned.operations)
     assert events[-1].kind == "run_finished"

@@ -36,10 +36,7 @@ def require_ready(setup: Setup, world: World, operation: Operation, start: Pose)
     name, robot = operation.component, operation.robot or "(none)"
     if robot not in setup.lab.robots:
         raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}", address=name))
-    holding = world.robots[robot].holding
-    if holding:
-        hint = "a hand takes it out with `pico sim nudge " + holding + "`"
-        raise MoveFailed(error("hand-full", f"{robot} still holds {holding}", hint=hint, address=name))
+    require_empty(world, robot)
     pose = standing_pose(world, name)
     tolerance = setup.type_of(name).pose.tolerance
     away, turned = pose.distance(start), abs(angle_between(start.yaw, pose.yaw))
@@ -47,6 +44,14 @@ def require_ready(setup: Setup, world: World, operation: Operation, start: Pose)
         text = f"{name} stands {away:.3g} mm and {turned:.3g}° from where it was to be picked, {start}"
         raise MoveFailed(error("not-there", text, hint=_AGAIN, address=name))
     return pose
+
+
+def require_empty(world: World, robot: str) -> None:
+    """Raise MoveFailed where a robot has something in its gripper."""
+    holding = world.robots[robot].holding
+    if holding:
+        hint = f"a hand takes it out with `pico sim nudge {holding}`"
+        raise MoveFailed(error("hand-full", f"{robot} still holds {holding}", hint=hint, address=holding))
 
 
 def standing_pose(world: World, name: str) -> Pose:

@@ -138,6 +138,7 @@ class Session:
         robot = operation.robot or operation.component
         if robot not in self._setup.lab.robots:
             raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
+        judge.require_empty(self.world(), robot)
         joints = self.world().robots[robot].joints
         path = self._motion.park(robot, joints, judge.standing(self._setup, self.world()))
         if isinstance(path, Blocked):
