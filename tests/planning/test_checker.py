@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from benches import bench, part, planned, see, want
 from checker import check
+from planning_benches import bench, part, planned, see, want
 
 from pico.model.lab import Margins
 from pico.model.plan import Plan

@@ -12,8 +12,8 @@ import os
 from pathlib import Path
 
 import pytest
-from benches import Places, bench, part, planned, see, want
 from checker import check
+from planning_benches import Places, bench, part, planned, see, want
 
 from pico.model.lab import Setup
 from pico.model.plan import Plan

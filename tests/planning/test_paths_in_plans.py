@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from benches import bench, moves, part, planned, see, want
+from planning_benches import bench, moves, part, planned, see, want
 
 from pico.model.pose import Pose
 from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from benches import SLOTS, bench, moves, part, planned, see, want
 from checker import check
+from planning_benches import SLOTS, bench, moves, part, planned, see, want
 
 from pico.model.catalog import Footprint
 from pico.model.lab import Gripper, Margins, Mount, Robot, Slot
@@ -228,7 +228,7 @@ def test_the_same_bench_gives_the_same_plan_however_it_is_listed() -> None:
 
 def test_a_plan_without_moves_imports_nothing_heavy() -> None:
     code = (
-        "import sys; sys.path.insert(0, 'tests/planning'); from benches import *;"
+        "import sys; sys.path.insert(0, 'tests/planning'); from planning_benches import *;"
         "s = bench({'a': 'block'}); w = want({'a': (300, 300)}); planned(s, see(s, {'a': (300, 300)}), w);"
         "print([m for m in ('numpy', 'mujoco', 'networkx', 'scipy', 'cv2', 'highspy') if m in sys.modules])"
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from benches import bench, part, planned, see, want
+from planning_benches import bench, part, planned, see, want
 
 from pico.diagnostics import Position, SourceRange
 from pico.model.lab import Box2, KeepOut, Margins, Slot

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from benches import TYPES, bench, moves, part, see, want
+from planning_benches import TYPES, bench, moves, part, see, want
 
 from pico.diagnostics import PicoError
 from pico.model.catalog import Frames

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from benches import bench, planned, see, want
 from checker import check
+from planning_benches import bench, planned, see, want
 
 HERE, THERE = {"a": (300, 300)}, {"a": (500, 300)}
 
