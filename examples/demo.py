@@ -82,9 +82,7 @@ def main() -> None:
     if options.friction is not None:
         set_friction(folder, options.friction)
     for start, goal in RESTORES:
-        say(
-            f"\n--- Bring the bench to {start} quickly (kinematic), then restore {goal} by friction and gravity ---"
-        )
+        say(f"\n--- Bring the bench to {start} quickly (kinematic), then restore {goal} by friction and gravity ---")
         must(f"pico apply {start} --auto-approve --fidelity kinematic", folder, quiet=True)
         must(f"pico render --out {start}.png", folder)
         must(f"pico diff {start} {goal}", folder)
