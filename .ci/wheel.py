@@ -16,13 +16,12 @@ ROOT = Path(__file__).resolve().parent.parent
 def run(*command: str | Path, cwd: Path, expect: int = 0) -> None:
     """Run a command and stop with its output where it ends with anything but `expect`."""
     env = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VIRTUAL_ENV")}
-    done = subprocess.run(
-        [str(c) for c in command], cwd=cwd, env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
-    )  # fmt: skip
+    words = [str(c) for c in command]
+    done = subprocess.run(words, cwd=cwd, env=env, text=True, capture_output=True, check=False)
     shown = " ".join(Path(str(c)).name if i == 0 else str(c) for i, c in enumerate(command))
     print(f"  {shown}: exit {done.returncode}", flush=True)
     if done.returncode != expect:
-        sys.exit(f"{shown} ended with {done.returncode}, expected {expect}\n{done.stdout}")
+        sys.exit(f"{shown} ended with {done.returncode}, expected {expect}\n{done.stdout}{done.stderr}")
 
 
 def main() -> None:

@@ -17,7 +17,7 @@ from pico.model.record import as_json, record
 
 @record
 class Request:
-    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable` to a `value`, or `home`."""
+    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, or `home` it."""
 
     component: str
     primitive: str
