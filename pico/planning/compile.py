@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,10 @@ from pico.model.plan import Base, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
 from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
-from pico.planning.movers import Mover, Obstacle, Place, mover, standing_obstacles
+from pico.planning.actors import actors, asides, hand_warnings
+from pico.planning.movers import Place
+from pico.planning.request import Preference, Request
+from pico.planning.selection import done_by, selection, told
 from pico.planning.situation import Situation, read_situation
 from pico.planning.target import Source, check_target, no_source
 from pico.planning.values import OPERATOR_SECONDS, value_operations
@@ -30,20 +33,6 @@ PARK_SECONDS = 3.0
 
 
 @dataclass(frozen=True, slots=True)
-class Request:
-    """What is to be planned. `alone`: one operation was asked for, so nothing else may be moved for it."""
-
-    setup: Setup
-    seen: Observation
-    wanted: LabState
-    motion: Motion | None
-    source: Source = no_source
-    exact: bool = False
-    alone: bool = False
-    reason: Reason | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class Compiled:
     """The operations of a plan, in no final order, and what is to be said about them."""
 
@@ -55,14 +44,18 @@ class Compiled:
 def plan(
     setup: Setup, seen: Observation, wanted: LabState, *, motion: Motion | None, backend: str, fidelity: str,
     base: Base, target: Target, exact: bool = False, source: Source | None = None,
+    prefer: Preference = "fewest-moves", targets: Collection[str] = (), exclude: Collection[str] = (),
 ) -> Plan:  # fmt: skip
     """Return the operations that make the bench as `seen` equal to `wanted`, in an order that never collides.
 
     Without `motion` reach and paths are left out and times are nominal. `exact`: move what differs within tolerance,
-    too. `source` tells where in the manifests an address such as `p2.pose` is written. Raises nothing for an
-    impossible state: the plan is then `errored`, holds no operation, and its diagnostics say what is in the way.
+    too. `source` tells where in the manifests an address such as `p2.pose` is written. `prefer`: fewest moves first and
+    then time, or time first. `targets`: plan for these components only, and what must make way for them; `exclude`:
+    leave these as they are. Raises nothing for an impossible state: the plan is then `errored`, holds no operation, and
+    its diagnostics say what is in the way. Raises PicoError for a target that the lab does not have.
     """
-    request = Request(setup, seen, wanted, motion, source or no_source, exact)
+    only = selection(setup, targets, exclude)
+    request = Request(setup, seen, wanted, motion, source or no_source, exact, prefer=prefer, only=only)
     return compiled_plan(request, backend=backend, fidelity=fidelity, base=base, target=target)
 
 
@@ -73,16 +66,23 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     setup = request.setup
     situation = read_situation(setup, request.seen, request.wanted, exact=request.exact)
     moves = compile_moves(request, situation) if situation.moving else Compiled()
-    values, notes = value_operations(setup, request.seen, situation.changes, request.reason)
+    asked = tuple(c for c in situation.changes if request.only.chosen(c.component))
+    values, notes = value_operations(setup, request.seen, asked, request.reason)
     diagnostics = (*situation.diagnostics, *moves.diagnostics, *notes)
     operations: tuple[Operation, ...] = ()
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
         operations = schedule((*moves.operations, *shifted))
+    changes = situation.changes
+    if not request.only.everything and operations:
+        diagnostics = (*diagnostics, *told(request.only, changes, operations))
+    if not request.only.everything:
+        done = done_by(operations)
+        changes = tuple(c for c in changes if request.only.chosen(c.component) or (c.component, c.tunable) in done)
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
-        target=target, changes=situation.changes, operations=operations,
+        target=target, changes=changes, operations=operations,
         staging=Staging(count=moves.staged, lower_bound=0, proven=moves.staged == 0 and not _errored(diagnostics)),
         makespan=makespan(operations), diagnostics=diagnostics,
     ).sealed()  # fmt: skip
@@ -97,83 +97,21 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     from pico.planning.refusal import explain
     from pico.planning.solve import Problem, Solution, solve
 
-    movers, obstacles, put_off = _actors(request, situation)
+    movers, obstacles, put_off = actors(request, situation)
     if not movers:
         return Compiled(diagnostics=tuple(put_off))
     impossible = check_target(request.setup, movers, obstacles, request.source)
     if impossible:
         return Compiled(diagnostics=(*put_off, *impossible))
-    asides = () if request.alone else _asides(request, situation, movers)
+    others = () if request.alone else asides(request, situation, movers)
     if request.alone:
         movers = tuple(replace(m, stages=False) for m in movers)
-    answer = solve(Problem(request.setup, request.seen, movers, tuple(obstacles), asides, request.motion))
+    answer = solve(Problem(request.setup, request.seen, movers, tuple(obstacles), others, request.motion))
     if not isinstance(answer, Solution):
         return Compiled(diagnostics=(*put_off, *explain(answer, request.source)))
     operations, notes = _operations(request, answer)
     staged = sum(s.goal not in answer.table.movers[s.mover].goals for s in answer.steps)
-    return Compiled(tuple(operations), staged, (*put_off, *_hand_warnings(movers), *notes))
-
-
-def _actors(request: Request, situation: Situation) -> tuple[tuple[Mover, ...], list[Obstacle], list[Diagnostic]]:
-    """Return the movers and what stays; a mover that depends on a part which can't be planned for stays as well."""
-    setup, seen = request.setup, request.seen
-    names, put_off = list(situation.moving), list[Diagnostic]()
-    if not situation.robots and len(setup.lab.robots):
-        held = [n for n in names if setup.movable(n)]
-        names = [n for n in names if n not in held]
-        put_off += [warning("blocked", f"{n} is not moved: no gripper is free", address=n) for n in held]
-    while True:
-        movers = {n: _mover(request, situation, n) for n in names}
-        obstacles = standing_obstacles(setup, seen, movers)
-        lost = _dependents(request, movers, obstacles, {str(d.address) for d in (*situation.diagnostics, *put_off)})
-        if not lost:
-            return tuple(movers.values()), obstacles, put_off
-        put_off += lost
-        names = [n for n in names if n not in {d.address for d in lost}]
-
-
-def _mover(request: Request, situation: Situation, name: str, right: bool = False) -> Mover:
-    return mover(request.setup, request.seen, request.wanted, name, situation.robots, right=right)
-
-
-def _dependents(
-    request: Request, movers: dict[str, Mover], obstacles: list[Obstacle], troubled: set[str]
-) -> list[Diagnostic]:
-    """Return a warning for each mover whose goal is taken by a part that lies there, or that waits for such a one."""
-    bad = [o for o in obstacles if o.name in troubled and _can_not_move(request, o.name)]
-    if not bad:
-        return []
-    found = []
-    for name, actor in movers.items():
-        for clash in check_target(request.setup, [actor], bad, request.source)[:1]:
-            found.append(warning("blocked", f"{name} is not moved: {clash.summary}", hint=clash.hint, address=name))
-    return found
-
-
-def _can_not_move(request: Request, name: str) -> bool:
-    part = request.seen.components.get(name)
-    return part is not None and (part.presence != "seen" or request.setup.movable(name))
-
-
-def _asides(request: Request, situation: Situation, movers: Sequence[Mover]) -> tuple[Mover, ...]:
-    """Return the parts that are right but may be moved to make room."""
-    setup, busy = request.setup, {m.name for m in movers}
-    names = [
-        n for n, part in sorted(request.seen.components.items())
-        if n in setup.lab.inventory and n not in busy and n not in situation.moving and part.presence == "seen"
-        and part.pose is not None and setup.movable(n) and setup.lab.inventory[n].stage != "never"
-    ]  # fmt: skip
-    return tuple(_mover(request, situation, n, right=True) for n in names)
-
-
-def _hand_warnings(movers: Sequence[Mover]) -> list[Diagnostic]:
-    return [
-        warning(
-            "operator", f"{m.name} must be moved by hand from {m.start} to {m.goal}: no arm may move it",
-            hint="apply waits for a person there; or write into the manifest where it stands", address=m.name,
-        )
-        for m in movers if m.holds and m.holds[0].robot is None
-    ]  # fmt: skip
+    return Compiled(tuple(operations), staged, (*put_off, *hand_warnings(movers), *notes))
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:

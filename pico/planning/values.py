@@ -7,11 +7,12 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import Tunable
-from pico.model.diff import Change, value_distance
+from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
+from pico.model.setpoint import home_seconds, set_seconds
 
 OPERATOR_SECONDS = 60.0
 """What a plan reckons with for something that a person does by hand [s]."""
@@ -61,24 +62,10 @@ def _drive(seen: Observation, change: Change, kind: Tunable, reason: Reason) -> 
 
 def home_operation(name: str, tunable: str, kind: Tunable, live: Value | None, reason: Reason) -> Operation:
     """Return the operation that homes the axis of a tunable."""
-    home = kind.axis.home if kind.axis else 0.0
     return Operation(
         id="", primitive="home", component=name, arguments={"tunable": tunable},
-        resources=(f"motor/{name}.{tunable}", name), reason=reason, seconds=set_seconds(kind, live, home),
+        resources=(f"motor/{name}.{tunable}", name), reason=reason, seconds=home_seconds(kind, live),
     )  # fmt: skip
-
-
-def set_seconds(kind: Tunable, before: Value | None, after: Value | None) -> float:
-    """Return how long a value takes: the way over the axis' speed, and settling [s]. The whole range, or one period,
-    where it is not known where it starts."""
-    settle = kind.settle / 1000
-    if kind.axis is None or kind.axis.speed <= 0:
-        return settle
-    if before is None or after is None:
-        way = kind.range[1] - kind.range[0] if kind.range else kind.period or 0.0
-    else:
-        way = value_distance(kind, before, after)
-    return (way if way < float("inf") else 0.0) / kind.axis.speed + settle
 
 
 def _by_hand(setup: Setup, change: Change) -> Operation:
