@@ -11,8 +11,8 @@ from .summary import COMMANDS
 
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
-    "-C", "--backend", "--out", "--fidelity", "--view", "--speed", "--example", "-m", "--message", "-n", "--number",
-    "--after", "--distance", "--dx", "--dy", "--dyaw",
+    "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
+    "-n", "--number", "--after", "--distance", "--dx", "--dy", "--dyaw",
 )  # fmt: skip
 _APPLY = ("--auto-approve", "--exact", "--fidelity")
 _ONE = ("--dry-run", "--fidelity")
@@ -22,6 +22,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity"),
     "apply": _APPLY,
     "checkout": ("--auto-approve", "--fidelity"),
+    "graph": ("--format", "--out", "--fidelity"),
     "fmt": ("--check",),
     "parts": ("--free",),
     "commit": ("-m", "--message", "--capture", "--planned"),
@@ -44,10 +45,11 @@ FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),
     "--view": ("perspective", "top"),
+    "--format": ("dot", "mermaid"),
     "--example": ("minimal", "shel", "crowded"),
 }
 _COMPONENT = ("do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
-_REVISION = ("plan", "apply", "checkout", "log", "diff", "show", "render")
+_REVISION = ("plan", "apply", "checkout", "graph", "log", "diff", "show", "render")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 
@@ -81,7 +83,7 @@ def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str
         yield from ("move", "stow", "set", "home")
     elif command in _REVISION and len(given) < (2 if command == "diff" else 1):
         yield from _revisions(folder)
-        if command in ("apply", "show"):
+        if command in ("apply", "graph", "show"):
             yield from (p.name for p in folder.glob("*.plan"))
     elif command == "completion":
         yield from ("bash", "zsh", "fish")

@@ -9,6 +9,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "plan": "Show what would move to make the bench equal to the manifest or a revision.",
         "apply": "Move what the plan says.",
         "checkout": "Go to a revision: files and bench.",
+        "graph": "Show a plan as a graph: what waits for what, and the critical path.",
     },
     "Manifests": {
         "validate": "Check the manifests.",

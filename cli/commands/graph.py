@@ -1,0 +1,55 @@
+"""`pico graph`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
+
+from ..arguments import Fidelity, Out, PlanOrRevision
+from ..session import Session
+from ..views import graph as view
+from ..views import picture as written
+
+FORMATS = {"dot": view.dot, "mermaid": view.mermaid}
+_SUFFIXES = {".mmd": "mermaid", ".mermaid": "mermaid", ".md": "mermaid"}
+
+
+def graph(
+    context: typer.Context,
+    what: PlanOrRevision = None,
+    form: Annotated[
+        str | None, typer.Option("--format", metavar="dot|mermaid", help="For a program that draws graphs.")
+    ] = None,
+    out: Out = None,
+    fidelity: Fidelity = None,
+) -> int:
+    """Show a plan as a graph: what waits for what, and the critical path.
+
+    Without --format: the operations that decide when the plan ends, and what the others have to spare. With --out the
+    ending of FILE tells the format where --format does not (.mmd is Mermaid, anything else DOT).
+    """
+    from pico.planning.graph import graph_of
+
+    session = Session.of(context)
+    if form is not None and form not in FORMATS:
+        raise PicoError(error("usage", f"there is no format `{form}`", hint=did_you_mean(form, FORMATS)))
+    bench = session.bench(fidelity)
+    plan = bench.plan_of(what, folder=session.folder)
+    found = graph_of(plan)
+    form = form or (_SUFFIXES.get(out.suffix, "dot") if out else None)
+    if out and form:
+        path = session.folder / out
+        path.write_text(FORMATS[form](plan, found) + "\n", encoding="utf-8")
+        session.show(written, path, shown=out, what=f"the graph of the plan for {bench.goal_name(plan)}")
+    elif form and not session.json:
+        session.say(FORMATS[form](plan, found))
+    else:
+        goal = bench.goal_name(plan)
+        step = f"`pico graph{f' {what}' if what else ''} --format dot | dot -Tsvg > plan.svg` draws it."
+        session.show(view, plan, found, head=bench.head_name(), goal=goal, next_step=step)
+    if not session.json:
+        session.report(plan.diagnostics)
+    return ExitCode.IMPOSSIBLE if plan.errored else ExitCode.DONE

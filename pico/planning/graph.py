@@ -1,0 +1,168 @@
+"""A plan as a graph: what each operation waits for, how much time it has to spare, and which path decides the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from heapq import heapify, heappop, heappush
+from itertools import pairwise
+
+from pico.model.operation import Operation
+from pico.model.plan import Plan
+from pico.model.record import record
+
+_NEAR = 1e-3
+"""Two moments that differ by less are the same: times in a plan are rounded to 1e-6 s each."""
+
+
+@record
+class Edge:
+    """`target` starts when `source` is done: because the plan says so (`after`), because both need the `resources`
+    named, or both. `critical`: both lie on the critical path, one after the other. `implied`: other edges lead there
+    as well, so that a drawing can do without it."""
+
+    source: str
+    target: str
+    after: bool = False
+    resources: tuple[str, ...] = ()
+    critical: bool = False
+    implied: bool = False
+
+
+@record
+class Node:
+    """One operation. `earliest`: when it can start at all [s]; `spare`: by how much it may start later than that
+    without the plan ending later [s]. `critical`: it lies on the critical path."""
+
+    operation: Operation
+    earliest: float = 0.0
+    spare: float = 0.0
+    critical: bool = False
+
+
+@record
+class PlanGraph:
+    """The operations of a plan in its order, the edges between them, and the ids along the critical path.
+
+    `length` is the sum of what the operations on the critical path take [s]: the makespan, where no operation of the
+    plan starts later than it could.
+    """
+
+    plan: str
+    makespan: float = 0.0
+    length: float = 0.0
+    path: tuple[str, ...] = ()
+    nodes: tuple[Node, ...] = ()
+    edges: tuple[Edge, ...] = ()
+
+
+def graph_of(plan: Plan) -> PlanGraph:
+    """Return the graph of a plan: `after` edges, the order in which operations use each resource, the critical path.
+
+    The critical path method: earliest starts forward, latest starts backward (Kelley and Walker, 1959).
+    """
+    operations = {o.id: o for o in plan.operations}
+    order = _in_order(plan.operations)
+    links = _links(plan.operations, order)
+    before: dict[str, list[str]] = {i: [] for i in order}
+    behind: dict[str, list[str]] = {i: [] for i in order}
+    for a, b in links:
+        before[b].append(a)
+        behind[a].append(b)
+    earliest, rest = _earliest(operations, order, before), _rest(operations, order, behind)
+    length = max((earliest[i] + rest[i] for i in order), default=0.0)
+    path = _critical(operations, order, before, earliest, rest, length)
+    steps = set(pairwise(path))
+    implied = _implied(order, behind) - steps
+    return PlanGraph(
+        plan=plan.digest, makespan=plan.makespan, length=round(length, 6), path=path,
+        nodes=tuple(
+            Node(operation=o, earliest=round(earliest[i], 6), spare=_spare(length - earliest[i] - rest[i]),
+                 critical=i in path)
+            for i, o in operations.items()
+        ),
+        edges=tuple(
+            Edge(source=a, target=b, after=a in operations[b].after, resources=resources, critical=(a, b) in steps,
+                 implied=(a, b) in implied)
+            for (a, b), resources in links.items()
+        ),
+    )  # fmt: skip
+
+
+def _spare(seconds: float) -> float:
+    return round(seconds, 6) if seconds > _NEAR else 0.0
+
+
+def _in_order(operations: Sequence[Operation]) -> tuple[str, ...]:
+    """Return the ids by start and end, each after all that it waits for, whatever their times say."""
+    known = {o.id: o for o in operations}
+    left = {o.id: len(o.after) for o in operations}
+    behind: dict[str, list[str]] = {i: [] for i in known}
+    for o in operations:
+        for e in o.after:
+            behind[e].append(o.id)
+    rank = {o.id: (o.start, o.start + o.seconds, n) for n, o in enumerate(operations)}
+    ready, order = [(rank[i], i) for i, n in left.items() if n == 0], list[str]()
+    heapify(ready)
+    while ready:
+        _, i = heappop(ready)
+        order.append(i)
+        for b in behind[i]:
+            left[b] -= 1
+            if left[b] == 0:
+                heappush(ready, (rank[b], b))
+    return tuple(order)
+
+
+def _links(operations: Sequence[Operation], order: Sequence[str]) -> dict[tuple[str, str], tuple[str, ...]]:
+    """Return who waits for whom, and for which resources: each goes from one operation to the next that needs it."""
+    found: dict[tuple[str, str], tuple[str, ...]] = {(e, o.id): () for o in operations for e in o.after}
+    needs = {o.id: o.resources for o in operations}
+    users: dict[str, list[str]] = {}
+    for i in order:
+        for resource in needs[i]:
+            users.setdefault(resource, []).append(i)
+    for resource, turn in sorted(users.items()):
+        for pair in pairwise(turn):
+            found[pair] = (*found.get(pair, ()), resource)
+    return found
+
+
+def _implied(order: Sequence[str], behind: Mapping[str, Sequence[str]]) -> set[tuple[str, str]]:
+    """Return the links that a longer way makes superfluous."""
+    reached: dict[str, set[str]] = {}
+    for i in reversed(order):
+        reached[i] = set(behind[i]).union(*(reached[e] for e in behind[i]))
+    return {(a, b) for a in order for b in behind[a] if any(b in reached[e] for e in behind[a])}
+
+
+def _earliest(
+    operations: Mapping[str, Operation], order: Sequence[str], before: Mapping[str, Sequence[str]]
+) -> dict[str, float]:
+    starts: dict[str, float] = {}
+    for i in order:
+        starts[i] = max((starts[e] + operations[e].seconds for e in before[i]), default=0.0)
+    return starts
+
+
+def _rest(
+    operations: Mapping[str, Operation], order: Sequence[str], behind: Mapping[str, Sequence[str]]
+) -> dict[str, float]:
+    """Return how long it takes at least from the start of each operation to the end of the plan [s]."""
+    rest: dict[str, float] = {}
+    for i in reversed(order):
+        rest[i] = operations[i].seconds + max((rest[e] for e in behind[i]), default=0.0)
+    return rest
+
+
+def _critical(
+    operations: Mapping[str, Operation], order: Sequence[str], before: Mapping[str, Sequence[str]],
+    earliest: Mapping[str, float], rest: Mapping[str, float], length: float,
+) -> tuple[str, ...]:  # fmt: skip
+    """Return one path without spare time, from an operation that starts at once to the one that ends last."""
+    tight = [i for i in order if abs(length - earliest[i] - rest[i]) < _NEAR]
+    path = [i for i in tight if abs(earliest[i] + operations[i].seconds - length) < _NEAR][-1:]
+    while path and before[path[-1]]:
+        ends = {e: earliest[e] + operations[e].seconds for e in before[path[-1]]}
+        last = max(ends, key=lambda e: (round(ends[e], 6), order.index(e)))
+        path.append(last)
+    return tuple(reversed(path))
