@@ -1,0 +1,32 @@
+"""How much work a search may do: counted, never timed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """How much work is allowed: integer programs solved, their branch-and-bound nodes, exchanges of the local search.
+    Counts, not seconds, so that the same problem always gets the same answer."""
+
+    solves: int = 300
+    nodes: int = 20_000
+    exchanges: int = 2_000
+
+    def work(self) -> Work:
+        """Return a fresh account of the programs and nodes allowed."""
+        return Work(self.solves, self.nodes)
+
+
+@dataclass(slots=True)
+class Work:
+    """What is left of the work allowed: programs solved and branch-and-bound nodes, never seconds, so that the same
+    problem always gets the same answer."""
+
+    solves: int
+    nodes: int
+
+    @property
+    def spent(self) -> bool:
+        return self.solves <= 0 or self.nodes <= 0
