@@ -79,10 +79,10 @@ class OneRun:
 def test_ctrl_c_halts_then_stops_and_ends_with_a_tally(
     presses: int, calls: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    run = Interrupted(presses)
+    run, before = Interrupted(presses), signal.getsignal(signal.SIGINT)
     code = execute(Session(), OneRun(run), PLAN)  # type: ignore[arg-type]
     assert (code, run.calls) == (130, calls)
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is before
     out = capsys.readouterr().out
     assert "✓ 1/2 lx_125 storage/a1 → (395, 420, 0°)" in out
     assert "off by 0.11 mm" in out
