@@ -42,6 +42,9 @@ def main() -> int:
     print(f"{len(verdicts)} cases, {len(planned)} planned, {sum(v.moves for v in planned)} moves, "
           f"{sum(v.staged > 0 for v in planned)} with staging ({sum(v.staged for v in planned)} staged), "
           f"{sum(v.asides > 0 for v in planned)} with something right moved aside")  # fmt: skip
+    proven, staged = [v for v in planned if v.fewest], [v for v in planned if v.staged]
+    print(f"the fewest stagings, proven: {len(proven)} of {len(planned)} plans, "
+          f"{sum(v.fewest for v in staged)} of the {len(staged)} with staging")  # fmt: skip
     print(f"up to {SMALL} components: {len(small)} cases, {sum(bool(v.refused) for v in small)} refused, "
           f"{sum(v.undecided for v in small)} of these undecided")  # fmt: skip
     refused = [v for v in large if v.refused]

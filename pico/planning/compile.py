@@ -37,7 +37,7 @@ class Compiled:
     """The operations of a plan, in no final order, and what is to be said about them."""
 
     operations: tuple[Operation, ...] = ()
-    staged: int = 0
+    staging: Staging = field(default_factory=lambda: Staging(proven=True))
     diagnostics: tuple[Diagnostic, ...] = field(default=())
 
 
@@ -83,7 +83,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,
-        staging=Staging(count=moves.staged, lower_bound=0, proven=moves.staged == 0 and not _errored(diagnostics)),
+        staging=Staging() if _errored(diagnostics) else moves.staging,
         makespan=makespan(operations), diagnostics=diagnostics,
     ).sealed()  # fmt: skip
 
@@ -110,8 +110,9 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     if not isinstance(answer, Solution):
         return Compiled(diagnostics=(*put_off, *explain(answer, request.source)))
     operations, notes = _operations(request, answer)
-    staged = sum(s.goal not in answer.table.movers[s.mover].goals for s in answer.steps)
-    return Compiled(tuple(operations), staged, (*put_off, *hand_warnings(movers), *notes))
+    count, least = answer.staged, min(answer.staged, answer.least)
+    staging = Staging(count=count, lower_bound=least, proven=count == least)
+    return Compiled(tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes))
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:

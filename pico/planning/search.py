@@ -31,13 +31,15 @@ class Step:
 @dataclass(frozen=True, slots=True)
 class Effort:
     """How hard to search. `commit`: make a move at once that hinders nobody's direct move. `slots`: how many storage
-    places to try for each component (None: all). `everyone`: stage any component, not only those in the way."""
+    places to try for each component (None: all). `everyone`: stage any component, not only those in the way; `only`:
+    stage none but these (None: all)."""
 
     weight: float
     limit: int
     commit: bool = False
     slots: int | None = None
     everyone: bool = False
+    only: frozenset[int] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +103,8 @@ class _Search:
                     return
         yield from ((step, 1.0) for step in homing)
         for i in self.who if self.effort.everyone else self._in_the_way(stuck, pending, places, taken):
-            yield from self._stagings(i, places, taken)
+            if self.effort.only is None or i in self.effort.only:
+                yield from self._stagings(i, places, taken)
 
     def _harmless(self, step: Step, pending: Sequence[int], places: Configuration) -> bool:
         """Whether a component at its goal hinders no direct move of those still to go."""
@@ -158,22 +161,25 @@ class _Search:
         """Return the storage places of a component, those first that nobody needs and that hinder least, then near
         ones."""
         if i not in self._storage:
-            mover = self.table.movers[i]
-            wanted = {self.table.movers[j].goal.slot for j in self.who}
-
-            def rank(place: int) -> tuple[bool, int, float]:
-                spot = mover.places[place]
-                crowd = sum(
-                    self.table.movers[j].places[p].slot != spot.slot for j, p in self.table.at(self._body(i, place))
-                )
-                return spot.slot in wanted, crowd, spot.pose.distance(mover.goal.pose)
-
-            usable = [p for p in mover.staging if self.table.arrive(i, p) is not None]
-            self._storage[i] = tuple(sorted(usable, key=rank))
+            self._storage[i] = ranked_storage(self.table, i, self.who)
         return self._storage[i]
 
     def _body(self, i: int, place: int) -> int:
         return self.table.arrive(i, place) or 0
+
+
+def ranked_storage(table: Conflicts, i: int, who: Sequence[int]) -> tuple[int, ...]:
+    """Return the storage places of a component, those first that none of `who` needs and that hinder least, then near
+    ones."""
+    mover = table.movers[i]
+    wanted = {table.movers[j].goal.slot for j in who}
+
+    def rank(place: int) -> tuple[bool, int, float]:
+        spot = mover.places[place]
+        crowd = sum(table.movers[j].places[p].slot != spot.slot for j, p in table.at(table.arrive(i, place) or 0))
+        return spot.slot in wanted, crowd, spot.pose.distance(mover.goal.pose)
+
+    return tuple(sorted((p for p in mover.staging if table.arrive(i, p) is not None), key=rank))
 
 
 def search(table: Conflicts, effort: Effort, who: Sequence[int] | None = None, work: Work | None = None) -> Found:

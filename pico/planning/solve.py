@@ -2,43 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import combinations
 
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.motion.types import Motion
-from pico.planning.conflicts import FEW, Conflicts, sum_of
+from pico.planning.conflicts import Conflicts
+from pico.planning.hunt import COMPLETE, hunt, stagings
 from pico.planning.movers import Mover, Obstacle
 from pico.planning.order import arranged, precedence
 from pico.planning.paths import NoPath, Paths, find_paths
-from pico.planning.search import Configuration, Effort, Found, Step, search
+from pico.planning.search import Configuration, Step
 from pico.planning.shorten import shortened
 
-COMPLETE = FEW
-"""Up to so many movers nothing solvable is refused: the last search prunes nothing."""
-
-EFFORTS = (
-    Effort(weight=1.0, limit=300, commit=True, slots=3),
-    Effort(weight=2.0, limit=600, commit=True, slots=3),
-    Effort(weight=3.0, limit=1500, slots=6),
-)
-EVERYTHING = Effort(weight=2.0, limit=200_000, everyone=True)
-PROOF = Effort(weight=2.0, limit=3000, everyone=True)
-PROOF_WORK = 30_000
-"""Expansions spent in all on proving that a few movers are enough to make a problem impossible."""
 PATH_ROUNDS = 200
 """How often the search may start again because a path was blocked."""
 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """The moves in order, with the tables that they were found in and their paths (None without motion)."""
+    """The moves in order, with the tables that they were found in, their paths (None without motion), and a number of
+    stagings below which no plan can go that moves the same components."""
 
     table: Conflicts
     steps: tuple[Step, ...]
     paths: Paths | None
+    least: int = 0
+
+    @property
+    def staged(self) -> int:
+        """How many moves put a component down on its way."""
+        return stagings(self.steps)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,68 +84,20 @@ def attempt(problem: Problem) -> Solution | Refusal:
     table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion)
     blocked: list[NoPath] = []
     while True:
-        found, core = hunt(table)
+        found = hunt(table)
         if found.steps is None:
-            return Refusal(table, core, found.closest, bool(core) or found.exhausted, tuple(blocked))
+            return Refusal(table, found.core, found.closest, found.proven, tuple(blocked))
         steps = shortened(table, found.steps)
         steps = arranged(problem.setup, table, steps, precedence(table, steps, {}))
         if problem.motion is None:
-            return Solution(table, steps, None)
+            return Solution(table, steps, None, found.least)
         paths = find_paths(table, steps, problem.seen, problem.motion)
         if isinstance(paths, Paths):
-            return Solution(table, steps, paths)
+            return Solution(table, steps, paths, found.least)
         blocked.append(paths)
         if len(blocked) > PATH_ROUNDS:
             return Refusal(table, (), found.closest, False, tuple(blocked))
         table.forbid(paths.step.mover, paths.step.start, paths.step.goal, paths.step.hold, paths.spot)
-
-
-def hunt(table: Conflicts) -> tuple[Found, tuple[int, ...]]:
-    """Search with growing effort. Returns the last search, and movers that are proven not to get home, if any."""
-    everyone = range(len(table.movers))
-    for i in everyone:
-        if not any(table.ways(i, 0, g) for g in table.movers[i].goals) and not table.movers[i].right:
-            alone = search(table, PROOF, (i,))
-            if alone.exhausted:
-                return alone, (i,)
-    for effort in EFFORTS:
-        found = search(table, effort)
-        if found.steps is not None:
-            return found, ()
-    core = _core(table, found.closest)
-    if not core and len(table.movers) <= COMPLETE:
-        return search(table, EVERYTHING), ()
-    return found, core
-
-
-def _core(table: Conflicts, closest: Configuration) -> tuple[int, ...]:
-    """Return two or three movers that can't get home even where all others are taken off the table. On a large table
-    threes are looked for only among those that the search did not bring home."""
-    who = [i for i, m in enumerate(table.movers) if not m.right]
-    stuck = [i for i in who if closest[i] not in table.movers[i].finished]
-    small, arcs = len(who) <= COMPLETE, _arcs(table, who)
-    work = PROOF_WORK
-    for size, names in ((2, who), (3, who if small else stuck[:12])):
-        for group in combinations(names, size):
-            if work > 0 and _linked(group, arcs):
-                found = search(table, PROOF, group)
-                work -= found.expanded
-                if found.exhausted:
-                    return group
-    return ()
-
-
-def _arcs(table: Conflicts, who: Sequence[int]) -> set[tuple[int, int]]:
-    """Return the pairs (a, b) where, in some hold, `a` must move before `b`: it stands in the way of `b`, or `b` at
-    its goal would stand in its way."""
-    needs = {i: table.hindrances(i) for i in who}
-    goals = {i: sum_of(table.bit(i, g) for g in table.movers[i].goals) for i in who}
-    return {(a, b) for a in who for b in who if a != b and (needs[b] & table.bit(a, 0) or needs[a] & goals[b])}
-
-
-def _linked(group: Sequence[int], arcs: set[tuple[int, int]]) -> bool:
-    """Whether each of the group waits for another of it and is waited for, as in a ring."""
-    return all(any((a, b) in arcs for b in group) and any((b, a) in arcs for b in group) for a in group)
 
 
 def _asides(problem: Problem, refused: Refusal) -> Iterator[frozenset[str]]:

@@ -17,12 +17,14 @@ SMALL = 7
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a case. `wrong`: what the checker found, or a refusal of something solvable."""
+    """What became of a case. `fewest`: proven that no plan stages less. `wrong`: what the checker found, or
+    a refusal of something solvable."""
 
     seed: int
     components: int
     moves: int
     staged: int
+    fewest: bool
     asides: int
     refused: str
     proven: bool
@@ -68,6 +70,7 @@ def judge(seed: int, *, least: int = 5, most: int = 30) -> Verdict:
         count,
         len(moves),
         made.staging.count,
+        made.staging.proven,
         asides,
         refused,
         "within the limit" not in refused,

@@ -14,6 +14,7 @@ from planning_benches import SLOTS, bench, moves, part, planned, see, want
 from pico.model.catalog import Footprint
 from pico.model.lab import Gripper, Margins, Mount, Robot, Slot
 from pico.model.observation import ObservedRobot, UnknownObject
+from pico.model.plan import Staging
 from pico.model.pose import Pose
 
 
@@ -46,7 +47,7 @@ def test_a_swap_puts_one_of_the_two_down_in_storage() -> None:
     made = planned(setup, seen, wanted)
     assert check(setup, seen, wanted, made) == []
     assert len(moves(made)) == 3
-    assert made.staging.count == 1 and not made.staging.proven
+    assert made.staging == Staging(count=1, lower_bound=1, proven=True)
     staged = made.operations[0].reason
     assert staged.kind == "staged" and staged.overlap == 60
     assert "makes room for" in staged.text

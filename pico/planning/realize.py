@@ -1,0 +1,148 @@
+"""From the components to stage to an order of moves: leave late, arrive early, and a free slot for each meanwhile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from pico.planning.conflicts import Conflicts
+from pico.planning.feedback import Choice, Event, Problem, Staging
+from pico.planning.search import Step, ranked_storage
+
+TRIES = 2000
+"""Moves tried in all to find slots for one order."""
+
+Act = tuple[int, str]
+"""A mover, and which of its moves: `direct`, `leaves` for storage, or `arrives` from there."""
+
+
+def realized(table: Conflicts, problem: Problem, answer: Staging) -> tuple[Step, ...] | None:
+    """Return moves that stage exactly what `answer` stages, or None where no slots for them are found."""
+    assert answer.options is not None
+    stays = {i for i, c in enumerate(answer.options) if c.direct is not None and _stays(problem, i, c.direct)}
+    order = [act for act in _order(_before(problem, answer.options)) if act[0] not in stays]
+    replay = _Replay(table, order, TRIES)
+    return tuple(replay.steps) if replay.run() else None
+
+
+def _stays(problem: Problem, i: int, direct: int) -> bool:
+    return problem.components[i].direct[direct].name is None
+
+
+def _act(event: Event, choices: Sequence[Choice]) -> Act:
+    i = event.component
+    return (i, event.what if choices[i].staged else "direct")
+
+
+def _before(problem: Problem, choices: Sequence[Choice]) -> dict[Act, set[Act]]:
+    """Return for each move those that must come before it."""
+    before: dict[Act, set[Act]] = {}
+    arcs = list(problem.arcs)
+    goals = {}
+    for i, (component, choice) in enumerate(zip(problem.components, choices, strict=True)):
+        if choice.direct is None:
+            assert choice.pick is not None and choice.place is not None
+            pick, end = component.pick[choice.pick], component.place[choice.place]
+            before |= {(i, "leaves"): set(), (i, "arrives"): {(i, "leaves")}}
+            arcs += pick.arcs
+        else:
+            end = component.direct[choice.direct]
+            before[i, "direct"] = set()
+        arcs += end.arcs
+        goals[i] = end.goal
+    for arc in arcs:
+        first, then = _act(arc.before, choices), _act(arc.after, choices)
+        if first != then and all(goals[j] == goal for j, goal in arc.goals):
+            before[then].add(first)
+    return before
+
+
+def _order(before: dict[Act, set[Act]]) -> list[Act]:
+    """Return an order in which few components are in storage at a time: nothing leaves for storage while anything can
+    arrive, and then what the next arrival needs least of."""
+    left, order, gone = dict.fromkeys(sorted(before)), list[Act](), set[Act]()
+    while left:
+        ready = [a for a in left if before[a] <= gone]
+        arriving = [a for a in ready if a[1] != "leaves"]
+        chosen = arriving[:1] or _for_the_nearest(before, list(left), gone) or ready[:1]
+        for act in chosen:
+            del left[act]
+            gone.add(act)
+            order.append(act)
+    return order
+
+
+def _for_the_nearest(before: dict[Act, set[Act]], left: Sequence[Act], gone: set[Act]) -> list[Act]:
+    """Return the moves to storage after which something can arrive: the fewest, and of others first."""
+    best: list[Act] = []
+    for act in left:
+        if act[1] == "leaves":
+            continue
+        needs, stack = set[Act](), [act]
+        while stack:
+            for earlier in before[stack.pop()] - gone - needs:
+                needs.add(earlier)
+                stack.append(earlier)
+        if all(a[1] == "leaves" for a in needs) and (not best or len(needs) < len(best)):
+            best = _sorted(before, needs)
+    return best
+
+
+def _sorted(before: dict[Act, set[Act]], acts: set[Act]) -> list[Act]:
+    out: list[Act] = []
+    while len(out) < len(acts):
+        out.append(next(a for a in sorted(acts) if a not in out and (before[a] & acts) <= set(out)))
+    return out
+
+
+@dataclass(slots=True)
+class _Replay:
+    """Walks an order of moves and chooses slots, back and forth, until `tries` moves were tried."""
+
+    table: Conflicts
+    order: Sequence[Act]
+    tries: int
+    steps: list[Step] = field(default_factory=list)
+    _storage: dict[int, tuple[int, ...]] = field(default_factory=dict)
+
+    def run(self) -> bool:
+        """Make the moves; False where no slots for them are found."""
+        places = [0] * len(self.table.movers)
+        trail: list[Iterator[Step]] = []
+        while len(self.steps) < len(self.order):
+            if len(trail) == len(self.steps):
+                trail.append(self._ways(self.order[len(trail)], places))
+            step = next(trail[-1], None) if self.tries > 0 else None
+            if step is not None:
+                self.tries -= 1
+                self.steps.append(step)
+                places[step.mover] = step.goal
+                continue
+            trail.pop()
+            if not self.steps or self.tries <= 0:
+                return False
+            undone = self.steps.pop()
+            places[undone.mover] = undone.start
+        return True
+
+    def _ways(self, act: Act, places: list[int]) -> Iterator[Step]:
+        i, what = act
+        taken = 0
+        for j, place in enumerate(places):
+            taken |= self.table.bit(j, place)
+        for goal in self._between(i) if what == "leaves" else self._ends(i, places[i]):
+            way = self.table.way(i, places[i], goal, taken)
+            if way:
+                yield Step(i, places[i], goal, way.hold, way.mask)
+
+    def _ends(self, i: int, now: int) -> list[int]:
+        return sorted(self.table.movers[i].finished - {now})
+
+    def _between(self, i: int) -> tuple[int, ...]:
+        """Return the storage from which a component can go on, best first."""
+        if i not in self._storage:
+            self._storage[i] = tuple(
+                p for p in ranked_storage(self.table, i, range(len(self.table.movers)))
+                if any(self.table.ways(i, p, g) for g in self.table.movers[i].finished)
+            )  # fmt: skip
+        return self._storage[i]

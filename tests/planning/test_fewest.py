@@ -1,0 +1,45 @@
+"""As few stagings as can be: against a search through everything on small tables, and what the plan says about it."""
+
+from __future__ import annotations
+
+from exhaustive import Undecided, least_moves
+from fuzzing import plan_case
+from planning_benches import bench, moves, planned, see, want
+from random_labs import random_case
+
+from pico.model.lab import Slot
+from pico.model.plan import Staging
+
+
+def test_a_proven_plan_has_no_more_moves_than_any_other() -> None:
+    compared = 0
+    for seed in range(7000, 7020):
+        case = random_case(seed, least=4, most=5)
+        made = plan_case(case)
+        if made.errored or not made.staging.count or any(o.reason.kind == "in_the_way" for o in made.operations):
+            continue
+        try:
+            least = least_moves(case, limit=1500)
+        except Undecided:
+            continue
+        assert made.staging.proven and len(moves(made)) == least, seed
+        compared += 1
+    assert compared >= 4
+
+
+def test_two_rings_that_share_a_component_are_broken_there() -> None:
+    # b stands at the goals of a and c, and both stand at its goal: a rail of 120 mm takes the room of two blocks
+    setup = bench({"a": "block", "b": "rail", "c": "block"})
+    seen = see(setup, {"a": (268, 300), "b": (500, 300), "c": (332, 300)})
+    made = planned(setup, seen, want({"a": (468, 300), "b": (300, 300), "c": (532, 300)}))
+    assert made.staging == Staging(count=1, lower_bound=1, proven=True)
+    assert moves(made)[0][0] == "b"
+
+
+def test_where_storage_has_room_for_less_the_plan_says_so() -> None:
+    # two swaps far apart, one slot: one after the other, each through the slot
+    setup = bench(dict.fromkeys("abcd", "block"), {"s1": Slot(x=60, y=60)})
+    seen = see(setup, {"a": (200, 300), "b": (300, 300), "c": (500, 300), "d": (600, 300)})
+    made = planned(setup, seen, want({"a": (300, 300), "b": (200, 300), "c": (600, 300), "d": (500, 300)}))
+    assert made.staging == Staging(count=2, lower_bound=2, proven=True)
+    assert [to for _, to in moves(made)].count("s1") == 2
