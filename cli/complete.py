@@ -12,16 +12,17 @@ from .summary import COMMANDS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
-    "-n", "--number", "--after", "--distance", "--dx", "--dy", "--dyaw",
+    "-n", "--number", "--explain", "--after", "--distance", "--dx", "--dy", "--dyaw",
 )  # fmt: skip
 _APPLY = ("--auto-approve", "--exact", "--fidelity")
 _ONE = ("--dry-run", "--fidelity")
 OPTIONS: dict[str, tuple[str, ...]] = {
     "init": ("--example",),
     "status": ("--all",),
-    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity"),
+    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain"),
     "apply": _APPLY,
     "checkout": ("--auto-approve", "--fidelity"),
+    "explain": ("--fidelity",),
     "graph": ("--format", "--out", "--fidelity"),
     "fmt": ("--check",),
     "parts": ("--free",),
@@ -48,8 +49,9 @@ FIXED = {
     "--format": ("dot", "mermaid"),
     "--example": ("minimal", "shel", "crowded"),
 }
+COMPONENTS = ("--after", "--explain")
 _COMPONENT = ("do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
-_REVISION = ("plan", "apply", "checkout", "graph", "log", "diff", "show", "render")
+_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 
@@ -62,7 +64,7 @@ def candidates(words: Sequence[str]) -> list[str]:
 
 def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
     if before and before[-1] in VALUES:
-        return list(_inventory(folder)) if before[-1] == "--after" else FIXED.get(before[-1], ())
+        return list(_inventory(folder)) if before[-1] in COMPONENTS else FIXED.get(before[-1], ())
     plain = [w for i, w in enumerate(before) if not w.startswith("-") and (i == 0 or before[i - 1] not in VALUES)]
     if not plain:
         return (*SHARED, "--version") if last.startswith("-") else tuple(COMMANDS)
@@ -83,8 +85,10 @@ def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str
         yield from ("move", "stow", "set", "home")
     elif command in _REVISION and len(given) < (2 if command == "diff" else 1):
         yield from _revisions(folder)
-        if command in ("apply", "graph", "show"):
+        if command in ("apply", "explain", "graph", "show"):
             yield from (p.name for p in folder.glob("*.plan"))
+    elif command == "explain" and len(given) == 1:
+        yield from _inventory(folder)
     elif command == "completion":
         yield from ("bash", "zsh", "fish")
 

@@ -9,6 +9,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "plan": "Show what would move to make the bench equal to the manifest or a revision.",
         "apply": "Move what the plan says.",
         "checkout": "Go to a revision: files and bench.",
+        "explain": "Say why a plan moves what it moves, why in this order, and why not less.",
         "graph": "Show a plan as a graph: what waits for what, and the critical path.",
     },
     "Manifests": {

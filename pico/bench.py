@@ -28,6 +28,7 @@ from pico.motion.deferred import DeferredMotion
 if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
+    from pico.planning.explain import Explanation
     from pico.twin.picture import Image, View
 
 CommitMode = Literal["strict", "capture", "planned"]
@@ -120,6 +121,12 @@ class AsyncBench(Reader):
         """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None)."""
         found = self.find(word, folder) if word else None
         return found if isinstance(found, Plan) else await self.plan(found, exact=exact)
+
+    def explain(self, plan: Plan, component: str | None = None) -> Explanation:
+        """Return why a plan is as it is, or what it does with one component; raises PicoError for an unknown one."""
+        from pico.planning.explain import explain
+
+        return explain(self.setup, plan, component)
 
     async def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
         """Return the plan to a revision that is about to be checked out; raises PicoError where edits would be lost."""
@@ -294,6 +301,10 @@ class Bench(Reader):
     def plan_of(self, word: str | None, *, folder: Path = Path(), exact: bool = False) -> Plan:
         """Return the saved plan that `word` names, or the plan to the revision that it names."""
         return self._thread.wait(self._bench.plan_of(word, folder=folder, exact=exact))
+
+    def explain(self, plan: Plan, component: str | None = None) -> Explanation:
+        """Return why a plan is as it is; see `AsyncBench.explain`."""
+        return self._bench.explain(plan, component)
 
     def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
         """Return the plan to a revision that is about to be checked out; refused where edits would be lost."""

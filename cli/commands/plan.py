@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
@@ -12,6 +13,11 @@ from ..arguments import DetailedExit, Exact, Fidelity, Out, Revision
 from ..session import Session
 from ..views import plan as view
 
+Explain = Annotated[
+    str | None,
+    typer.Option("--explain", metavar="COMPONENT", help="Say why the plan does with COMPONENT what it does."),
+]
+
 
 def plan(
     context: typer.Context,
@@ -20,6 +26,7 @@ def plan(
     detailed_exitcode: DetailedExit = False,
     exact: Exact = False,
     fidelity: Fidelity = None,
+    explain: Explain = None,
 ) -> int:
     """Show what would move to make the bench equal to the manifest or a revision.
 
@@ -30,8 +37,13 @@ def plan(
     found = bench.plan(revision, exact=exact)
     if out and not found.errored:
         (session.folder / out).write_text(found.to_json() + "\n")
-    session.show(view, found, head=bench.head_name(), goal=bench.goal_name(found), next_step=_next(revision, out))
-    if not session.json:
+    if explain:
+        from .explain import show
+
+        show(session, bench, found, explain)
+    else:
+        session.show(view, found, head=bench.head_name(), goal=bench.goal_name(found), next_step=_next(revision, out))
+    if not session.json and not explain:
         session.report(found.diagnostics)
     if found.errored:
         return ExitCode.IMPOSSIBLE
