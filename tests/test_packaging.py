@@ -22,3 +22,8 @@ def test_every_python_file_is_in_a_package() -> None:
     for folder in ("pico", "cli"):
         for path in (ROOT / folder).rglob("*.py"):
             assert (path.parent / "__init__.py").exists(), f"{path.relative_to(ROOT)} is in no package"
+
+
+def test_test_modules_have_names_of_their_own() -> None:
+    names = [path.name for path in (ROOT / "tests").rglob("*.py") if path.name != "conftest.py"]
+    assert sorted(names) == sorted(set(names)), "pytest imports test modules by their bare names"
