@@ -104,6 +104,8 @@ def step(op: Operation) -> str:
 
 def change_of(plan: Plan, op: Operation) -> Change | None:
     """Return the change that an operation brings about."""
+    if op.reason.kind == "interlock":
+        return None
     key = (op.component, op.arguments.get("tunable", "pose"))
     return next((c for c in plan.changes if (c.component, c.tunable) == key), None)
 
@@ -166,8 +168,8 @@ def _name(change: Change) -> str:
 
 
 def tally(operations: Sequence[Operation]) -> str:
-    """Return `2 moves, 1 setting, 1 homing`; empty for no operation."""
-    kinds = [op.primitive for op in operations]
+    """Return `2 moves, 1 setting, 1 homing`; empty for no operation. Interlocks are the policy's matter."""
+    kinds = [op.primitive for op in operations if op.reason.kind != "interlock"]
     found = [
         (kinds.count("move") + kinds.count("stow"), "move", ""),
         (kinds.count("set"), "setting", ""),
@@ -189,9 +191,11 @@ def _summary(plan: Plan) -> list[str]:
     arms = sum(op.seconds for op in plan.operations if op.robot)
     parts.append(f"{seconds(plan.makespan)} in all" + (f", arm {seconds(arms)}" if arms else ""))
     line = " · ".join(part for part in parts if part)
-    touched = {op.component for op in plan.operations if op.component in plan.base.state}
+    changed = [op for op in plan.operations if op.reason.kind != "interlock"]
+    touched = {op.component for op in changed if op.component in plan.base.state}
     stay = len(plan.base.state) - len(touched)
-    return [line, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
+    lines = [line, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
+    return lines + [f"policy: {' · '.join(rule['text'] for rule in plan.policy)}"] * bool(plan.policy)
 
 
 def _staging(plan: Plan) -> str:

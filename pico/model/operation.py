@@ -12,7 +12,7 @@ from pico.model.record import record
 
 Primitive = Literal["move", "stow", "set", "home", "measure", "park", "operator"]
 Outcome = Literal["done", "failed", "unknown"]
-ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked"]
+ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked", "interlock"]
 
 
 @record
@@ -23,7 +23,8 @@ class Reason:
     it is, but must make room for the components in `of`, whose space it overlaps by `overlap` mm. `staged`: it stands
     in a ring of components that block one another (`of`), and is put down in storage on its way. `operator`: only a
     person can do it. `asked`: somebody asked for this one operation (`pico do`).
-    `parked`: a robot leaves the beam when the last of its work is done.
+    `parked`: a robot leaves the beam when the last of its work is done. `interlock`: a laser's shutter is closed while
+    somebody works in its beam, and set as wanted afterwards.
     """
 
     kind: ReasonKind

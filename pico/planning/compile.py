@@ -15,6 +15,7 @@ from pico.model.record import as_json
 from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
+from pico.planning.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.movers import Place
 from pico.planning.request import Preference, Request
 from pico.planning.selection import done_by, selection, told
@@ -73,7 +74,9 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        operations = schedule((*moves.operations, *shifted))
+        guarded = with_interlocks(setup, request.seen, request.wanted, (*moves.operations, *shifted))
+        operations = schedule(guarded)
+        diagnostics = (*diagnostics, *unguarded(setup, request.seen, request.wanted, operations))
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
@@ -84,7 +87,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,
         staging=Staging() if _errored(diagnostics) else moves.staging,
-        makespan=makespan(operations), diagnostics=diagnostics,
+        makespan=makespan(operations), policy=policy_rules(setup, request.seen, request.wanted, operations),
+        diagnostics=diagnostics,
     ).sealed()  # fmt: skip
 
 
@@ -94,7 +98,7 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
-    from pico.planning.refusal import explain
+    from pico.planning.refusal import explain, storage_note
     from pico.planning.solve import Problem, Solution, solve
 
     movers, obstacles, put_off = actors(request, situation)
@@ -112,7 +116,7 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     operations, notes = _operations(request, answer)
     count, least = answer.staged, min(answer.staged, answer.least)
     staging = Staging(count=count, lower_bound=least, proven=count == least)
-    return Compiled(tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes))
+    return Compiled(tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes, *storage_note(answer)))
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:

@@ -35,24 +35,37 @@ def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
 
 def _priorities(operations: Sequence[Operation]) -> list[int]:
     """Return the order in which operations are given their time; what one waits for comes before it."""
-    rest = [n for n, o in enumerate(operations) if not o.robot and o.primitive != "operator"]
+    turns = _in_turn(operations)
+    rest = sorted(set(range(len(operations))) - set(turns))
     tails = {n: operations[n].seconds for n in rest}
     for n in reversed(rest):
         for e in operations[n].after:
             if int(e) in tails:
                 tails[int(e)] = max(tails[int(e)], operations[int(e)].seconds + tails[n])
-    return _in_turn(operations) + sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
+    return turns + sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
 
 
 def _in_turn(operations: Sequence[Operation]) -> list[int]:
-    """Return the operations of robots and people as they are listed, each after what it waits for."""
+    """Return the operations of robots and people as they are listed, each after what it waits for, a shutter, say."""
     order: dict[int, None] = {}
     left = [n for n, o in enumerate(operations) if o.robot or o.primitive == "operator"]
+    left = [*_awaited(operations, left), *left]
     while left:
         n = next(n for n in left if all(int(e) in order for e in operations[n].after))
         order[n] = None
         left.remove(n)
     return list(order)
+
+
+def _awaited(operations: Sequence[Operation], turns: Sequence[int]) -> list[int]:
+    """Return what robots and people wait for besides one another, directly or not."""
+    found: set[int] = set()
+    todo = list(turns)
+    while todo:
+        new = {int(e) for e in operations[todo.pop()].after} - found - set(turns)
+        found |= new
+        todo += new
+    return sorted(found)
 
 
 def _gap(spans: Sequence[Span], ready: float, seconds: float) -> float:

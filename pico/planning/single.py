@@ -16,6 +16,7 @@ from pico.model.quantities import Value
 from pico.model.state import ComponentState, LabState
 from pico.motion.types import Motion
 from pico.planning.compile import compiled_plan
+from pico.planning.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.values import home_operation, value_operations
@@ -87,11 +88,13 @@ def _sealed(
     setup: Setup, seen: Observation, operations: list[Operation], notes: list[Diagnostic], backend: str, fidelity: str,
     base: Base | None, wanted: LabState, changes: tuple[Change, ...],
 ) -> Plan:  # fmt: skip
-    timed = schedule(operations)
+    timed = schedule(with_interlocks(setup, seen, wanted, operations))
+    notes = [*notes, *unguarded(setup, seen, wanted, timed)]
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
         base=base or Base(state=live_state(setup, seen).as_json()), target=Target(state=wanted.as_json()),
-        changes=changes, operations=timed, makespan=makespan(timed), diagnostics=tuple(notes),
+        changes=changes, operations=timed, makespan=makespan(timed),
+        policy=policy_rules(setup, seen, wanted, timed), diagnostics=tuple(notes),
     ).sealed()  # fmt: skip
 
 

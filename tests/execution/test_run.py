@@ -221,7 +221,7 @@ def test_cancelled_twice_it_stops_at_once_and_the_gripper_holds(bench: SimBacken
 
 def chain(planned: Plan) -> Plan:
     """The plan with a long setting of the laser beside short ones of the camera, one after the other."""
-    laser = next(op for op in planned.operations if op.component == "laser")
+    laser = next(op for op in planned.operations if op.arguments.get("tunable") == "emission")
     cam = next(op for op in planned.operations if op.component == "cam")
     links = [
         replace(
@@ -309,9 +309,10 @@ def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: Si
     result, events = asyncio.run(go(planned))
     assert result.outcome == "done"
     assert asyncio.run(bench.observe()).components["p2"].pose == Pose(520, 420, 0)
-    keys = [r.key for r in bench.journal.records() if r.kind == "started" and r.component == "p2" and "op1/" in r.key]
-    assert keys == ["r1/op1/1", "r1/op1/2", "r1/op1/3"]
-    assert sum(e.kind == "operation_done" and e.operation == "op1" for e in events) == 1
+    move = next(op.id for op in planned.operations if op.primitive == "move")
+    keys = [r.key for r in bench.journal.records() if r.kind == "started" and f"/{move}/" in r.key]
+    assert keys == [f"r1/{move}/{attempt}" for attempt in (1, 2, 3)]
+    assert sum(e.kind == "operation_done" and e.operation == move for e in events) == 1
 
 
 def test_a_run_whose_journal_breaks_stops_and_says_so(bench: SimBackend, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -73,10 +73,14 @@ def test_the_same_seed_gives_the_same_events_journal_and_table(tmp_path: Path) -
 
 def test_motors_turn_while_the_arm_moves(tmp_path: Path) -> None:
     setup, _ = shel()
-    _, result, events = apply(sim(setup, tmp_path), history()["C3"])
+    planned, result, events = apply(sim(setup, tmp_path), history()["C3"])
     took = sum(r.data["seconds"] for r in result.operations.values())
     arm = sum(r.data["seconds"] for r in result.operations.values() if "error_mm" in r.data)
     assert result.seconds < took - 5
-    assert result.seconds == pytest.approx(arm + result.operations["op8"].data["seconds"])
+    park = next(op.id for op in planned.operations if op.primitive == "park")
+    shut = 2 * 0.05  # the laser's shutter closes before, and opens after
+    assert result.seconds == pytest.approx(arm + result.operations[park].data["seconds"] + shut)
     started = [e.operation for e in events if e.kind == "operation_started" and e.time == 0.0]
-    assert started == ["op1", "op2", "op3", "op4", "op5"]
+    assert started == ["op1", "op2", "op3", "op4"]
+    moving = next(e.time for e in events if e.kind == "operation_started" and e.component == "p2")
+    assert moving == pytest.approx(0.05)

@@ -1,0 +1,174 @@
+"""Lasers are shut while an arm works in the beam, or an axis that steers it is homed; they open when all is done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pico.diagnostics import Diagnostic, warning
+from pico.model.catalog import Tunable
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, Reason
+from pico.model.quantities import Value
+from pico.model.setpoint import set_seconds
+from pico.model.state import LabState
+
+STEERING = ("beam_splitter", "lens", "mirror", "waveplate")
+"""Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter
+behind it. A polarizer only dims it."""
+OPEN, CLOSED = "open", "closed"
+
+
+@dataclass(frozen=True, slots=True)
+class Shutter:
+    """The shutter of a laser: what it was seen at (None where nobody knows), and what it is to be at in the end."""
+
+    laser: str
+    kind: Tunable
+    live: Value | None
+    goal: Value | None
+
+    @property
+    def shut(self) -> bool:
+        """Whether it is closed before and after the plan."""
+        return self.live == CLOSED and self.goal in (CLOSED, None)
+
+
+def with_interlocks(
+    setup: Setup, seen: Observation, wanted: LabState, operations: Sequence[Operation]
+) -> list[Operation]:
+    """Return the operations, more where shutters must be closed first and set as wanted at the end, and with the edges
+    that this takes. `after` holds indices as text.
+
+    What sets a shutter comes after the moves themselves, not only after the park: where a move fails, an arm still
+    parks, but nobody knows what stands in the beam, and the shutter stays closed.
+    """
+    guarded = _guarded(setup, operations)
+    out = list(operations)
+    if not guarded or setup.lab.policy.open_beam:
+        return out
+    first, last = _ends(operations, guarded)
+    why = _why(operations, guarded)
+    for shutter in _shutters(setup, seen, wanted):
+        if not shutter.shut:
+            _close(out, shutter, first, why)
+            _set_back(out, shutter, last, why)
+    return out
+
+
+def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[int]:
+    """Return which operations want the beam blocked: those of arms, and homing what steers it."""
+    return [n for n, o in enumerate(operations) if o.robot or (o.primitive == "home" and _steers(setup, o))]
+
+
+def _steers(setup: Setup, operation: Operation) -> bool:
+    return setup.type_of(operation.component).optics.element in STEERING
+
+
+def _ends(operations: Sequence[Operation], guarded: Sequence[int]) -> tuple[list[int], list[int]]:
+    """Return those of the guarded operations that wait for none of them, and those that none but a park waits for."""
+    inside = {str(n) for n in guarded}
+    first = [n for n in guarded if inside.isdisjoint(operations[n].after)]
+    waited = {e for n in guarded if operations[n].primitive != "park" for e in operations[n].after}
+    return first, [n for n in guarded if str(n) not in waited]
+
+
+def _why(operations: Sequence[Operation], guarded: Sequence[int]) -> str:
+    arms = sorted({operations[n].robot or "" for n in guarded} - {""})
+    if arms:
+        return f"{' and '.join(arms)} {'works' if len(arms) == 1 else 'work'} in the beam"
+    names = [f"{operations[n].component}.{operations[n].arguments['tunable']}" for n in guarded]
+    return f"homing {', '.join(names)} steers the beam"
+
+
+def _shutters(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Shutter]:
+    """Yield the shutters of lasers that a plan can set, by name."""
+    for laser in _lasers(setup):
+        kind, part = setup.type_of(laser).tunables.get("shutter"), seen.components.get(laser)
+        if kind is None or part is None or "shutter" not in part.values or not _closes(kind):
+            continue
+        known = part.values["shutter"]
+        live = known.value if known.status == "known" else None
+        target = wanted.components[laser].values.get("shutter") if laser in wanted.components else None
+        yield Shutter(laser, kind, live, known.value if target is None or kind.restore.kind == "none" else target)
+
+
+def _lasers(setup: Setup) -> list[str]:
+    return [n for n in sorted(setup.lab.inventory) if setup.type_of(n).optics.element == "source"]
+
+
+def _closes(kind: Tunable) -> bool:
+    return kind.mover in ("motor", "electronics") and {OPEN, CLOSED} <= set(kind.choices)
+
+
+def _setting(operation: Operation, laser: str, value: Value) -> bool:
+    arguments = operation.arguments
+    return (
+        operation.primitive == "set" and operation.component == laser and arguments.get("tunable") == "shutter"
+        and arguments.get("to") == value
+    )  # fmt: skip
+
+
+def _close(out: list[Operation], shutter: Shutter, first: Sequence[int], why: str) -> None:
+    """Let the first of the guarded operations come after the shutter is closed, by what the plan holds or by more."""
+    if shutter.live == CLOSED:
+        return
+    n = next((n for n, o in enumerate(out) if _setting(o, shutter.laser, CLOSED)), len(out))
+    if n == len(out):
+        out.append(_set(shutter, shutter.live, CLOSED, why))
+    for k in first:
+        out[k] = replace(out[k], after=(*out[k].after, str(n)))
+
+
+def _set_back(out: list[Operation], shutter: Shutter, last: Sequence[int], why: str) -> None:
+    """Let the shutter be set as wanted after the last of the guarded operations."""
+    if shutter.goal in (CLOSED, None):
+        return
+    after = tuple(str(k) for k in last)
+    n = next((n for n, o in enumerate(out) if _setting(o, shutter.laser, shutter.goal)), len(out))
+    if n == len(out):
+        out.append(replace(_set(shutter, CLOSED, shutter.goal, f"closed while {why}"), after=after))
+    else:
+        before = {**out[n].arguments, "from": CLOSED}
+        out[n] = replace(out[n], arguments=before, after=(*out[n].after, *after))
+
+
+def _set(shutter: Shutter, before: Value | None, after: Value, why: str) -> Operation:
+    return Operation(
+        id="", primitive="set", component=shutter.laser, reason=Reason(kind="interlock", text=why),
+        arguments={"tunable": "shutter", "from": before, "to": after},
+        resources=(f"{shutter.laser}.shutter", shutter.laser), seconds=set_seconds(shutter.kind, before, after),
+    )  # fmt: skip
+
+
+def unguarded(setup: Setup, seen: Observation, wanted: LabState, operations: Sequence[Operation]) -> list[Diagnostic]:
+    """Return a warning for each laser whose beam nothing closes while somebody works in it."""
+    if setup.lab.policy.open_beam or not _guarded(setup, operations):
+        return []
+    closed = {s.laser for s in _shutters(setup, seen, wanted)}
+    why = _why(operations, _guarded(setup, operations))
+    return [
+        warning(
+            "open-beam", f"no operation can close the beam of {laser} while {why}",
+            hint="block it by hand; a lab where the beam may stay open says `policy: {open_beam: true}`", address=laser,
+        )
+        for laser in _lasers(setup)
+        if laser not in closed and laser in seen.components and seen.components[laser].presence != "missing"
+    ]  # fmt: skip
+
+
+def policy_rules(
+    setup: Setup, seen: Observation, wanted: LabState, operations: Sequence[Operation]
+) -> tuple[Mapping[str, Any], ...]:
+    """Return what `Plan.policy` says of a plan's lasers: each rule with whether it holds, and in words."""
+    count = sum(operations[n].primitive != "park" for n in _guarded(setup, operations))
+    lasers = [s.laser for s in _shutters(setup, seen, wanted)]
+    if not count or not lasers:
+        return ()
+    when = f"during {count} move{'' if count == 1 else 's'}"
+    names = f"{' and '.join(lasers)} shutter{'' if len(lasers) == 1 else 's'}"
+    if setup.lab.policy.open_beam:
+        return ({"rule": "open_beam", "holds": True, "text": f"open beam allowed {when}"},)
+    return ({"rule": "closed_beam", "holds": True, "text": f"{names} closed {when}"},)
