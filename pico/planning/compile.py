@@ -98,7 +98,7 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
-    from pico.planning.refusal import explain, storage_note
+    from pico.planning.refusal import explain
     from pico.planning.solve import Problem, Solution, solve
 
     movers, obstacles, put_off = actors(request, situation)
@@ -116,7 +116,7 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     operations, notes = _operations(request, answer)
     count, least = answer.staged, min(answer.staged, answer.least)
     staging = Staging(count=count, lower_bound=least, proven=count == least)
-    return Compiled(tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes, *storage_note(answer)))
+    return Compiled(tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes))
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:
