@@ -1,0 +1,86 @@
+"""The cheapest order: proven where the problem is small, a good one and how good it is where not."""
+
+from __future__ import annotations
+
+from collections import abc
+from typing import TYPE_CHECKING
+
+from pico.planning.sequencing.exchange import NEAR, anneal
+from pico.planning.sequencing.nearest import nearest_order
+from pico.planning.sequencing.problem import Effort, Sequence, Tour, read_tour
+
+if TYPE_CHECKING:
+    from pico.planning.sequencing.assignment import Assignment
+
+SHARE = 1000
+"""Moves of the local search an operation before the exact search; a good order makes that one short."""
+TOLERANCE = 1e-9
+"""Two costs that differ by less than this share are the same."""
+
+
+def best_order(
+    start: abc.Sequence[float],
+    between: abc.Sequence[abc.Sequence[float]],
+    end: abc.Sequence[float],
+    before: abc.Sequence[abc.Set[int]],
+    *,
+    limit: Effort = Effort(),  # noqa: B008
+) -> Sequence:
+    """Return the cheapest order of m operations that is found within `limit`, and a bound.
+
+    `start[j]`: the cost of going to operation j first (m). `between[i][j]`: of going from i to j (m x m, without the
+    diagonal). `end[i]`: of stopping after i (m). `before[j]`: what must come before j. The same input has the same
+    answer everywhere. Raises ValueError where sizes differ, a cost is not finite, or the precedence has a ring.
+    """
+    tour = read_tour(start, between, end, before)
+    order = nearest_order(tour)
+    if tour.count < 2:
+        return _proven(tour, order)
+    from pico.planning.sequencing.assignment import assign
+    from pico.planning.sequencing.exact import MOST
+
+    floor = assign(tour)
+    near = _near(floor)
+    if tour.count <= MOST:
+        order = anneal(tour, order, near, min(limit.moves, SHARE * tour.count), limit.seed)
+        ended, cheaper = _search(tour, floor, order, limit)
+        if ended:
+            return _proven(tour, cheaper or order)
+    order = anneal(tour, order, near, limit.moves, limit.seed)
+    return _bounded(tour, order, floor.bound, limit)
+
+
+def _search(
+    tour: Tour, floor: Assignment, order: tuple[int, ...], limit: Effort
+) -> tuple[bool, tuple[int, ...] | None]:
+    """Return whether the exact search ended, and an order cheaper than `order` if it found one."""
+    from pico.planning.sequencing.exact import cheapest_below
+
+    cost = tour.cost(order)
+    room = cost - floor.bound - TOLERANCE * abs(cost)
+    return (True, None) if room <= 0 else cheapest_below(tour, floor.excess, room, limit.steps)
+
+
+def _proven(tour: Tour, order: tuple[int, ...]) -> Sequence:
+    cost = tour.cost(order)
+    return Sequence(order, cost, cost, True)
+
+
+def _bounded(tour: Tour, order: tuple[int, ...], bound: float, limit: Effort) -> Sequence:
+    from pico.planning.sequencing.cuts import cut_bound
+
+    cost = tour.cost(order)
+    if bound < cost - TOLERANCE * abs(cost):
+        bound = cut_bound(tour, bound, limit.rounds)
+    bound = min(bound, cost)
+    return Sequence(order, cost, bound, bound >= cost - TOLERANCE * abs(cost))
+
+
+def _near(floor: Assignment) -> tuple[tuple[int, ...], ...]:
+    """Return the good successors of each operation: those whose arcs cost least beyond the assignment."""
+    import numpy as np
+
+    ranked = np.argsort(floor.excess, axis=1, kind="stable")[:, :NEAR]
+    return tuple(
+        tuple(int(j) for j in row if floor.excess[i, j] < float("inf")) for i, row in enumerate(ranked)
+    )  # fmt: skip

@@ -1,0 +1,86 @@
+"""The parts that bounds are made of hold for every order, not only for those that were found."""
+
+from __future__ import annotations
+
+import random
+from itertools import permutations
+
+import numpy as np
+import pytest
+from sequencing_cases import cheapest, instance, keeps
+
+from pico.planning.sequencing.assignment import assign, duals
+from pico.planning.sequencing.cuts import cut_bound, violated
+from pico.planning.sequencing.exchange import exchangeable
+from pico.planning.sequencing.flow import Network
+from pico.planning.sequencing.nearest import nearest_order
+
+
+def test_potentials_are_below_all_costs_and_add_up_to_the_cheapest_assignment() -> None:
+    for seed in range(20):
+        costs = np.random.default_rng(seed).integers(-5, 30, (6, 6)).astype(float)
+        u, v = duals(costs)
+        assert (u[:, None] + v[None, :] <= costs + 1e-9).all()
+        best = min(sum(costs[i, j] for i, j in enumerate(p)) for p in permutations(range(6)))
+        assert u.sum() + v.sum() == pytest.approx(best)
+
+
+def test_an_order_with_an_arc_costs_at_least_the_bound_and_the_excess_of_the_arc() -> None:
+    for seed in range(10):
+        case = instance(6, 0.2, seed)
+        floor = assign(case.tour)
+        for order in permutations(range(6)):
+            if keeps(order, case.before):
+                arcs = zip((6, *order), (*order, 6), strict=True)
+                excess = sum(floor.excess[arc] for arc in arcs)
+                assert case.tour.cost(order) == pytest.approx(floor.bound + excess)
+
+
+def test_every_legal_order_fulfills_every_cut() -> None:
+    met = 0
+    for seed in range(40):
+        case = instance(6, 0.25, seed)
+        rnd = random.Random(seed)
+        pairs = [(i, j) for j in range(6) for i in range(6) if case.tour.before[j] >> i & 1]
+        used = [
+            (i, j, rnd.choice([0.25, 0.5, 0.75])) for i in range(7) for j in range(7)
+            if case.tour.follows(i, j) and rnd.random() < 0.35
+        ]  # fmt: skip
+        cuts = violated(case.tour, pairs, used)
+        met += len(cuts)
+        for order in permutations(range(6)):
+            if keeps(order, case.before):
+                arcs = list(zip((6, *order), (*order, 6), strict=True))
+                assert all(any(out >> i & 1 and into >> j & 1 for i, j in arcs) for out, into in cuts)
+    assert met > 100
+
+
+def test_cuts_raise_the_assignment_bound_but_never_above_the_best_order() -> None:
+    raised = 0
+    for seed in range(40):
+        case = instance(7, 0.15, seed)
+        floor = assign(case.tour).bound
+        bound = cut_bound(case.tour, floor, 10)
+        assert floor <= bound <= cheapest(case) + 1e-6
+        raised += bound > floor + 0.5
+    assert raised > 10
+
+
+def test_a_cut_is_found_exactly_where_too_little_can_flow() -> None:
+    network = Network(5, [(0, 1, 0.5), (1, 4, 1.0), (0, 2, 0.5), (2, 3, 0.25), (3, 4, 1.0), (2, 1, 0.25)])
+    assert network.cut(0, 4, 0, 1.0) is None
+    assert network.cut(0, 4, 1 << 3, 1.0) == 0b00101
+    assert network.cut(0, 4, 1 << 1 | 1 << 3, 0.1) == 0b00101
+
+
+def test_stretches_change_places_only_where_nothing_is_ordered_between_them() -> None:
+    after = (0b1000, 0, 0, 0)
+    assert exchangeable([0], [1, 2], after)
+    assert not exchangeable([0], [1, 3], after)
+    assert not exchangeable([0, 1, 2], [3], after)
+    assert exchangeable([1, 2], [3], after)
+
+
+def test_the_nearest_neighbor_waits_for_what_must_come_first() -> None:
+    case = instance(12, 0.3, 5)
+    assert keeps(nearest_order(case.tour), case.before)
