@@ -105,6 +105,10 @@ class Mount:
     yaw: Angle = 0.0
 
 
+XARM7_RANGES = ((-360, 360), (-117.97, 120), (-360, 360), (-11, 225), (-360, 360), (-97, 180), (-360, 360))
+"""How far the joints of an xArm7 turn, from the base outward [deg]; the vendor's published URDF."""
+
+
 @record
 class Robot:
     """An arm. Heights are of the tool centre point above the table [mm]; `speed` is a share of the joint limits."""
@@ -115,6 +119,17 @@ class Robot:
     transit_height: Length = 250.0
     speed: float = 0.5
     park: tuple[Angle, ...] = (0.0, -60.0, 0.0, 30.0, 0.0, 90.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if self.model != "xarm7":
+            return
+        if len(self.park) != len(XARM7_RANGES):
+            raise ValueError(
+                f"`park` of an xarm7 has the angles of its {len(XARM7_RANGES)} joints, not {len(self.park)}"
+            )
+        for number, (angle, (low, high)) in enumerate(zip(self.park, XARM7_RANGES, strict=True), 1):
+            if not low <= angle <= high:
+                raise ValueError(f"joint {number} of `park` is {angle:g} deg; it turns from {low:g} to {high:g} deg")
 
 
 @record
@@ -176,14 +191,6 @@ class Margins:
 
 
 @record
-class Policy:
-    """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's
-    shutter is open; else a plan closes it first."""
-
-    open_beam: bool = False
-
-
-@record
 class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
     the finger pads on a part."""
@@ -207,7 +214,6 @@ class Lab:
     datums: Mapping[str, Datum] = field(default_factory=dict)
     keep_out: Mapping[str, KeepOut] = field(default_factory=dict)
     margins: Margins = Margins()
-    policy: Policy = Policy()
     sim: SimSettings = SimSettings()
     inventory: Mapping[str, Part]
 

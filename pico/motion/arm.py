@@ -14,7 +14,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Fingers, Robot
-from pico.motion.shapes import DARK, FINGER_MASS, GREY, LINK_MASSES, LINKS, PALM, PALM_MASS, Shape
+from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM, PALM_MASS, Shape, cup, finger
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 
 if TYPE_CHECKING:
@@ -29,10 +29,6 @@ VISUAL_GROUP = 2
 COLLISION_GROUP = 3
 SITE_GROUP = 4
 FINGERS = ("left", "right")
-PALM_LENGTH = 100.0
-"""How far the gripper's body reaches from the flange [mm]; the fingers hang below it."""
-PAD_HEIGHT = 45.0
-"""Height of the pads [mm], from the tips of the fingers up."""
 GRIP_FORCE = 28.0
 """What each pad presses with at most, in rest [N]."""
 
@@ -56,14 +52,14 @@ def build_arm(robot: Robot) -> mujoco.MjSpec:
         parent = _add_link(parent, index)
         _add_servo(spec, index)
     _add_gripper(spec, parent, robot)
-    for first, second in _NEIGHBORS:
+    for first, second in NEIGHBORS:
         if robot.gripper.fingers == "none" and "finger" in second:
             continue
         spec.add_exclude(bodyname1=first, bodyname2=second)
     return spec
 
 
-_NEIGHBORS = (  # touch by construction; parent and child never collide in MuJoCo
+NEIGHBORS = (
     ("base", "link2"),
     ("link1", "link3"),
     ("link2", "link4"),
@@ -75,6 +71,7 @@ _NEIGHBORS = (  # touch by construction; parent and child never collide in MuJoC
     ("link7", "left_finger"),
     ("link7", "right_finger"),
 )
+"""Bodies that touch by construction, besides parent and child, which never collide in MuJoCo."""
 
 
 def attach_arm(spec: mujoco.MjSpec, name: str, robot: Robot, arm: mujoco.MjSpec | None = None) -> None:
@@ -131,8 +128,7 @@ def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
     _add_shapes(palm, PALM, PALM_MASS)
     palm.add_site(name="tcp", pos=[0, 0, gripper.tool / 1000], size=[0.003, 0, 0], group=SITE_GROUP)
     if gripper.fingers == "none":
-        cup = Shape("cylinder", (0, 0, PALM_LENGTH), (0, 0, gripper.tool - 1), 14, DARK, True)
-        _geom(palm, cup, "cup", FINGER_MASS)
+        _geom(palm, cup(gripper.tool), "cup", FINGER_MASS)
         return
     travel = gripper.stroke / 2000
     for name, side in zip(FINGERS, (1, -1), strict=True):
@@ -152,7 +148,6 @@ def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
 
 
 def _add_finger(palm: Any, name: str, side: int, fingers: Fingers, tool: float, travel: float) -> None:
-    """A bar from the palm to below the tool center point; its inner face is the pad."""
     import mujoco
 
     body = palm.add_body(name=f"{name}_finger", gravcomp=1)
@@ -164,15 +159,8 @@ def _add_finger(palm: Any, name: str, side: int, fingers: Fingers, tool: float, 
         armature=0.1,
         damping=[_FINGER_DAMPING, 0, 0],
     )
-    tip = tool + fingers.tip
-    pad_top = tip - PAD_HEIGHT
-    for label, low, high, recess, color in (
-        (f"{name}_pad", pad_top, tip, 0.0, DARK),
-        (f"{name}_bar", PALM_LENGTH, pad_top, 2.0, GREY),  # set back, so that only the pad meets the part
-    ):
-        center = (0.0, side * (fingers.thickness + recess) / 2, (low + high) / 2)
-        half = (fingers.breadth / 2, (fingers.thickness - recess) / 2, (high - low) / 2)
-        _geom(body, Shape("box", center, half, 0, color, True), label, FINGER_MASS / 2)
+    for label, shape in zip(("pad", "bar"), finger(side, fingers, tool), strict=True):
+        _geom(body, shape, f"{name}_{label}", FINGER_MASS / 2)
 
 
 def _add_shapes(body: Any, shapes: tuple[Shape, ...], mass: float) -> None:

@@ -6,7 +6,6 @@ again only when more components of a type stand within reach than ever before.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -16,9 +15,12 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.motion import gantry
 from pico.motion.reach import check_grip, check_reach, check_table
+from pico.motion.stability import check_stability
+from pico.motion.travel import Travel
 from pico.motion.types import Blocked, Joints, MovePath, Standing
 
 if TYPE_CHECKING:
+    from pico.motion.recheck import Recheck, Task
     from pico.motion.scene import Scene
 
 ARM_REACH = 850.0
@@ -30,9 +32,13 @@ SMALL_LAB = 60
 class ArmMotion:
     """The arms of `setup`. Not thread-safe: scenes are rearranged for each question."""
 
-    def __init__(self, setup: Setup) -> None:
-        self.setup = setup
+    def __init__(self, setup: Setup, *, second_check: bool = True) -> None:
+        """`second_check`: look at every path that is found a second time, with other kinematics and collision code."""
+        self.setup, self.second_check = setup, second_check
         self._scenes: dict[str, Scene] = {}
+        self._rechecks: dict[str, Recheck] = {}
+        self._travels: dict[str, Travel] = {}
+        self._steady: dict[str, Blocked | None] = {}
 
     def reach(self, robot: str, component: str, pose: Pose, grasp_yaw: float) -> Blocked | None:
         """See `Motion.reach`. Raises KeyError for a robot or component that the lab does not have.
@@ -40,7 +46,11 @@ class ArmMotion:
         Joint 7 turns twice around, so `grasp_yaw` decides nothing here; fingers and neighbors are the move's matter.
         """
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
-        found = check_grip(robot, arm, component, geometry) or check_table(self.setup.lab, component, geometry, pose)
+        found = (
+            check_grip(robot, arm, component, geometry)
+            or check_table(self.setup.lab, component, geometry, pose)
+            or self._stability(component, geometry)
+        )
         if found or arm.model == "gantry":
             return found
         return check_reach(robot, arm, component, geometry, pose)
@@ -54,8 +64,9 @@ class ArmMotion:
         grasp_yaw: float,
         standing: Mapping[str, Standing],
         joints: Joints | None = None,
+        others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
-        """See `Motion.move`; the other arms are taken to be parked."""
+        """See `Motion.move`."""
         found = self.reach(robot, component, start, grasp_yaw) or self.reach(robot, component, goal, grasp_yaw)
         if found:
             return found
@@ -64,26 +75,80 @@ class ArmMotion:
         if arm.model == "gantry":
             return gantry.move(robot, arm, component, geometry, start, goal, grasp_yaw, standing, now)
         from pico.motion.moves import Move
+        from pico.motion.recheck import Task
 
         near = self._near(robot, standing, geometry)
+        elsewhere = self._others(robot, others)
         scene = self._scene(robot, near | {component: Standing(start, geometry)})
-        return Move(scene, component, geometry, start, goal, grasp_yaw, near, now).find()
+        scene.place_robots(elsewhere)
+        path = Move(scene, component, geometry, start, goal, grasp_yaw, near, now).find()
+        return self._twice(path, Task(component, geometry, start, goal, grasp_yaw), near, elsewhere)
 
-    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+    def park(
+        self,
+        robot: str,
+        joints: Joints,
+        standing: Mapping[str, Standing],
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:
         """See `Motion.park`; no `joints` at all means that the arm is parked already."""
         arm = self.setup.lab.robots[robot]
         now = joints or self.park_joints(robot)
         if arm.model == "gantry":
             return gantry.park(robot, arm, now)
         from pico.motion.moves import find_park
+        from pico.motion.recheck import Task
 
-        near = self._near(robot, standing, None)
-        return find_park(self._scene(robot, near), now, near)
+        near, elsewhere = self._near(robot, standing, None), self._others(robot, others)
+        scene = self._scene(robot, near)
+        scene.place_robots(elsewhere)
+        return self._twice(find_park(scene, now, near), Task(), near, elsewhere)
 
     def park_joints(self, robot: str) -> Joints:
         """Return the joints of the robot's park pose [rad]; of a gantry [m, rad]."""
-        arm = self.setup.lab.robots[robot]
-        return gantry.park_joints(arm) if arm.model == "gantry" else tuple(math.radians(q) for q in arm.park)
+        return self._travel(robot).parked
+
+    def travel(
+        self,
+        robot: str,
+        start: Pose | Joints | None,
+        goal: Pose | None,
+        start_yaw: float = 0.0,
+        goal_yaw: float = 0.0,
+    ) -> float:
+        """See `Motion.travel`."""
+        return self._travel(robot).empty(start, goal, start_yaw, goal_yaw)
+
+    def carry(self, robot: str, component: str, start: Pose, goal: Pose, grasp_yaw: float) -> float:
+        """See `Motion.carry`."""
+        return self._travel(robot).carry(component, start, goal, grasp_yaw)
+
+    def _travel(self, robot: str) -> Travel:
+        if robot not in self._travels:
+            self._travels[robot] = Travel(self.setup, robot)
+        return self._travels[robot]
+
+    def _stability(self, component: str, geometry: Geometry) -> Blocked | None:
+        if component not in self._steady:
+            self._steady[component] = check_stability(component, geometry)
+        return self._steady[component]
+
+    def _others(self, robot: str, others: Mapping[str, Joints] | None) -> dict[str, Joints]:
+        """The joints of the other arms that a path must keep clear of."""
+        arms = [name for name, arm in self.setup.lab.robots.items() if name != robot and arm.model == "xarm7"]
+        return {name: tuple((others or {}).get(name) or self.park_joints(name)) for name in arms}
+
+    def _twice(
+        self, path: MovePath | Blocked, task: Task, near: Mapping[str, Standing], others: Mapping[str, Joints]
+    ) -> MovePath | Blocked:
+        """Return `path` as it is where the second check agrees, else why it is refused."""
+        if isinstance(path, Blocked) or not self.second_check:
+            return path
+        from pico.motion.recheck import Recheck
+
+        if path.robot not in self._rechecks:
+            self._rechecks[path.robot] = Recheck(self.setup, path.robot)
+        return self._rechecks[path.robot].check(path, task, near, others) or path
 
     def _near(self, robot: str, standing: Mapping[str, Standing], held: Geometry | None) -> dict[str, Standing]:
         from pico.motion.scene import within_reach

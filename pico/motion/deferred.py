@@ -35,10 +35,32 @@ class DeferredMotion:
         grasp_yaw: float,
         standing: Mapping[str, Standing],
         joints: Joints | None = None,
+        others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
         """See `Motion.move`."""
-        return self._arms.move(robot, component, start, goal, grasp_yaw, standing, joints)
+        return self._arms.move(robot, component, start, goal, grasp_yaw, standing, joints, others)
 
-    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+    def park(
+        self,
+        robot: str,
+        joints: Joints,
+        standing: Mapping[str, Standing],
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:
         """See `Motion.park`."""
-        return self._arms.park(robot, joints, standing)
+        return self._arms.park(robot, joints, standing, others)
+
+    def travel(
+        self,
+        robot: str,
+        start: Pose | Joints | None,
+        goal: Pose | None,
+        start_yaw: float = 0.0,
+        goal_yaw: float = 0.0,
+    ) -> float:
+        """See `Motion.travel`."""
+        return self._arms.travel(robot, start, goal, start_yaw, goal_yaw)
+
+    def carry(self, robot: str, component: str, start: Pose, goal: Pose, grasp_yaw: float) -> float:
+        """See `Motion.carry`."""
+        return self._arms.carry(robot, component, start, goal, grasp_yaw)

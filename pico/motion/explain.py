@@ -50,7 +50,24 @@ def blocked(errand: Errand, segment: SegmentName, hit: Hit) -> Blocked:
     kind: Literal["keep_out", "collision"] = "keep_out" if hit.kind == "keep_out" else "collision"
     name = errand.robot if hit.kind == "self" else hit.obstacle
     by = -hit.gap if hit.gap < 0 else hit.missing
-    return Blocked(kind, f"{what} {does}, {errand.doing(segment)}", segment, name, round(by, 3))
+    text = f"{what} {does}, {errand.doing(segment)}"
+    return Blocked(kind, text, segment, name, round(by, 3), _help(errand, segment, hit))
+
+
+def _help(errand: Errand, segment: SegmentName, hit: Hit) -> str:
+    """What might let the arm pass: each is worth a try, none is promised."""
+    if hit.kind == "self":
+        return f"choose a place farther from {errand.robot}'s base, or another grasp yaw"
+    if hit.kind == "table":
+        return f"let {errand.component} be grasped higher" if errand.component else "raise the arm by hand first"
+    if hit.obstacle == errand.component:
+        return "use a grasp yaw at which the jaws close on parallel faces"
+    away = f"make the zone {hit.obstacle} smaller" if hit.kind == "keep_out" else f"move {hit.obstacle} away first"
+    moving = errand.component and segment not in ("descend", "grip", "lift")
+    other = "another place or slot" if moving else ""
+    if hit.part in ("finger", "gripper", "held") and errand.component and segment not in ("approach", "park"):
+        other = f"another grasp yaw or {other}" if other else "another grasp yaw"
+    return f"{away}, or choose {other}" if other else away
 
 
 def _subject(errand: Errand, part: str) -> str:

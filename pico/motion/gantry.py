@@ -71,18 +71,48 @@ def park(name: str, robot: Robot, joints: Joints) -> MovePath:
     return MovePath(name, None, (segment,))
 
 
+def travel(robot: Robot, start: Pose | Joints | None, goal: Pose | None, start_yaw: float, goal_yaw: float) -> float:
+    """Return the seconds from above one place to above another; see `Motion.travel`."""
+    high, rise = robot.transit_height / 1000, 0.0
+    if isinstance(start, Pose):
+        above = _at(start, start_yaw, high)
+    else:
+        joints = start or park_joints(robot)
+        above = (joints[0], joints[1], max(joints[2], high), joints[3])
+        rise = _seconds(robot, joints, above)
+    return rise + _seconds(robot, above, _at(goal, goal_yaw, high) if goal else park_joints(robot))
+
+
+def carry(robot: Robot, start: Pose, goal: Pose, low: float, jaws: float) -> float:
+    """Return the seconds from above one place, held at `low` [mm], to above another; see `Motion.carry`."""
+    high = robot.transit_height / 1000
+    plumb = _seconds(robot, _at(start, 0.0, high), _at(start, 0.0, low / 1000))
+    return 4 * plumb + _seconds(robot, _at(start, 0.0, high), _at(goal, 0.0, high)) + 2 * jaws
+
+
+def _seconds(robot: Robot, start: Joints, end: Joints) -> float:
+    way, peak, ramp = _ramps(robot, start, end)
+    return way / peak + ramp if way >= 1e-9 else 0.0
+
+
+def _ramps(robot: Robot, start: Joints, end: Joints) -> tuple[float, float, float]:
+    """How far it is [m], how fast the gantry gets [m/s], and how long that takes [s]."""
+    way = max(math.dist(start[:3], end[:3]), _ARM * abs(end[3] - start[3]))
+    acceleration = ACCELERATION * robot.speed**2
+    peak = min(SPEED * robot.speed, math.sqrt(acceleration * way))
+    return way, peak, peak / acceleration
+
+
 def _at(pose: Pose, grasp_yaw: float, z: float) -> Joints:
     return pose.x / 1000, pose.y / 1000, z, math.radians(pose.yaw + grasp_yaw)
 
 
 def _straight(robot: Robot, start: Joints, end: Joints) -> timing.Timed:
     """A trapezoid of speed along the straight line, as waypoints; a triangle where the way is short."""
-    way = max(math.dist(start[:3], end[:3]), _ARM * abs(end[3] - start[3]))
+    way, peak, ramp = _ramps(robot, start, end)
     if way < 1e-9:
         return (0.0, 0.0), (start, end)
-    speed, acceleration = SPEED * robot.speed, ACCELERATION * robot.speed**2
-    peak = min(speed, math.sqrt(acceleration * way))
-    ramp = peak / acceleration
+    acceleration = ACCELERATION * robot.speed**2
     seconds = way / peak + ramp
     count = max(2, math.ceil(seconds / timing.PERIOD))
     times = tuple(seconds * i / count for i in range(count + 1))

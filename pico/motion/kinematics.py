@@ -39,11 +39,24 @@ def fk(joints: Joints, tool: float = 172.0) -> tuple[Vector, Matrix]:
     The tool's z points out of the flange, its y is the direction in which the jaws close; `tool` [mm] is the distance
     of the tool center point from the flange.
     """
+    p, x, y, z = _frame(joints)
+    p = _sum(p, 0.0, x, 0.0, y, tool, z)
+    x, y = _scaled(x, -1.0), _scaled(y, -1.0)  # the gripper is mounted half a turn about the flange's axis
+    return p, ((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2]))
+
+
+def joint_at(joints: Joints, number: int) -> Vector:
+    """Return where the origin of joint `number` (1 to 7) is in the base frame [mm]."""
+    return _frame(joints[:number])[0]
+
+
+def _frame(joints: Joints) -> tuple[Vector, Vector, Vector, Vector]:
+    """The frame that hangs on the last of `joints`: its origin and its axes."""
     p: Vector = (0.0, 0.0, 0.0)
-    x: Vector = (1.0, 0.0, 0.0)  # the columns of the rotation matrix
+    x: Vector = (1.0, 0.0, 0.0)
     y: Vector = (0.0, 1.0, 0.0)
     z: Vector = (0.0, 0.0, 1.0)
-    for (ox, oy, oz), roll, q in zip(ORIGINS, ROLLS, joints, strict=True):
+    for (ox, oy, oz), roll, q in zip(ORIGINS, ROLLS, joints, strict=False):
         p = _sum(p, ox, x, oy, y, oz, z)
         if roll == 90:
             y, z = z, _scaled(y, -1.0)
@@ -51,9 +64,7 @@ def fk(joints: Joints, tool: float = 172.0) -> tuple[Vector, Matrix]:
             y, z = _scaled(z, -1.0), y
         c, s = math.cos(q), math.sin(q)
         x, y = _sum((0.0, 0.0, 0.0), c, x, s, y, 0.0, z), _sum((0.0, 0.0, 0.0), -s, x, c, y, 0.0, z)
-    p = _sum(p, 0.0, x, 0.0, y, tool, z)
-    x, y = _scaled(x, -1.0), _scaled(y, -1.0)  # the gripper is mounted half a turn about the flange's axis
-    return p, ((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2]))
+    return p, x, y, z
 
 
 def tool_pose(robot: Robot, joints: Joints) -> tuple[float, float, float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -11,8 +11,8 @@ from pico.model.catalog import Geometry
 from pico.model.pose import Pose
 from pico.motion import timing
 from pico.motion.explain import Errand, blocked
-from pico.motion.kinematics import Column, columns, tool_pose
-from pico.motion.paths import Stand, distance, plumb, route, stand, swing, usable
+from pico.motion.kinematics import Column, tool_pose
+from pico.motion.paths import Stand, distance, plumb, postures, route, stand, swing, usable
 from pico.motion.reach import grasp_height, opening
 from pico.motion.scene import Hit, Scene
 from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, Standing
@@ -21,6 +21,8 @@ STRAIGHT_TRIES = 12
 """Pairs of postures tried with straight swings only."""
 DETOUR_TRIES = 4
 """Pairs tried with ways around after that."""
+WOUND = 0.02
+"""What a turn of joints 1 and 7 away from zero counts where ways are else alike."""
 TRANSIT_DIP = 0.5
 """No swing comes lower than this below the transit height [mm]."""
 _TOUCHING = -1.0
@@ -85,22 +87,15 @@ class Move:
         """Pairs of postures in which the part keeps its place between the jaws, by how far the joints go."""
         pairs = []
         for half in (0.0, 180.0):
-            picks, places = ([*self._over(pose, half)] for pose in (self.start, self.goal))
+            picks, places = (
+                postures(self.scene.robot, pose, self.grasp_yaw + half, self.low) for pose in (self.start, self.goal)
+            )
             for pick, up in picks:
                 first = distance(above, up)
                 for place, down in places:
                     wound = abs(place.q1) + abs(place.q7)
-                    pairs.append((round(first + distance(up, down) + 0.02 * wound, 9), Choice(pick, place)))
+                    pairs.append((round(first + distance(up, down) + WOUND * wound, 9), Choice(pick, place)))
         return [choice for _, choice in sorted(pairs, key=lambda pair: pair[0])]
-
-    def _over(self, pose: Pose, half: float) -> Iterator[tuple[Column, Joints]]:
-        known: dict[tuple[float, int], bool] = {}  # whole turns make no difference
-        for column in columns(self.scene.robot, pose.x, pose.y, pose.yaw + self.grasp_yaw + half):
-            key = (column.reach, column.elbow)
-            if key not in known:
-                known[key] = usable(column, self.low, self.high)
-            if known[key] and (top := column.at(self.high)):
-                yield column, top
 
     def _attempt(self, above: Stand, choice: Choice, detours: bool) -> tuple[list[Joints], list[Joints]] | Blocked:
         for kind, column in (("pick", choice.pick), ("place", choice.place)):

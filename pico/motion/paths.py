@@ -12,7 +12,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from pico.motion.kinematics import Column, column_of
+from pico.model.lab import Robot
+from pico.model.pose import Pose
+from pico.motion.kinematics import Column, column_of, columns
 from pico.motion.scene import FREE, Hit, Scene
 from pico.motion.types import Joints
 
@@ -20,7 +22,7 @@ STEP = 0.02
 """Greatest step of a joint between two looks at the scene [rad]."""
 TRAVEL = 2 * FREE
 """Greatest way of any point of the arm between two looks where nothing is near [mm]."""
-FINEST = 1.0
+FINEST = 0.25
 """Where something is near, looks are no farther apart than this [mm]."""
 RISE = 10.0
 """Greatest step of the tool between two looks on a vertical [mm]."""
@@ -106,6 +108,20 @@ def plumb(scene: Scene, column: Column, low: float, high: float) -> Hit | None:
 def usable(column: Column, low: float, high: float) -> bool:
     """Return whether the arm can hold its tool vertical all the way from `low` to `high` on `column`."""
     return all(column.at(z) is not None for z in heights(low, high))
+
+
+def postures(robot: Robot, pose: Pose, jaws: float, low: float) -> list[tuple[Column, Joints]]:
+    """Return the postures over `pose` in which the arm reaches from `low` [mm] to the transit height, with the joints
+    there. `jaws` is the direction in which the jaws close in the component's frame [deg]."""
+    known: dict[tuple[float, int], bool] = {}  # whole turns make no difference
+    found = []
+    for column in columns(robot, pose.x, pose.y, pose.yaw + jaws):
+        key = (column.reach, column.elbow)
+        if key not in known:
+            known[key] = usable(column, low, robot.transit_height)
+        if known[key] and (top := column.at(robot.transit_height)):
+            found.append((column, top))
+    return found
 
 
 @dataclass(frozen=True, slots=True)

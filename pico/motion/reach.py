@@ -9,9 +9,11 @@ from pico.geometry.shape import placed, separation
 from pico.model.catalog import Geometry
 from pico.model.lab import Lab, Robot
 from pico.model.pose import Pose
-from pico.motion.arm import PALM_LENGTH
 from pico.motion.kinematics import reaches, span
+from pico.motion.shapes import PALM_LENGTH
 from pico.motion.types import Blocked
+
+_BY_HAND = "let a person move it (`mover: person`)"
 
 
 def opening(robot: Robot, geometry: Geometry) -> float:
@@ -33,7 +35,7 @@ def check_grip(name: str, robot: Robot, component: str, geometry: Geometry) -> B
     """Return why the gripper of the robot called `name` can't hold `component`, or None where it can."""
     gripper, grasp = robot.gripper, geometry.grasp
     if grasp is None:
-        return Blocked("width", f"{component} has no place where a gripper may hold it")
+        return Blocked("width", f"{component} has no place where a gripper may hold it", help=_BY_HAND)
     if gripper.fingers == "none":
         return None
     needed = opening(robot, geometry)
@@ -42,12 +44,12 @@ def check_grip(name: str, robot: Robot, component: str, geometry: Geometry) -> B
             f"{component} is {grasp.width:.4g} mm wide where it is held; with {gripper.fingers.opening:.4g} mm to spare"
             f" on each side {name}'s gripper would have to open {needed:.4g} mm, it opens {gripper.stroke:.4g} mm"
         )
-        return Blocked("width", text, by=needed - gripper.stroke)
+        return Blocked("width", text, by=needed - gripper.stroke, help=f"grasp it where it is narrower, or {_BY_HAND}")
     room = gripper.tool - PALM_LENGTH
     above = geometry.height - grasp.height
     if above > room:
         text = f"{component} stands {above:.4g} mm above where it is held; {name}'s fingers have room for {room:.4g} mm"
-        return Blocked("width", text, by=above - room)
+        return Blocked("width", text, by=above - room, help=f"grasp it higher, or {_BY_HAND}")
     return None
 
 
@@ -57,13 +59,15 @@ def check_table(lab: Lab, component: str, geometry: Geometry, pose: Pose) -> Blo
     over = tabletop.overhang(lab.table, shape)
     if over > 1e-6:
         text = f"{component} at {pose} would stick out over the edge of the table by {over:.4g} mm"
-        return Blocked("table_edge", text, obstacle="table", by=over)
+        return Blocked("table_edge", text, obstacle="table", by=over, help=f"place it {over:.4g} mm farther in")
     for name, zone in lab.keep_out.items():
         gap = separation(shape, tabletop.outline(zone))
         if gap < 0 and tabletop.reaches(zone, 0.0, geometry.height):
             why = f" ({zone.reason})" if zone.reason else ""
             text = f"{component} at {pose} would stand {-gap:.4g} mm inside the keep-out zone {name}{why}"
-            return Blocked("keep_out", text, obstacle=name, by=-gap)
+            return Blocked(
+                "keep_out", text, obstacle=name, by=-gap, help=f"place it {-gap:.4g} mm farther out of {name}"
+            )
     return None
 
 
@@ -71,16 +75,21 @@ def check_reach(name: str, robot: Robot, component: str, geometry: Geometry, pos
     """Return why the arm can't hold its tool vertical over `pose` at the height of the grasp and of the transit."""
     for height in (grasp_height(robot, geometry), robot.transit_height):
         if not reaches(robot, pose.x, pose.y, height):
-            return Blocked("reach", _too_far(name, robot, component, pose, height))
+            return _too_far(name, robot, component, pose, height)
     return None
 
 
-def _too_far(name: str, robot: Robot, component: str, pose: Pose, height: float) -> str:
+def _too_far(name: str, robot: Robot, component: str, pose: Pose, height: float) -> Blocked:
     distance = math.hypot(pose.x - robot.mount.x, pose.y - robot.mount.y)
     least, greatest = span(robot, height)
     where = f"{component} at {pose} is {math.ceil(distance)} mm from {name}'s base"
     if greatest == 0.0:
-        return f"{name} can't hold its tool vertical at {height:.0f} mm height anywhere"
+        text = f"{name} can't hold its tool vertical at {height:.0f} mm height anywhere"
+        return Blocked("reach", text, help="change the robot's transit_height or mount")
     if distance < greatest:
-        return f"{where}; it comes no nearer than {math.ceil(least)} mm at {height:.0f} mm height"
-    return f"{where}; it reaches {math.floor(greatest)} mm at {height:.0f} mm height"
+        text = f"{where}; it comes no nearer than {math.ceil(least)} mm at {height:.0f} mm height"
+        return Blocked(
+            "reach", text, by=least - distance, help=f"place it farther from {name}'s base, or use another arm"
+        )
+    text = f"{where}; it reaches {math.floor(greatest)} mm at {height:.0f} mm height"
+    return Blocked("reach", text, by=distance - greatest, help=f"place it nearer to {name}'s base, or use another arm")

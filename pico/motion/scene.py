@@ -137,10 +137,13 @@ class Scene:
         start = self._joints.start
         self._joints = slice(start, start + 7)
         self._slides = slice(start + 7, start + 9) if self.robot.gripper.fingers != "none" else None
-        for name, robot in self.setup.lab.robots.items():
-            if name != self.name and robot.model == "xarm7":
-                at = model.joint(f"{name}/joint1").qposadr[0]
-                self._data.qpos[at : at + 7] = [math.radians(q) for q in robot.park]
+        self._others = {
+            name: int(model.joint(f"{name}/joint1").qposadr[0])
+            for name, robot in self.setup.lab.robots.items()
+            if name != self.name and robot.model == "xarm7"
+        }
+        parked = {name: tuple(math.radians(q) for q in self.setup.lab.robots[name].park) for name in self._others}
+        self.place_robots(parked)
 
     def _role(self, body: str) -> tuple[Literal["own", "held"] | Place, str]:
         """What a body is: (`own`, part), (`held`, ""), or what kind of obstacle, and its name."""
@@ -153,6 +156,12 @@ class Scene:
         if kind == "place":
             return "component", ""
         return ("keep_out", name) if kind == "keep_out" else ("table", "table")
+
+    def place_robots(self, joints: Mapping[str, Joints]) -> None:
+        """Put the other arms where they stand [rad], their grippers shut."""
+        for name, at in self._others.items():
+            if name in joints:
+                self._data.qpos[at : at + 7] = joints[name]
 
     def lacks(self, standing: Iterable[Standing]) -> Counter[Geometry]:
         """Return how many places of each geometry `standing` needs beyond those that the scene has."""

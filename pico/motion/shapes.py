@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from pico.model.lab import Fingers
+
 Point = tuple[float, float, float]
 Color = tuple[float, float, float, float]
 
@@ -105,6 +107,37 @@ PALM: tuple[Shape, ...] = (
     Shape("box", (0, 0, 62), (26.5, 24, 11), 0, BLUE),
 )
 """Shapes of the gripper's body, z out of the flange; the fingers hang below z = 100."""
+
+PALM_LENGTH = 100.0
+"""How far the gripper's body reaches from the flange [mm]; the fingers hang below it."""
+PAD_HEIGHT = 45.0
+"""Height of the pads [mm], from the tips of the fingers up."""
+_RECESS = 2.0  # mm, how far the bar of a finger is set back, so that only the pad meets the part
+
+
+def finger(side: int, fingers: Fingers, tool: float) -> tuple[Shape, Shape]:
+    """Return the pad and the bar of a finger in the gripper's frame, the gripper shut: a bar from the palm to below the
+    tool center point `tool` mm from the flange, its inner face the pad. `side` is 1 or -1; it opens along y."""
+    tip = tool + fingers.tip
+    pad_top = tip - PAD_HEIGHT
+    pad, bar = (
+        Shape(
+            "box",
+            (0.0, side * (fingers.thickness + recess) / 2, (low + high) / 2),
+            (fingers.breadth / 2, (fingers.thickness - recess) / 2, (high - low) / 2),
+            0,
+            color,
+            True,
+        )
+        for low, high, recess, color in ((pad_top, tip, 0.0, DARK), (PALM_LENGTH, pad_top, _RECESS, GREY))
+    )
+    return pad, bar
+
+
+def cup(tool: float) -> Shape:
+    """Return the suction cup of a vacuum gripper; it ends 1 mm above what it holds."""
+    return Shape("cylinder", (0, 0, PALM_LENGTH), (0, 0, tool - 1), 14, DARK, True)
+
 
 LINK_MASSES = (2.1, 2.0, 1.9, 1.6, 1.6, 1.2, 1.1, 0.4)
 """Of the base and links 1 to 7 [kg]; about 12 kg in all, spread by the links' sizes."""

@@ -99,6 +99,29 @@ def profile(length: float, limits: Limits) -> tuple[tuple[float, ...], tuple[flo
     return times, tuple(ways)
 
 
+def duration(length: float, limits: Limits) -> float:
+    """Return how long `profile` takes, in closed form: speed up, cruise and slow down, each with bounded jerk."""
+    v, a, j = limits.velocity, limits.acceleration, limits.jerk
+    ramp = v / a + a / j if v * j >= a * a else 2 * math.sqrt(v / j)
+    if length >= v * ramp:
+        return length / v + ramp
+    peak = a / 2 * (math.sqrt((a / j) ** 2 + 4 * length / a) - a / j)
+    if peak * j >= a * a:
+        return 2 * (peak / a + a / j)
+    return 4 * math.cbrt(length / (2 * j))
+
+
+def swing_seconds(robot: Robot, longest: float) -> float:
+    """Return how long `straight` takes where the joint that goes farthest goes `longest` [rad]."""
+    return duration(longest, joint_limits(robot)) if longest >= 1e-9 else 0.0
+
+
+def vertical_seconds(robot: Robot, column: Column, start: float, end: float) -> float:
+    """Return how long `vertical` takes [s]."""
+    length = abs(end - start)
+    return duration(length, _vertical_limits(robot, column, start, end)) if length >= 1e-6 else 0.0
+
+
 @cache
 def _ruckig() -> tuple[Any, Any, Any]:
     import ruckig

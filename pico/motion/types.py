@@ -61,13 +61,14 @@ class MovePath:
 @dataclass(frozen=True, slots=True)
 class Blocked:
     """Why a motion is not possible: `obstacle` names the component, robot part, keep-out zone or `table` that is hit
-    in `segment`, `by` how deep [mm] where known; a `reach` has no obstacle."""
+    in `segment`, `by` how deep [mm] where known; a `reach` has no obstacle. `help` is what might let it pass."""
 
-    kind: Literal["reach", "collision", "keep_out", "table_edge", "width"]
+    kind: Literal["reach", "collision", "keep_out", "table_edge", "width", "unstable"]
     text: str
     segment: SegmentName | None = None
     obstacle: str | None = None
     by: float | None = None
+    help: str = ""
 
 
 class Motion(Protocol):
@@ -89,11 +90,39 @@ class Motion(Protocol):
         grasp_yaw: float,
         standing: Mapping[str, Standing],
         joints: Joints | None = None,
+        others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
         """Return the path that takes `component` from `start` to `goal`, from `joints` (parked where None) to above
-        the goal, clear of everything in `standing` (which may hold the component itself at its start)."""
+        the goal, clear of everything in `standing` (which may hold the component itself at its start) and of the
+        `others` among the arms, which stand at these joints, or are parked where they are not named."""
         ...
 
-    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
-        """Return the path from `joints` to the robot's park pose."""
+    def park(
+        self,
+        robot: str,
+        joints: Joints,
+        standing: Mapping[str, Standing],
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:
+        """Return the path from `joints` to the robot's park pose; `others` as for `move`."""
+        ...
+
+    def travel(
+        self,
+        robot: str,
+        start: Pose | Joints | None,
+        goal: Pose | None,
+        start_yaw: float = 0.0,
+        goal_yaw: float = 0.0,
+    ) -> float:
+        """Return how long the empty hand takes from above `start` to above `goal` at transit height [s].
+
+        A place is where a component stands and, with it, the grasp yaw [deg]; None is the park pose; a start may be the
+        arm's joints. What `move` takes before it goes down where nothing is in the way; infinite out of reach.
+        """
+        ...
+
+    def carry(self, robot: str, component: str, start: Pose, goal: Pose, grasp_yaw: float) -> float:
+        """Return how long `move` takes from above `start` until it is empty above `goal`, down and up included, where
+        nothing is in the way [s]; infinite where it can't."""
         ...

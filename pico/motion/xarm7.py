@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+from pico.model.lab import XARM7_RANGES
+
 ORIGINS: tuple[tuple[float, float, float], ...] = (
     (0.0, 0.0, 267.0),
     (0.0, 0.0, 0.0),
@@ -22,15 +24,7 @@ ORIGINS: tuple[tuple[float, float, float], ...] = (
 ROLLS: tuple[int, ...] = (0, -90, 90, 90, 90, 90, -90)
 """How each joint's frame is turned about the x axis of the link before it [deg]; the joint turns about its z."""
 
-LIMITS: tuple[tuple[float, float], ...] = (
-    (-6.28319, 6.28319),
-    (-2.059, 2.0944),
-    (-6.28319, 6.28319),
-    (-0.19198, 3.927),
-    (-6.28319, 6.28319),
-    (-1.69297, 3.14159),
-    (-6.28319, 6.28319),
-)
+LIMITS: tuple[tuple[float, float], ...] = tuple((math.radians(low), math.radians(high)) for low, high in XARM7_RANGES)
 """Range of each joint [rad]."""
 
 JOINT_SPEED = math.pi

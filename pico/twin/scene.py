@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pico.model.catalog import Body, Footprint, Geometry
+from pico.geometry.mass import bodies_of, masses
+from pico.model.catalog import Body, Geometry
 from pico.model.lab import Setup
 from pico.twin.placement import Placement
 
@@ -31,10 +32,7 @@ PART_FRICTION = 0.6
 _HARD = (0.005, 1.0)  # s, time constant of contacts; softer ones let a part sink by 0.1 mm
 _FIRM = (0.95, 0.99, 0.001, 0.5, 2.0)
 _GRIPPY = (0.9, 0.95, 0.001, 0.5, 2.0)
-_BASE_SHARE = 0.6  # of a component's mass lies in what touches the table: magnetic bases are steel, the rest aluminium
-_TOUCHES = 1.0  # mm
 _STEEL = (0.66, 0.68, 0.70, 1.0)
-_PLAIN = (0.42, 0.44, 0.48, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,40 +162,3 @@ def _orientation(shape: Body) -> tuple[float, float, float, float]:
     if shape.axis == "x":  # a quarter turn about y
         return w * c, -z * c, w * c, z * c
     return w * c, -w * c, -z * c, z * c  # a quarter turn about -x
-
-
-def bodies_of(geometry: Geometry) -> tuple[Body, ...]:
-    """Return the housing's shapes; where the type names none, one that fills footprint and height."""
-    if geometry.bodies:
-        return geometry.bodies
-    print_, height = geometry.footprint, geometry.height
-    if print_.disc is not None:
-        size: tuple[float, ...] = (2 * print_.disc, height)
-        return (Body(name="body", shape="cylinder", size=size, at=(0, 0, height / 2), color=_PLAIN),)
-    (x0, x1), (y0, y1) = _extent(print_)
-    at = ((x0 + x1) / 2, (y0 + y1) / 2, height / 2)
-    return (Body(name="body", shape="box", size=(x1 - x0, y1 - y0, height), at=at, color=_PLAIN),)
-
-
-def _extent(footprint: Footprint) -> tuple[tuple[float, float], tuple[float, float]]:
-    xs, ys = zip(*footprint.vertices, strict=True)
-    return (min(xs), max(xs)), (min(ys), max(ys))
-
-
-def masses(geometry: Geometry, shapes: tuple[Body, ...]) -> tuple[float, ...]:
-    """Return the mass of each of `shapes` [kg]: most of it in what touches the table, so that the part stands, the
-    rest by volume."""
-    low = [_bottom(shape) < _TOUCHES for shape in shapes]
-    share = {True: _BASE_SHARE, False: 1 - _BASE_SHARE} if any(low) and not all(low) else {True: 1.0, False: 1.0}
-    totals = {side: sum(_volume(s) for s, at in zip(shapes, low, strict=True) if at is side) for side in (True, False)}
-    return tuple(geometry.mass * share[at] * _volume(shape) / totals[at] for shape, at in zip(shapes, low, strict=True))
-
-
-def _bottom(shape: Body) -> float:
-    if shape.shape == "box":
-        return shape.at[2] - shape.size[2] / 2
-    return shape.at[2] - (shape.size[1] if shape.axis == "z" else shape.size[0]) / 2
-
-
-def _volume(shape: Body) -> float:
-    return math.prod(shape.size) if shape.shape == "box" else math.pi / 4 * shape.size[0] ** 2 * shape.size[1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from pico.model.catalog import Body, ComponentType, Footprint, Geometry, Grasp
@@ -112,6 +112,33 @@ def _leg(
                 yield f"{segment.name}: {names[0]} and {names[1]} by {-contact.dist * 1000:.2f} mm"
 
 
+def depth_of(
+    setup: Setup, held: Geometry | None, yaw: float, standing: Mapping[str, Standing]
+) -> Callable[[Joints], float]:
+    """Return what says how deep anything overlaps at given joints [mm], the pads 50 mm apart."""
+    import mujoco
+
+    model = _model(setup, "arm1", held, standing)
+    data = mujoco.MjData(model)
+    at = model.joint("arm1/joint1").qposadr[0]
+
+    def depth(joints: Joints) -> float:
+        data.qpos[at : at + 9] = (*joints, 0.025, 0.025)
+        if held is not None and held.grasp is not None:
+            _carry(model, data, tool_pose(setup.lab.robots["arm1"], joints), held.grasp.height, yaw)
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        deep = [0.0]
+        for contact in data.contact:
+            names = sorted(model.body(model.geom_bodyid[g]).name for g in contact.geom)
+            on_base = names[0] == "arm1/base" and not names[1].startswith("arm1/")
+            if not on_base and not _allowed(names, "arm1"):
+                deep.append(-contact.dist * 1000)
+        return max(deep)
+
+    return depth
+
+
 def _allowed(names: list[str], robot: str) -> bool:
     if "hand" in names:
         return "table" in names or any(n.startswith(f"{robot}/") and ("finger" in n or "gripper" in n) for n in names)
@@ -133,7 +160,8 @@ def _model(setup: Setup, name: str, held: Geometry | None, standing: Mapping[str
         )
         add_solids(spec, body, thing.geometry, **world)
     if held is not None:
-        body = spec.worldbody.add_body(name="hand", mocap=True)
+        body = spec.worldbody.add_body(name="hand")
+        body.add_freejoint(name="hand")  # bodies without a joint, mocap or not, never meet one another
         add_solids(spec, body, held, contype=ARM_BIT, conaffinity=ARM_BIT | WORLD_BIT)
     attach_arm(spec, name, setup.lab.robots[name])
     return spec.compile()
@@ -142,9 +170,8 @@ def _model(setup: Setup, name: str, held: Geometry | None, standing: Mapping[str
 def _carry(model: Any, data: Any, tool: tuple[float, float, float, float], height: float, yaw: float) -> None:
     x, y, z, jaws = tool
     half = math.radians(jaws - yaw) / 2
-    mocap = model.body("hand").mocapid[0]
-    data.mocap_pos[mocap] = (x / 1000, y / 1000, (z - height) / 1000)
-    data.mocap_quat[mocap] = (math.cos(half), 0, 0, math.sin(half))
+    at = model.joint("hand").qposadr[0]
+    data.qpos[at : at + 7] = (x / 1000, y / 1000, (z - height) / 1000, math.cos(half), 0, 0, math.sin(half))
 
 
 def _postures(segment: Segment, step: float) -> Iterator[Joints]:

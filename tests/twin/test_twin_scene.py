@@ -8,13 +8,14 @@ import mujoco
 import pytest
 from physical import bench
 
+from pico.geometry.mass import bodies_of, masses
 from pico.model.catalog import Body, Footprint, Geometry
 from pico.model.lab import Mount, Robot, Setup
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, placement_of, upright
-from pico.twin.scene import Thing, bodies_of, build_scene, masses
+from pico.twin.scene import Thing, build_scene
 
 
 def things(setup: Setup) -> dict[str, Thing]:

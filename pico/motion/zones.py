@@ -1,0 +1,106 @@
+"""Where two arms of a bench may meet: the part of the table that both reach. Only one at a time may be there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+
+from pico.geometry import Shape, disc, polygon, separation
+from pico.model.lab import Robot, Setup
+from pico.motion.kinematics import joint_at, span
+from pico.motion.types import Joints, MovePath
+
+HAND = 80.0
+"""How far a hand without a part reaches to the side of its axis [mm]."""
+ARM_RADIUS = 110.0
+"""How far a link reaches from the line between its joints, the bend of the forearm included [mm]."""
+_APART = 60.0  # mm, of the discs that cover a link; two of them 9 mm wider than a link cover what is between
+_HEIGHTS = (50.0, 100.0, 150.0, 200.0)  # mm, besides the transit height: where the tool may be
+_CORNERS = 48  # of a circle, drawn around it
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """What the two `robots` both reach, with anything in the hand: a convex polygon on the table, counter-clockwise
+    [mm]. An arm that keeps out of it can't touch the other one wherever that is."""
+
+    robots: tuple[str, str]
+    corners: tuple[tuple[float, float], ...]
+
+
+def shared_zones(setup: Setup) -> tuple[Zone, ...]:
+    """Return the zone of each pair of robots that meet, by name; a gantry meets every arm, all over its reach."""
+    found = []
+    for one, other in combinations(sorted(setup.lab.robots), 2):
+        corners: tuple[tuple[float, float], ...] = _whole_table(setup)
+        for name in (one, other):
+            robot = setup.lab.robots[name]
+            if robot.model == "xarm7":
+                corners = _clipped(corners, (robot.mount.x, robot.mount.y), outermost(setup, robot))
+        if len(corners) > 2:
+            found.append(Zone((one, other), corners))
+    return tuple(found)
+
+
+def outermost(setup: Setup, robot: Robot) -> float:
+    """Return the distance from the base's axis [mm] that no part of an arm, nor what it carries, comes beyond."""
+    parts = [setup.type_of(name).geometry.footprint.radius for name in setup.lab.inventory if setup.movable(name)]
+    reach = max(span(robot, z)[1] for z in (*_HEIGHTS, robot.transit_height))
+    return reach + max([HAND, *parts])
+
+
+def enters(setup: Setup, zone: Zone, path: MovePath) -> bool:
+    """Return whether an arm or what it carries comes into `zone` anywhere on `path`; a gantry always does."""
+    robot = setup.lab.robots[path.robot]
+    if robot.model != "xarm7":
+        return True
+    area = polygon(zone.corners)
+    carried = setup.type_of(path.component).geometry.footprint.radius if path.component else 0.0
+    return any(
+        separation(shape, area) <= 0.0
+        for segment in path.segments
+        for joints in segment.joints
+        for shape in _shadow(robot, joints, max(HAND, carried))
+    )
+
+
+def _shadow(robot: Robot, joints: Joints, hand: float) -> Iterable[Shape]:
+    """Discs on the table that cover an arm seen from above: along its links, and the hand with what it holds."""
+    points = ((0.0, 0.0, 0.0), joint_at(joints, 4), joint_at(joints, 6), joint_at(joints, 7))
+    c, s = math.cos(math.radians(robot.mount.yaw)), math.sin(math.radians(robot.mount.yaw))
+    places = [(robot.mount.x + c * x - s * y, robot.mount.y + s * x + c * y) for x, y, _ in points]
+    for (ax, ay), (bx, by) in pairwise(places):
+        count = max(1, math.ceil(math.hypot(bx - ax, by - ay) / _APART))
+        for i in range(count):
+            yield disc(ax + (bx - ax) * i / count, ay + (by - ay) * i / count, ARM_RADIUS + 9.0)
+    yield disc(*places[-1], hand)
+
+
+def _whole_table(setup: Setup) -> tuple[tuple[float, float], ...]:
+    x, y = setup.lab.table.size
+    return ((0.0, 0.0), (x, 0.0), (x, y), (0.0, y))
+
+
+def _clipped(
+    corners: tuple[tuple[float, float], ...], center: tuple[float, float], radius: float
+) -> tuple[tuple[float, float], ...]:
+    """Return the part of a convex polygon within a polygon drawn around a circle (Sutherland and Hodgman)."""
+    for i in range(_CORNERS):
+        if not corners:
+            break
+        nx, ny = (f(2 * math.pi * i / _CORNERS) for f in (math.cos, math.sin))
+        over = [(x - center[0]) * nx + (y - center[1]) * ny - radius for x, y in corners]
+        kept: list[tuple[float, float]] = []
+        for (a, p), (b, q) in zip(
+            zip(over, corners, strict=True), zip((*over[1:], over[0]), (*corners[1:], corners[0]), strict=True),
+            strict=True,
+        ):  # fmt: skip
+            if a <= 0:
+                kept.append(p)
+            if (a < 0 < b) or (b < 0 < a):
+                t = a / (a - b)
+                kept.append((p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])))
+        corners = tuple(kept)
+    return corners
