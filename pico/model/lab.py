@@ -191,6 +191,14 @@ class Margins:
 
 
 @record
+class Policy:
+    """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's
+    shutter is open; else a plan closes it first."""
+
+    open_beam: bool = False
+
+
+@record
 class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
     the finger pads on a part."""
@@ -214,8 +222,14 @@ class Lab:
     datums: Mapping[str, Datum] = field(default_factory=dict)
     keep_out: Mapping[str, KeepOut] = field(default_factory=dict)
     margins: Margins = Margins()
+    policy: Policy = Policy()
     sim: SimSettings = SimSettings()
     inventory: Mapping[str, Part]
+
+    def beside_table(self, slot: str | None) -> bool:
+        """Return whether a part in `slot` need not stand on the table: where every robot is a gantry, which reaches
+        beyond its edge, storage may lie beside it."""
+        return slot is not None and all(robot.model == "gantry" for robot in self.robots.values())
 
 
 @record
