@@ -10,8 +10,8 @@ class Limit:
     """How much work is allowed: integer programs solved, their branch-and-bound nodes, exchanges of the local search.
     Counts, not seconds, so that the same problem always gets the same answer."""
 
-    solves: int = 300
-    nodes: int = 20_000
+    solves: int = 200
+    nodes: int = 1_000
     exchanges: int = 2_000
 
     def work(self) -> Work:

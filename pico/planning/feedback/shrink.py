@@ -193,13 +193,13 @@ def impossible(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals
     """Return literals that can't be chosen: the edges that then hold for certain close a cycle, or a clause stays
     without escape. None where a part would be left without any: then a clause must say so."""
     dead = 0
+    fixed = successors(e for e in edges if not e.escapes)
     for i, part in enumerate(table.parts):
         mine = table.of(i)
         if not mine:
             continue
         near = [e for e in edges if e.escapes & mine]
         tests = [c.escapes for c in clauses if c.escapes & mine]
-        fixed = successors(e for e in edges if not e.escapes)
         for n in bits(mine):
             possible = _then(table, part, n)
             if any(not c & possible for c in tests if not c & ~mine) or _closes(near, possible, mine, fixed):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import random
+import subprocess
+import sys
 
 import pytest
 from feedback_cases import all_choices, closes, holding, least_staging, possible, random_problem, weight_of
@@ -124,6 +126,14 @@ def test_nothing_to_move_is_solved() -> None:
 def test_an_arc_to_nobody_is_refused() -> None:
     with pytest.raises(ValueError, match="not among the 1"):
         solve(Problem((Component((Option(0),)),), (Arc(leaves(0), arrives(3)),)))
+
+
+def test_what_needs_no_program_loads_no_solver() -> None:
+    code = (
+        "import sys; from pico.planning.feedback import *; fewest_vertices([[1], [0]]);"
+        "solve(Problem((Component((Option(0),)),))); print(*sorted({'highspy', 'numpy'} & set(sys.modules)))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "\n"
 
 
 def crowd(seed: int, n: int) -> Problem:
