@@ -23,6 +23,27 @@ Yes = Annotated[bool, typer.Option("--auto-approve", help="Do not ask.")]
 Exact = Annotated[bool, typer.Option("--exact", help="Move for differences below the tolerance, too.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write to FILE.")]
+Targets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--target",
+        metavar="NAME",
+        help="Plan for this component only; may be given again. The plan names what must move with it, and what stays "
+        "different.",
+    ),
+]
+Exclude = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--exclude",
+        metavar="NAME",
+        help="Leave this component alone; may be given again. The plan names what can't be done without it.",
+    ),
+]
+Prefer = Annotated[
+    str,
+    typer.Option("--prefer", metavar="fewest-moves|shortest-time", help="What counts first in the choice of a plan."),
+]
 Speed = Annotated[float | None, typer.Option("--speed", metavar="SHARE", help="Share of the joint limits, up to 1.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the plan of it and move nothing.")]
 Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="Arguments.")]

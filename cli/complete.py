@@ -12,14 +12,16 @@ from .summary import COMMANDS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
-    "-n", "--number", "--explain", "--after", "--distance", "--dx", "--dy", "--dyaw",
+    "-n", "--number", "--explain", "--target",
+    "--exclude", "--prefer", "--after", "--distance", "--dx", "--dy", "--dyaw",
 )  # fmt: skip
-_APPLY = ("--auto-approve", "--exact", "--fidelity")
+_CHOICE = ("--target", "--exclude", "--prefer")
+_APPLY = ("--auto-approve", "--exact", "--fidelity", *_CHOICE)
 _ONE = ("--dry-run", "--fidelity")
 OPTIONS: dict[str, tuple[str, ...]] = {
     "init": ("--example",),
     "status": ("--all",),
-    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain"),
+    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", *_CHOICE),
     "apply": _APPLY,
     "checkout": ("--auto-approve", "--fidelity"),
     "explain": ("--fidelity",),
@@ -46,10 +48,11 @@ FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),
     "--view": ("perspective", "top"),
+    "--prefer": ("fewest-moves", "shortest-time"),
     "--format": ("dot", "mermaid"),
     "--example": ("minimal", "shel", "crowded"),
 }
-COMPONENTS = ("--after", "--explain")
+COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
 _REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")

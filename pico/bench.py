@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
     from pico.planning.explain import Explanation
+    from pico.planning.request import Preference
     from pico.twin.picture import Image, View
 
 CommitMode = Literal["strict", "capture", "planned"]
@@ -87,14 +88,25 @@ class AsyncBench(Reader):
         """Look, and return what was seen."""
         return await self.backend.observe()
 
-    async def plan(self, revision: str | None = None, *, exact: bool = False) -> Plan:
+    async def plan(
+        self,
+        revision: str | None = None,
+        *,
+        exact: bool = False,
+        prefer: Preference = "fewest-moves",
+        targets: Collection[str] = (),
+        exclude: Collection[str] = (),
+    ) -> Plan:
         """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
 
-        The state comes from the revision, the bench as it is now. Raises PicoError for a revision that can't be read;
-        what is physically impossible is in the plan's diagnostics.
+        The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
+        `shortest-time`. `targets`: plan for these components, and for what must make way for them; `exclude`: leave
+        these alone. Raises PicoError for a revision that can't be read, and for a component that there is not; what is
+        physically impossible is in the plan's diagnostics.
         """
         from pico.planning import plan
 
+        _require_preference(prefer)
         manifests = self.folder.manifests_at(revision) if revision else self.folder.manifests
         commit = self.folder.history().resolve(revision).id if revision else None
         _, wanted = manifests.require()
@@ -107,9 +119,18 @@ class AsyncBench(Reader):
             backend=self.backend_name,
             fidelity=self.fidelity,
             base=self._base(seen),
-            target=Target(revision=revision, commit=commit, state=wanted.as_json()),
+            target=Target(
+                revision=revision,
+                commit=commit,
+                only=tuple(sorted(targets)) or None,
+                exclude=tuple(sorted(exclude)) or None,
+                state=wanted.as_json(),
+            ),
             exact=exact,
             source=manifests.source,
+            prefer=prefer,
+            targets=targets,
+            exclude=exclude,
         )
 
     def _base(self, seen: Observation) -> Base:
@@ -117,10 +138,18 @@ class AsyncBench(Reader):
         state = live_state(self.setup, seen).as_json()
         return Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
 
-    async def plan_of(self, word: str | None, *, folder: Path = Path(), exact: bool = False) -> Plan:
-        """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None)."""
+    async def plan_of(self, word: str | None, *, folder: Path = Path(), **options: Any) -> Plan:
+        """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None).
+
+        `options` are those of `plan`; raises PicoError for any of them with a saved plan, which is what it is.
+        """
         found = self.find(word, folder) if word else None
-        return found if isinstance(found, Plan) else await self.plan(found, exact=exact)
+        if not isinstance(found, Plan):
+            return await self.plan(found, **options)
+        if any(options.get(k) for k in ("exact", "targets", "exclude")) or options.get("prefer") == "shortest-time":
+            text = f"{word} is a saved plan, and is taken as it is"
+            raise PicoError(error("usage", text, hint="--exact, --target, --exclude and --prefer go with `pico plan`"))
+        return found
 
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is, or what it does with one component; raises PicoError for an unknown one."""
@@ -294,13 +323,23 @@ class Bench(Reader):
         """Look, and return what was seen."""
         return self._thread.wait(self._bench.observe())
 
-    def plan(self, revision: str | None = None, *, exact: bool = False) -> Plan:
+    def plan(
+        self,
+        revision: str | None = None,
+        *,
+        exact: bool = False,
+        prefer: Preference = "fewest-moves",
+        targets: Collection[str] = (),
+        exclude: Collection[str] = (),
+    ) -> Plan:
         """Return the plan to a revision, or to the manifest; see `AsyncBench.plan`."""
-        return self._thread.wait(self._bench.plan(revision, exact=exact))
+        return self._thread.wait(
+            self._bench.plan(revision, exact=exact, prefer=prefer, targets=targets, exclude=exclude)
+        )
 
-    def plan_of(self, word: str | None, *, folder: Path = Path(), exact: bool = False) -> Plan:
+    def plan_of(self, word: str | None, *, folder: Path = Path(), **options: Any) -> Plan:
         """Return the saved plan that `word` names, or the plan to the revision that it names."""
-        return self._thread.wait(self._bench.plan_of(word, folder=folder, exact=exact))
+        return self._thread.wait(self._bench.plan_of(word, folder=folder, **options))
 
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is; see `AsyncBench.explain`."""
@@ -371,6 +410,12 @@ def _require_backend(backend: str, fidelity: str | None, speed: float | None) ->
         raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))
     if speed is not None and not 0 < speed <= 1:
         raise PicoError(error("speed", f"a speed of {speed:g} is no share of the joint limits", hint="0.01 to 1"))
+
+
+def _require_preference(prefer: str) -> None:
+    known = ["fewest-moves", "shortest-time"]
+    if prefer not in known:
+        raise PicoError(error("prefer", f"a plan can't prefer `{prefer}`", hint=did_you_mean(prefer, known)))
 
 
 def new_lab(folder: Path, example: str | None = None) -> None:

@@ -8,7 +8,7 @@ import typer
 
 from pico.diagnostics import ExitCode, PicoError, error
 
-from ..arguments import Exact, Fidelity, PlanOrRevision, Yes
+from ..arguments import Exact, Exclude, Fidelity, PlanOrRevision, Prefer, Targets, Yes
 from ..running import execute, question
 from ..session import Session
 from ..views import plan as view
@@ -24,6 +24,9 @@ def apply(
     auto_approve: Yes = False,
     exact: Exact = False,
     fidelity: Fidelity = None,
+    target: Targets = None,
+    exclude: Exclude = None,
+    prefer: Prefer = "fewest-moves",
 ) -> int:
     """Move what the plan says.
 
@@ -32,7 +35,8 @@ def apply(
     """
     session = Session.of(context)
     bench = session.bench(fidelity)
-    return approve(session, bench, bench.plan_of(what, folder=session.folder, exact=exact), auto_approve)
+    options = {"exact": exact, "prefer": prefer, "targets": target or (), "exclude": exclude or ()}
+    return approve(session, bench, bench.plan_of(what, folder=session.folder, **options), auto_approve)
 
 
 def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool) -> int:

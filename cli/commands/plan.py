@@ -9,7 +9,7 @@ import typer
 
 from pico.diagnostics import ExitCode
 
-from ..arguments import DetailedExit, Exact, Fidelity, Out, Revision
+from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Targets
 from ..session import Session
 from ..views import plan as view
 
@@ -27,6 +27,9 @@ def plan(
     exact: Exact = False,
     fidelity: Fidelity = None,
     explain: Explain = None,
+    target: Targets = None,
+    exclude: Exclude = None,
+    prefer: Prefer = "fewest-moves",
 ) -> int:
     """Show what would move to make the bench equal to the manifest or a revision.
 
@@ -34,7 +37,7 @@ def plan(
     """
     session = Session.of(context)
     bench = session.bench(fidelity)
-    found = bench.plan(revision, exact=exact)
+    found = bench.plan(revision, exact=exact, prefer=prefer, targets=target or (), exclude=exclude or ())
     if out and not found.errored:
         (session.folder / out).write_text(found.to_json() + "\n")
     if explain:
@@ -42,7 +45,13 @@ def plan(
 
         show(session, bench, found, explain)
     else:
-        session.show(view, found, head=bench.head_name(), goal=bench.goal_name(found), next_step=_next(revision, out))
+        session.show(
+            view,
+            found,
+            head=bench.head_name(),
+            goal=bench.goal_name(found),
+            next_step=_next(revision, out, _again(target, exclude, prefer)),
+        )
     if not session.json and not explain:
         session.report(found.diagnostics)
     if found.errored:
@@ -50,9 +59,16 @@ def plan(
     return ExitCode.CHANGES if detailed_exitcode and (found.operations or found.absent) else ExitCode.DONE
 
 
-def _next(revision: str | None, out: Path | None) -> str:
+def _next(revision: str | None, out: Path | None, options: str) -> str:
     """Return what to type after a plan."""
     if out:
         return f"Saved. Apply with `pico apply {out if out.is_absolute() else f'./{out}'}`."
     name = f" {revision}" if revision else ""
-    return f"Apply with `pico apply{name}`, or save with `pico plan{name} --out {revision or 'my'}.plan`."
+    more = f"{name}{options}"
+    return f"Apply with `pico apply{more}`, or save with `pico plan{more} --out {revision or 'my'}.plan`."
+
+
+def _again(targets: list[str] | None, exclude: list[str] | None, prefer: str) -> str:
+    """Return the options that make the same plan again."""
+    words = [f" --target {name}" for name in targets or ()] + [f" --exclude {name}" for name in exclude or ()]
+    return "".join([*words, *([f" --prefer {prefer}"] if prefer != "fewest-moves" else [])])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from datetime import datetime
 from typing import Any
 
 from pico.model.diff import Change
@@ -12,7 +13,7 @@ from pico.model.plan import Plan
 from pico.model.pose import wrap as wrap_angle
 from pico.model.record import as_json
 
-from .style import WIDTH, columns, count, listed, paint, place, seconds, width, wrap
+from .style import WIDTH, ago, columns, count, listed, paint, place, seconds, width, wrap
 
 SHOWN_TOLERATED = 5
 
@@ -37,13 +38,15 @@ def data(plan: Plan, **_: Any) -> dict[str, Any]:
     return found
 
 
-def header(plan: Plan, head: str = "", goal: str = "", single: bool = False) -> str:
-    """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted")`."""
+def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, now: datetime | None = None) -> str:
+    """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted") · only p2 · seen 2 min ago`."""
     parts = [paint("bold", plan.lab.name), f"{plan.backend} ({plan.fidelity})"]
     if single:
         return " · ".join([*parts, "one operation"])
     target = goal or plan.target.revision or "the manifest"
     parts.append(f"HEAD {head} → {target}" if head else f"→ {target}")
+    parts += [plan.target.scope] if plan.target.scope else []
+    parts += [f"seen {ago(plan.base.observed_at, now)}"] if plan.base.observed_at else []
     return " · ".join(parts)
 
 
@@ -124,7 +127,8 @@ def _why(op: Operation, change: Change | None, moving: bool) -> str:
     said = reason(op.reason, change)
     if change and op.primitive == "set" and said == change.text:
         said = ""  # it stands beside it already
-    beside = "beside the arm" if moving and not op.robot and op.primitive in ("set", "home") else ""
+    beside = "beside the arm" if moving and not op.robot and op.reason.kind != "interlock" else ""
+    beside = beside if op.primitive in ("set", "home") else ""
     return ", ".join(part for part in (said, beside) if part)
 
 
@@ -184,7 +188,11 @@ def _summary(plan: Plan) -> list[str]:
     if not plan.operations:
         if plan.absent:
             return [f"Nothing to move, but {listed(plan.absent)} can't be seen: the bench is not {goal_name(plan)}."]
-        return [f"Nothing to do: the bench equals {goal_name(plan)}."] if not plan.errored else []
+        if plan.errored:
+            return []
+        if plan.target.scope:
+            return [f"Nothing to do ({plan.target.scope}). Without --target and --exclude a plan is for all."]
+        return [f"Nothing to do: the bench equals {goal_name(plan)}."]
     parts = [tally(plan.operations)]
     if any(op.primitive in ("move", "stow") for op in plan.operations):
         parts.append(_staging(plan))
@@ -195,7 +203,15 @@ def _summary(plan: Plan) -> list[str]:
     touched = {op.component for op in changed if op.component in plan.base.state}
     stay = len(plan.base.state) - len(touched)
     lines = [line, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
-    return lines + [f"policy: {' · '.join(rule['text'] for rule in plan.policy)}"] * bool(plan.policy)
+    lines += [f"policy: {' · '.join(rule['text'] for rule in plan.policy)}"] if plan.policy else []
+    return [*lines, _scope(plan)] if plan.target.scope else lines
+
+
+def _scope(plan: Plan) -> str:
+    """Return that a plan is for some components, and whether the bench will be as the target says nevertheless."""
+    left = any(d.code == "left" for d in plan.diagnostics)
+    will = f"the bench will {'not equal' if left else 'equal'} {goal_name(plan)}"
+    return paint("yellow", f"{plan.target.scope}: {will}" + ("" if left else ", for nothing else differs"))
 
 
 def _staging(plan: Plan) -> str:

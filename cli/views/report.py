@@ -33,6 +33,8 @@ def _bench(report: RunReport) -> list[str]:
     if not report.remaining and not report.absent:
         if report.whole:
             return [f"The bench equals {report.goal}."]
+        if report.scope:
+            return [_partial(report)]
         return ["As asked. The manifest is as it was: `pico capture` takes the bench into it."]
     lines = []
     if report.remaining:
@@ -40,6 +42,13 @@ def _bench(report: RunReport) -> list[str]:
     if report.absent:
         lines.append(f"Not seen where it should stand: {listed(report.absent)}.")
     return [*lines, "Continue with the same command: it plans from what is observed now."]
+
+
+def _partial(report: RunReport) -> str:
+    if not report.left:
+        return f"As asked, {report.scope}: nothing else differs from {report.goal}."
+    verb = "differs" if len(report.left) == 1 else "differ"
+    return f"As asked, {report.scope}. The bench does not equal {report.goal}: {listed(report.left)} still {verb}."
 
 
 def data(report: RunReport) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from typing import Any
 
 WIDTH = 100
@@ -80,6 +81,15 @@ def seconds(value: float) -> str:
     if value < 60:
         return f"{value:.1f} s"
     return f"{int(value) // 60} min {int(value) % 60:02d} s"
+
+
+def ago(moment: str, now: datetime | None = None) -> str:
+    """Return how long ago a moment (ISO 8601) was: `just now`, `40 s ago`, `3 min ago`, `2 h ago`, `5 d ago`."""
+    past = ((now or datetime.now(UTC)) - datetime.fromisoformat(moment)).total_seconds()
+    if past < 10:
+        return "just now"
+    size, unit = next((s, u) for s, u in ((86400, "d"), (3600, "h"), (60, "min"), (1, "s")) if past >= s)
+    return f"{int(past // size)} {unit} ago"
 
 
 def place(value: Any) -> str:

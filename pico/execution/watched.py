@@ -72,10 +72,11 @@ def run_report(
     setup: Setup, plan: Plan, result: RunResult, seen: Observation, *, wall: float, evidence: str
 ) -> RunReport:
     """Return the report of a run that ended with `result`, and then was observed as `seen`."""
-    whole = not all(op.reason.kind in ("asked", "parked", "interlock") for op in plan.operations)
+    asked = all(op.reason.kind in ("asked", "parked", "interlock") for op in plan.operations)
+    whole = not asked and not plan.target.scope
     return RunReport(
         run=result.run,
-        goal=plan.target.revision or ("the manifest" if whole else "what was asked"),
+        goal=plan.target.revision or ("what was asked" if asked else "the manifest"),
         outcome=result.outcome,
         done=result.done,
         failed=result.failed,
@@ -86,6 +87,8 @@ def run_report(
         wall=wall,
         evidence=evidence,
         whole=whole,
+        scope=plan.target.scope,
+        left=_left(setup, plan, seen) if plan.target.scope else (),
         remaining=_remaining(setup, plan, seen, whole),
         absent=_absent(setup, plan, seen) if whole else (),
         diagnostics=tuple(_diagnostics(result)),
@@ -101,6 +104,14 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
         for change in diff_observed(setup, seen, wanted)
         if not change.tolerated and (whole or (change.component, change.tunable) in asked)
     )
+
+
+def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
+    """Return the components that differ from the goal of a plan for some components, and that it left alone."""
+    wanted = state_from_json(plan.lab.name, plan.target.state)
+    asked = {(c.component, c.tunable) for c in plan.changes}
+    rest = (c for c in diff_observed(setup, seen, wanted) if not c.tolerated)
+    return tuple(sorted({c.component for c in rest if (c.component, c.tunable) not in asked}))
 
 
 def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:

@@ -33,11 +33,22 @@ class Base:
 
 @record
 class Target:
-    """What a plan leads to: a revision and its commit, or the manifest in the working tree (no revision)."""
+    """What a plan leads to: a revision and its commit, or the manifest in the working tree (no revision).
+
+    `only`: the components that were asked for; `exclude`: those that were to be left alone. None for a whole plan.
+    """
 
     revision: str | None = None
     commit: str | None = None
+    only: tuple[str, ...] | None = None
+    exclude: tuple[str, ...] | None = None
     state: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def scope(self) -> str:
+        """`only p2`, `without p1`, or nothing for a whole plan."""
+        words = [f"only {' and '.join(self.only)}"] if self.only else []
+        return ", ".join([*words, *([f"without {' and '.join(self.exclude)}"] if self.exclude else [])])
 
 
 @record
@@ -54,8 +65,9 @@ class Staging:
 class Plan:
     """Operations that make the live state equal to the target's, in an order that never collides.
 
-    `operations` is sorted by start; arms take theirs in this order. `makespan` [s]. `errored` where the diagnostics
-    hold an error: then the plan must not be applied.
+    `operations` is sorted by start; arms take theirs in this order. `makespan` [s]; `bound`: before that no order of
+    these operations ends [s], where the arms tell how long they take. `errored` where the diagnostics hold an error:
+    then the plan must not be applied.
     """
 
     schema: str = SCHEMA
@@ -70,6 +82,7 @@ class Plan:
     operations: tuple[Operation, ...] = ()
     staging: Staging = Staging()
     makespan: float = 0.0
+    bound: float | None = None
     policy: tuple[Mapping[str, Any], ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
 

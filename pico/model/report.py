@@ -18,7 +18,8 @@ class RunReport:
 
     `seconds`: on the backend's clock, `clock` says whose; `wall`: here. `remaining`: what differs from the goal beyond
     tolerance, observed after the run; `absent`: components that are missing, held or toppled. `whole`: the plan was
-    for the whole bench, not for one operation. `evidence`: what the run counts as.
+    for the whole bench, not for one operation or for some components; `scope`: for which (`only p2`), and `left`: what
+    else differs from the goal. `evidence`: what the run counts as.
     """
 
     schema: str = "pico.report/v1"
@@ -34,6 +35,8 @@ class RunReport:
     wall: float = 0.0
     evidence: str = ""
     whole: bool = True
+    scope: str = ""
+    left: tuple[str, ...] = ()
     remaining: tuple[Change, ...] = ()
     absent: tuple[str, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()

@@ -132,6 +132,8 @@ def _from(edge: Edge, operation: Operation) -> bool:
 
 
 def _change_of(plan: Plan, operation: Operation) -> Change | None:
+    if operation.reason.kind == "interlock":
+        return None
     key = (operation.component, operation.arguments.get("tunable", "pose"))
     return next((c for c in plan.changes if (c.component, c.tunable) == key), None)
 
