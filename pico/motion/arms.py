@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
+from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.motion import gantry
 from pico.motion.reach import check_grip, check_reach, check_table
@@ -48,7 +49,7 @@ class ArmMotion:
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
         found = (
             check_grip(robot, arm, component, geometry)
-            or check_table(self.setup.lab, component, geometry, pose)
+            or self._on_table(component, geometry, pose)
             or self._stability(component, geometry)
         )
         if found or arm.model == "gantry":
@@ -127,6 +128,11 @@ class ArmMotion:
         if robot not in self._travels:
             self._travels[robot] = Travel(self.setup, robot)
         return self._travels[robot]
+
+    def _on_table(self, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:
+        found = check_table(self.setup.lab, component, geometry, pose)
+        beside = found and found.kind == "table_edge" and self.setup.lab.beside_table(slot_at(self.setup, pose))
+        return None if beside else found
 
     def _stability(self, component: str, geometry: Geometry) -> Blocked | None:
         if component not in self._steady:

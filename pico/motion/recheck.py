@@ -9,9 +9,8 @@ between its own looks, so that the two never differ over rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import combinations
 from typing import Any
 
@@ -23,10 +22,11 @@ from pico.model.pose import Pose
 from pico.motion import frames
 from pico.motion.arm import NEIGHBORS
 from pico.motion.explain import Errand, blocked
-from pico.motion.hulls import Hull, Placed, distance, of_geometry, of_shapes
+from pico.motion.hulls import Hull, of_geometry, of_shapes
 from pico.motion.reach import grasp_height
-from pico.motion.scene import Hit, Place
+from pico.motion.scene import Hit
 from pico.motion.shapes import LINKS, PALM, cup, finger
+from pico.motion.sweep import ROUNDING, Leg, Thing, march, moving, still
 from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, Standing
 
 STEP = 0.005
@@ -38,35 +38,8 @@ TOUCHING = 1e-3
 _JAW_GAP = 1.0  # mm, how much wider than the part the pads are taken to be while they close
 _CARRYING = ("lift", "transit", "lower")
 
-_ROUNDING = 1e-9  # m
-
 Array = Any
-Measure = Callable[[int, float], float]
-"""The distance of two hulls in a configuration, known to be enough where it reaches the second number [m]."""
 _BODIES = ("base", *(f"link{i}" for i in range(1, 8)), "gripper")
-
-
-@dataclass(frozen=True, eq=False)
-class Thing:
-    """An obstacle: its hulls, and where its frame is."""
-
-    name: str
-    kind: Place
-    hulls: tuple[Hull, ...]
-    turn: Array
-    origin: Array
-
-    @cached_property
-    def bounds(self) -> tuple[Array, Array]:
-        """The lower and the upper corner of a box around each hull: arrays (hulls, 3)."""
-        centers = np.array([h.center for h in self.hulls]) @ self.turn.T + self.origin
-        extents = np.array([h.extent(self.turn @ h.turn) for h in self.hulls])
-        return centers - extents, centers + extents
-
-    def placed(self, b: int) -> Placed:
-        """Return one of its hulls where it stands."""
-        hull = self.hulls[b]
-        return Placed(hull).put(self.turn @ hull.turn, self.origin + self.turn @ hull.center)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,47 +51,6 @@ class Task:
     start: Pose | None = None
     goal: Pose | None = None
     grasp_yaw: float = 0.0
-
-
-class Leg:
-    """One segment of a path in one frame: where each own hull is in each configuration."""
-
-    def __init__(self, hulls: list[tuple[int, Hull]], turns: Array, origins: Array) -> None:
-        """Take the hulls with the links that they are on, and rotations (N, 10, 3, 3) and origins (N, 10, 3)."""
-        self.links = [i for i, _ in hulls]
-        self.hulls = tuple(h for _, h in hulls)
-        self.radii = np.array([h.radius for h in self.hulls])
-        self._turns = turns
-        offsets = np.array([h.center for h in self.hulls])
-        self.centers = origins[:, self.links] + (turns[:, self.links] @ offsets[..., None])[..., 0]
-        self.parts = tuple(h.part for h in self.hulls)
-        self._known: dict[int, tuple[Array, Array, Array]] = {}
-
-    def boxes(self, k: int) -> tuple[Array, Array, Array]:
-        """Return the rotations (N, 3, 3) of hull `k`, and the corners (N, 3) of the boxes around it."""
-        if k not in self._known:
-            turns = self._turns[:, self.links[k]] @ self.hulls[k].turn
-            extents = self.hulls[k].extent(turns)
-            self._known[k] = turns, self.centers[:, k] - extents, self.centers[:, k] + extents
-        return self._known[k]
-
-    def covered(self, k: int) -> Array:
-        """How far no point of hull `k` has come beyond, since the first configuration: (N,).
-
-        A point at most `radius` from the center goes no farther than the center does and the rotation carries it."""
-        moved = np.linalg.norm(np.diff(self.centers[:, k], axis=0), axis=-1)
-        turned = np.linalg.norm(np.diff(self._turns[:, self.links[k]], axis=0), axis=(-2, -1)) / math.sqrt(2)
-        return np.concatenate(((0.0,), np.cumsum(moved + self.radii[k] * turned)))
-
-    def near(self, k: int, floor: Array, ceiling: Array, required: float) -> Array:
-        """Which configurations may bring hull `k` nearer than `required` to the box from `floor` to `ceiling`."""
-        _, low, high = self.boxes(k)
-        return np.maximum(floor - high, low - ceiling).max(axis=-1) < required + _ROUNDING
-
-    def measure(self, k: int, other: Callable[[int], Placed]) -> Measure:
-        """Return what measures the distance of hull `k` from `other` in a configuration."""
-        mine, turns = Placed(self.hulls[k]), self.boxes(k)[0]
-        return lambda i, enough: distance(mine.put(turns[i], self.centers[i, k]), other(i), enough)
 
 
 class Recheck:
@@ -217,7 +149,7 @@ class Recheck:
         for pair in np.flatnonzero(near.any(axis=0)).tolist():
             k, m = int(first[pair]), int(second[pair])
             may = near[:, pair] & leg.near(k, *leg.boxes(m)[1:], 0.0)
-            gap = march(may, leg.covered(k) + leg.covered(m), 0.0, leg.measure(k, _moving(leg, m)))
+            gap = march(may, leg.covered(k) + leg.covered(m), 0.0, leg.measure(k, moving(leg, m)))
             if gap is not None:
                 mine, its = sorted((leg.parts[k], leg.parts[m]), key=lambda part: part != "held")
                 return Hit(_part(mine), f"{self.name} {_part(its)}", "self", gap * 1000, -gap * 1000)
@@ -240,7 +172,7 @@ class Recheck:
         floors, ceilings = (np.concatenate([thing.bounds[side] for thing in things]) for side in (0, 1))
         low, high = leg.centers.min(axis=0) - leg.radii[:, None], leg.centers.max(axis=0) + leg.radii[:, None]
         apart = np.maximum(floors[None] - high[:, None], low[:, None] - ceilings[None]).max(axis=-1)
-        for k, n in np.argwhere(apart < margins[:, None] + _ROUNDING).tolist():
+        for k, n in np.argwhere(apart < margins[:, None] + ROUNDING).tolist():
             part, (thing, b) = leg.parts[k], owners[n]
             if part == "base" or (part == "held" and thing.kind == "table"):
                 continue
@@ -251,7 +183,7 @@ class Recheck:
             if not near.any():
                 continue
             other = thing.placed(b)
-            gap = march(near, leg.covered(k), required, leg.measure(k, _still(other)))
+            gap = march(near, leg.covered(k), required, leg.measure(k, still(other)))
             if gap is not None:
                 return Hit(_part(part), thing.name, thing.kind, gap * 1000, (required - gap) * 1000)
         return None
@@ -307,29 +239,6 @@ def _arm(name: str, robot: Robot, joints: Joints) -> Thing:
         for i, hull in links
     ]
     return Thing(name, "robot", tuple(placed), np.eye(3), np.zeros(3))
-
-
-def _moving(leg: Leg, m: int) -> Callable[[int], Placed]:
-    other, turns = Placed(leg.hulls[m]), leg.boxes(m)[0]
-    return lambda i: other.put(turns[i], leg.centers[i, m])
-
-
-def _still(other: Placed) -> Callable[[int], Placed]:
-    return lambda _: other
-
-
-def march(near: Array, covered: Array, required: float, measure: Measure) -> float | None:
-    """Return the first distance that is less than `required`, or None: after each measurement the shape may go as far
-    as it was seen to be free."""
-    free = -1.0
-    for i in np.flatnonzero(near).tolist():
-        if covered[i] <= free:
-            continue
-        gap = measure(i, required + _ROUNDING)
-        if gap < required or gap <= 0.0:
-            return gap
-        free = covered[i] + gap - required
-    return None
 
 
 def _joined(one: str, other: str) -> bool:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pico.manifest.load import load_folder
-from pico.model.lab import Box2, KeepOut, Mount, Robot
+from pico.model.lab import Box2, KeepOut, Mount, Robot, Slot
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
 from pico.motion.arms import ArmMotion
@@ -83,6 +84,16 @@ def test_a_gantry_reaches_everywhere_and_sets_down_where_it_should():
     assert motion.park("gantry", path.end, {}).end == motion.park_joints("gantry")
     blocked = refused(motion.move("gantry", "a", start, goal, 0, stands(at={"b": (PART, Pose(1110, 860))})))
     assert (blocked.obstacle, blocked.by) == ("b", pytest.approx(10))
+
+
+def test_storage_of_a_gantry_may_lie_beside_the_table_and_that_of_an_arm_may_not():
+    for model, kind in (("gantry", None), ("xarm7", "table_edge")):
+        setup = bench(robots={"robot": Robot(model=model, mount=Mount(x=100, y=300))})
+        lab = replace(setup.lab, slots={"store": Slot(x=-60, y=100)})
+        motion = ArmMotion(replace(setup, lab=lab))
+        found = motion.reach("robot", "a", Pose(-60, 100), 0)
+        assert (found and found.kind) == kind
+        assert refused(motion.reach("robot", "a", Pose(-60, 300), 0)).kind == "table_edge"
 
 
 def test_asking_for_reach_does_not_load_the_simulator():
