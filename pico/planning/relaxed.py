@@ -33,7 +33,7 @@ def _direct(table: Conflicts, i: int) -> Iterator[Option]:
         for way in table.ways(i, 0, goal):
             yield Option((goal, way.hold), _arcs(table, arrives(i), way.mask, table.arrive(i, goal) or 0), goal)
     if mover.right:
-        yield Option(None, tuple(_stays(table, i)), 0)
+        yield Option(None, (), 0)  # stays; whatever excludes its place already waits for it to leave
 
 
 def _picks(table: Conflicts, i: int) -> Iterator[Option]:
@@ -80,11 +80,6 @@ def _arcs(table: Conflicts, event: Event, mask: int, body: int) -> tuple[Arc, ..
             goals = ((j, place),) if len(other.finished) > 1 else ()
             found.append(Arc(event, arrives(j), kind, goals))
     return tuple(found)
-
-
-def _stays(table: Conflicts, i: int) -> Iterator[Arc]:
-    """Yield the arcs of a component that stays where it is: it leaves after everybody else is done."""
-    return (Arc(arrives(j), leaves(i), "stays") for j in range(len(table.movers)) if j != i)
 
 
 def _shared(component: Component) -> list[Arc]:
