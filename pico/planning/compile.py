@@ -74,9 +74,9 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        guarded = with_interlocks(setup, request.seen, request.wanted, (*moves.operations, *shifted))
+        guarded = with_interlocks(setup, request.seen, (*moves.operations, *shifted))
         operations = schedule(guarded)
-        diagnostics = (*diagnostics, *unguarded(setup, request.seen, request.wanted, operations))
+        diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
@@ -87,7 +87,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,
         staging=Staging() if _errored(diagnostics) else moves.staging,
-        makespan=makespan(operations), policy=policy_rules(setup, request.seen, request.wanted, operations),
+        makespan=makespan(operations), policy=policy_rules(setup, request.seen, operations),
         diagnostics=diagnostics,
     ).sealed()  # fmt: skip
 

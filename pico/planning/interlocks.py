@@ -13,7 +13,6 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
-from pico.model.state import LabState
 
 STEERING = ("beam_splitter", "lens", "mirror", "waveplate")
 """Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter
@@ -30,17 +29,10 @@ class Shutter:
     live: Value | None
     goal: Value | None
 
-    @property
-    def shut(self) -> bool:
-        """Whether it is closed before and after the plan."""
-        return self.live == CLOSED and self.goal in (CLOSED, None)
 
-
-def with_interlocks(
-    setup: Setup, seen: Observation, wanted: LabState, operations: Sequence[Operation]
-) -> list[Operation]:
-    """Return the operations, more where shutters must be closed first and set as wanted at the end, and with the edges
-    that this takes. `after` holds indices as text.
+def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
+    """Return the operations, more where shutters must be closed first and opened again at the end, and with the edges
+    that this takes. `after` holds indices as text. A shutter ends as the operations given leave it.
 
     What sets a shutter comes after the moves themselves, not only after the park: where a move fails, an arm still
     parks, but nobody knows what stands in the beam, and the shutter stays closed.
@@ -51,10 +43,9 @@ def with_interlocks(
         return out
     first, last = _ends(operations, guarded)
     why = _why(operations, guarded)
-    for shutter in _shutters(setup, seen, wanted):
-        if not shutter.shut:
-            _close(out, shutter, first, why)
-            _set_back(out, shutter, last, why)
+    for shutter in _shutters(setup, seen, operations):
+        _close(out, shutter, first, why)
+        _set_back(out, shutter, last, why)
     return out
 
 
@@ -83,7 +74,7 @@ def _why(operations: Sequence[Operation], guarded: Sequence[int]) -> str:
     return f"homing {', '.join(names)} steers the beam"
 
 
-def _shutters(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Shutter]:
+def _shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Shutter]:
     """Yield the shutters of lasers that a plan can set, by name."""
     for laser in _lasers(setup):
         kind, part = setup.type_of(laser).tunables.get("shutter"), seen.components.get(laser)
@@ -91,8 +82,8 @@ def _shutters(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Shu
             continue
         known = part.values["shutter"]
         live = known.value if known.status == "known" else None
-        target = wanted.components[laser].values.get("shutter") if laser in wanted.components else None
-        yield Shutter(laser, kind, live, known.value if target is None or kind.restore.kind == "none" else target)
+        ends = [o.arguments.get("to") for o in operations if _sets(o, laser)]
+        yield Shutter(laser, kind, live, ends[-1] if ends else known.value)
 
 
 def _lasers(setup: Setup) -> list[str]:
@@ -103,19 +94,16 @@ def _closes(kind: Tunable) -> bool:
     return kind.mover in ("motor", "electronics") and {OPEN, CLOSED} <= set(kind.choices)
 
 
-def _setting(operation: Operation, laser: str, value: Value) -> bool:
-    arguments = operation.arguments
-    return (
-        operation.primitive == "set" and operation.component == laser and arguments.get("tunable") == "shutter"
-        and arguments.get("to") == value
-    )  # fmt: skip
+def _sets(operation: Operation, laser: str) -> bool:
+    tunable = operation.arguments.get("tunable")
+    return operation.primitive == "set" and operation.component == laser and tunable == "shutter"
 
 
 def _close(out: list[Operation], shutter: Shutter, first: Sequence[int], why: str) -> None:
     """Let the first of the guarded operations come after the shutter is closed, by what the plan holds or by more."""
     if shutter.live == CLOSED:
         return
-    n = next((n for n, o in enumerate(out) if _setting(o, shutter.laser, CLOSED)), len(out))
+    n = next((n for n, o in enumerate(out) if _sets(o, shutter.laser) and o.arguments["to"] == CLOSED), len(out))
     if n == len(out):
         out.append(_set(shutter, shutter.live, CLOSED, why))
     for k in first:
@@ -127,7 +115,7 @@ def _set_back(out: list[Operation], shutter: Shutter, last: Sequence[int], why: 
     if shutter.goal in (CLOSED, None):
         return
     after = tuple(str(k) for k in last)
-    n = next((n for n, o in enumerate(out) if _setting(o, shutter.laser, shutter.goal)), len(out))
+    n = next((n for n, o in enumerate(out) if _sets(o, shutter.laser) and o.arguments["to"] == shutter.goal), len(out))
     if n == len(out):
         out.append(replace(_set(shutter, CLOSED, shutter.goal, f"closed while {why}"), after=after))
     else:
@@ -143,11 +131,11 @@ def _set(shutter: Shutter, before: Value | None, after: Value, why: str) -> Oper
     )  # fmt: skip
 
 
-def unguarded(setup: Setup, seen: Observation, wanted: LabState, operations: Sequence[Operation]) -> list[Diagnostic]:
+def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Diagnostic]:
     """Return a warning for each laser whose beam nothing closes while somebody works in it."""
     if setup.lab.policy.open_beam or not _guarded(setup, operations):
         return []
-    closed = {s.laser for s in _shutters(setup, seen, wanted)}
+    closed = {s.laser for s in _shutters(setup, seen, operations)}
     why = _why(operations, _guarded(setup, operations))
     return [
         warning(
@@ -159,12 +147,10 @@ def unguarded(setup: Setup, seen: Observation, wanted: LabState, operations: Seq
     ]  # fmt: skip
 
 
-def policy_rules(
-    setup: Setup, seen: Observation, wanted: LabState, operations: Sequence[Operation]
-) -> tuple[Mapping[str, Any], ...]:
+def policy_rules(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> tuple[Mapping[str, Any], ...]:
     """Return what `Plan.policy` says of a plan's lasers: each rule with whether it holds, and in words."""
     count = sum(operations[n].primitive != "park" for n in _guarded(setup, operations))
-    lasers = [s.laser for s in _shutters(setup, seen, wanted)]
+    lasers = [s.laser for s in _shutters(setup, seen, operations)]
     if not count or not lasers:
         return ()
     when = f"during {count} move{'' if count == 1 else 's'}"

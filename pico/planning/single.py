@@ -88,13 +88,13 @@ def _sealed(
     setup: Setup, seen: Observation, operations: list[Operation], notes: list[Diagnostic], backend: str, fidelity: str,
     base: Base | None, wanted: LabState, changes: tuple[Change, ...],
 ) -> Plan:  # fmt: skip
-    timed = schedule(with_interlocks(setup, seen, wanted, operations))
-    notes = [*notes, *unguarded(setup, seen, wanted, timed)]
+    timed = schedule(with_interlocks(setup, seen, operations))
+    notes = [*notes, *unguarded(setup, seen, timed)]
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
         base=base or Base(state=live_state(setup, seen).as_json()), target=Target(state=wanted.as_json()),
         changes=changes, operations=timed, makespan=makespan(timed),
-        policy=policy_rules(setup, seen, wanted, timed), diagnostics=tuple(notes),
+        policy=policy_rules(setup, seen, timed), diagnostics=tuple(notes),
     ).sealed()  # fmt: skip
 
 
