@@ -99,7 +99,8 @@ class World:
             for other, standing, _ in self.others(name)
             if (gap := shape.gap(standing)) <= max(lab.margins.body - EPSILON, 0.0)
         ]
-        faults += self._off_table(name, shape)
+        gantries = all(robot.model == "gantry" for robot in lab.robots.values())
+        faults += [] if slot and gantries else self._off_table(name, shape)
         for zone, keep_out in lab.keep_out.items():
             if keep_out.z[0] <= geometry.height and _zone(keep_out.area).gap(shape) <= 0:
                 faults.append(f"{name} stands in keep-out {zone}")
@@ -255,7 +256,8 @@ def _staging_faults(setup: Setup, wanted: LabState, operations: Sequence[Operati
         if slot == belongs and (slot or pose.distance(goal) < EPSILON):
             continue
         if slot is None:
-            faults.append(f"{operation.id} stages {operation.component} outside of storage")
+            if not _in_staging_region(setup, operation.component, pose):
+                faults.append(f"{operation.id} stages {operation.component} outside of storage")
             continue
         if setup.lab.inventory[operation.component].stage == "never":
             faults.append(f"{operation.id} stages {operation.component}, which is never staged")
@@ -264,6 +266,16 @@ def _staging_faults(setup: Setup, wanted: LabState, operations: Sequence[Operati
             if other != slot and Base(Point(place.x, place.y), place.capture).gap(shape) < -EPSILON:
                 faults.append(f"{operation.component} staged in {slot} blocks {other}")
     return faults
+
+
+def _in_staging_region(setup: Setup, name: str, pose: Pose) -> bool:
+    shape = base(setup.type_of(name).geometry.footprint, pose)
+    (x0, y0, x1, y1), r = shape.core.bounds, shape.radius
+    return any(
+        region.staging and x0 - r >= region.area.x[0] - EPSILON and x1 + r <= region.area.x[1] + EPSILON
+        and y0 - r >= region.area.y[0] - EPSILON and y1 + r <= region.area.y[1] + EPSILON
+        for region in setup.lab.regions.values()
+    )  # fmt: skip
 
 
 def _end_faults(setup: Setup, seen: Observation, wanted: LabState, plan: Plan, world: World) -> list[str]:

@@ -96,7 +96,7 @@ def _on_table(document: Document, lab: Lab) -> Iterator[Diagnostic]:
     if width <= 0 or depth <= 0:
         return  # said by itself
     places: list[tuple[str, tuple[str, ...], float, float]] = []
-    places += [(f"slot {n}", ("slots", n), s.x, s.y) for n, s in lab.slots.items()]
+    places += [(f"slot {n}", ("slots", n), s.x, s.y) for n, s in lab.slots.items() if not lab.beside_table(n)]
     places += [(n, ("inventory", n, "pose"), p.pose.x, p.pose.y) for n, p in lab.inventory.items() if p.pose]
     places += [(f"datum {n}", ("datums", n), d.x, d.y) for n, d in lab.datums.items()]
     for what, path, x, y in places:

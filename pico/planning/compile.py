@@ -40,6 +40,7 @@ class Compiled:
     operations: tuple[Operation, ...] = ()
     staging: Staging = field(default_factory=lambda: Staging(proven=True))
     diagnostics: tuple[Diagnostic, ...] = field(default=())
+    bound: float | None = None
 
 
 def plan(
@@ -62,7 +63,7 @@ def plan(
 
 def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, target: Target) -> Plan:
     """Return the sealed plan of a request."""
-    from pico.planning.schedule import makespan, schedule
+    from pico.planning.schedule import least_makespan, makespan, schedule
 
     setup = request.setup
     situation = read_situation(setup, request.seen, request.wanted, exact=request.exact)
@@ -74,9 +75,9 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        guarded = with_interlocks(setup, request.seen, (*moves.operations, *shifted))
+        guarded = with_interlocks(setup, request.seen, request.wanted, (*moves.operations, *shifted))
         operations = schedule(guarded)
-        diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
+        diagnostics = (*diagnostics, *unguarded(setup, request.seen, request.wanted, operations))
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
@@ -87,7 +88,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,
         staging=Staging() if _errored(diagnostics) else moves.staging,
-        makespan=makespan(operations), policy=policy_rules(setup, request.seen, operations),
+        makespan=makespan(operations), bound=least_makespan(operations, moves.bound),
+        policy=policy_rules(setup, request.seen, request.wanted, operations),
         diagnostics=diagnostics,
     ).sealed()  # fmt: skip
 
@@ -98,7 +100,7 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
-    from pico.planning.refusal import explain
+    from pico.planning.refusal import explain, storage_note
     from pico.planning.solve import Problem, Solution, solve
 
     movers, obstacles, put_off = actors(request, situation)
@@ -116,7 +118,9 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     operations, notes = _operations(request, answer)
     count, least = answer.staged, min(answer.staged, answer.least)
     staging = Staging(count=count, lower_bound=least, proven=count == least)
-    return Compiled(tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes))
+    return Compiled(
+        tuple(operations), staging, (*put_off, *hand_warnings(movers), *notes, *storage_note(answer)), answer.tour.bound
+    )
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:

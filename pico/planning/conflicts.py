@@ -26,6 +26,7 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.motion.types import Blocked, Motion
 from pico.planning.movers import Hold, Mover, Obstacle, with_storage
+from pico.planning.spots import with_spots
 
 FEW, MANY_SLOTS, ENOUGH_SLOTS = 7, 60, 24
 """With few movers up to so many of the free storage slots are considered for each, with more so many."""
@@ -45,16 +46,23 @@ class Way:
 
 
 class Conflicts:
-    """The tables of one planning problem. A mask is None where something that stays excludes it."""
+    """The tables of one planning problem. A mask is None where something that stays excludes it. `on_table`: parts may
+    be put down in the lab's staging regions, too."""
 
     def __init__(
-        self, setup: Setup, movers: Sequence[Mover], obstacles: Sequence[Obstacle], motion: Motion | None
+        self,
+        setup: Setup,
+        movers: Sequence[Mover],
+        obstacles: Sequence[Obstacle],
+        motion: Motion | None,
+        on_table: bool = False,
     ) -> None:
         self.setup, self.motion = setup, motion
         self.obstacles = {o.name: o for o in obstacles}
         self.static: Grid[str] = Grid.of({o.name: o.shape for o in obstacles})
         self._mouths: Grid[str] = Grid.of({name: capture_disc(slot) for name, slot in setup.lab.slots.items()})
-        movers = self.movers = self._stored(movers)
+        movers = self._stored(movers)
+        movers = self.movers = with_spots(setup, movers, obstacles) if on_table else movers
         self.spots: list[Spot] = [(i, p) for i, m in enumerate(movers) for p in range(len(m.places))]
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
         self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
@@ -109,7 +117,7 @@ class Conflicts:
     def _body(self, i: int, place: int) -> int | None:
         mover, lab = self.movers[i], self.setup.lab
         shape, slot, margin = self.shape(i, place), mover.places[place].slot, lab.margins.body
-        if overhang(lab.table, shape) > 0 or self.static.conflicts(shape, margin):
+        if (overhang(lab.table, shape) > 0 and not lab.beside_table(slot)) or self.static.conflicts(shape, margin):
             return None
         if any(reaches(k, 0.0, mover.geometry.height) and conflict(shape, outline(k)) for k in lab.keep_out.values()):
             return None

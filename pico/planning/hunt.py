@@ -10,7 +10,7 @@ from itertools import combinations
 from pico.planning.conflicts import FEW, Conflicts, sum_of
 from pico.planning.feedback import Limit, Staging
 from pico.planning.feedback import solve as fewest_staged
-from pico.planning.realize import realized
+from pico.planning.realize import realized, slots_needed
 from pico.planning.relaxed import relaxation
 from pico.planning.search import Configuration, Effort, Found, Step, search
 
@@ -37,13 +37,15 @@ PROOF_WORK = 30_000
 class Hunted:
     """The moves, or None; `least`: stagings below which no order of these movers' moves goes. Without moves: `core`,
     movers that are proven not to get home together, if known, the configuration that came closest, and whether it is
-    `proven` that there is no order."""
+    `proven` that there is no order. `slots`: where storage has no room for the fewest stagings, how many free slots
+    would do; 0 where it has, or where that is not known."""
 
     steps: tuple[Step, ...] | None
     least: int = 0
     core: tuple[int, ...] = ()
     closest: Configuration = ()
     proven: bool = False
+    slots: int = 0
 
 
 def stagings(steps: Sequence[Step]) -> int:
@@ -65,13 +67,14 @@ def hunt(table: Conflicts) -> Hunted:
     least = _least(table, relaxed)
     for steps in _with_room(table, relaxed):
         return Hunted(steps, least)
+    slots = slots_needed(relaxation(table), relaxed) if relaxed.options is not None else 0
     found = _searched(table)
     if found.steps is not None:
-        return _compared(table, found.steps, least)
+        return _compared(table, found.steps, least, slots)
     core = _core(table, found.closest)
     if not core and len(table.movers) <= COMPLETE:
         found = search(table, EVERYTHING)
-    return Hunted(found.steps, least, core, found.closest, bool(core) or found.exhausted)
+    return Hunted(found.steps, least, core, found.closest, bool(core) or found.exhausted, slots)
 
 
 def _least(table: Conflicts, relaxed: Staging) -> int:
@@ -107,12 +110,15 @@ def _searched(table: Conflicts) -> Found:
     return found
 
 
-def _compared(table: Conflicts, steps: tuple[Step, ...], least: int) -> Hunted:
+def _compared(table: Conflicts, steps: tuple[Step, ...], least: int, slots: int) -> Hunted:
     """Return the moves, or fewer where a complete search of a small table finds them, which proves their number."""
-    if stagings(steps) == least or len(table.movers) > COMPLETE or any(m.right or m.penalty for m in table.movers):
+    if stagings(steps) == least:
         return Hunted(steps, least)
-    found = search(table, FEWEST)
-    return Hunted(found.steps, stagings(found.steps)) if found.steps is not None else Hunted(steps, least)
+    if len(table.movers) <= COMPLETE and not any(m.right or m.penalty for m in table.movers):
+        found = search(table, FEWEST)
+        if found.steps is not None:
+            return Hunted(found.steps, stagings(found.steps), slots=slots)
+    return Hunted(steps, least, slots=slots)
 
 
 def _core(table: Conflicts, closest: Configuration) -> tuple[int, ...]:

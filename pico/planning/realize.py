@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -12,6 +13,9 @@ from pico.planning.search import Step, ranked_storage
 TRIES = 2000
 """Moves tried in all to find slots for one order."""
 
+FEW_STAGED = 10
+"""Up to so many staged components all orders are weighed for the fewest in storage at one time."""
+
 Act = tuple[int, str]
 """A mover, and which of its moves: `direct`, `leaves` for storage, or `arrives` from there."""
 
@@ -20,9 +24,19 @@ def realized(table: Conflicts, problem: Problem, answer: Staging) -> tuple[Step,
     """Return moves that stage exactly what `answer` stages, or None where no slots for them are found."""
     assert answer.options is not None
     stays = {i for i, c in enumerate(answer.options) if c.direct is not None and _stays(problem, i, c.direct)}
-    order = [act for act in _order(_before(problem, answer.options)) if act[0] not in stays]
-    replay = _Replay(table, order, TRIES)
-    return tuple(replay.steps) if replay.run() else None
+    before = _before(problem, answer.options)
+    for order in (_order(before), _roomiest(before)):
+        replay = _Replay(table, [act for act in order if act[0] not in stays], TRIES)
+        if replay.run():
+            return tuple(replay.steps)
+    return None
+
+
+def slots_needed(problem: Problem, answer: Staging) -> int:
+    """Return how many components must be in storage at one time where those of `answer` are staged as it says: the
+    least number in any order, where they are few."""
+    assert answer.options is not None
+    return _peak(_roomiest(_before(problem, answer.options)))
 
 
 def _stays(problem: Problem, i: int, direct: int) -> bool:
@@ -93,6 +107,48 @@ def _sorted(before: dict[Act, set[Act]], acts: set[Act]) -> list[Act]:
     while len(out) < len(acts):
         out.append(next(a for a in sorted(acts) if a not in out and (before[a] & acts) <= set(out)))
     return out
+
+
+def _peak(order: Sequence[Act]) -> int:
+    now = most = 0
+    for _, what in order:
+        now += (what == "leaves") - (what == "arrives")
+        most = max(most, now)
+    return most
+
+
+def _roomiest(before: dict[Act, set[Act]]) -> list[Act]:
+    """Return an order with the fewest in storage at one time: the best over all sets of those that have left, as long
+    as these are few."""
+    leaving = sorted(a for a in before if a[1] == "leaves")
+    if len(leaving) > FEW_STAGED:
+        return _order(before)
+    best: dict[frozenset[Act], int] = {}
+    heap: list[tuple[int, int, int, list[Act]]] = [(0, 0, 0, _arriving(before, []))]
+    while heap:
+        peak, _, _, order = heapq.heappop(heap)
+        done = frozenset(order)
+        if len(order) == len(before):
+            return order
+        if done in best:
+            continue
+        best[done] = peak
+        for n, act in enumerate(leaving):
+            if act not in done and before[act] <= done:
+                after = _arriving(before, [*order, act])
+                heapq.heappush(heap, (max(peak, _peak([*order, act])), len(before) - len(after), n, after))
+    return _order(before)
+
+
+def _arriving(before: dict[Act, set[Act]], order: list[Act]) -> list[Act]:
+    """Return an order, prolonged by all that can arrive without anything else leaving."""
+    gone = set(order)
+    while True:
+        ready = [a for a in sorted(before) if a[1] != "leaves" and a not in gone and before[a] <= gone]
+        if not ready:
+            return order
+        order = [*order, *ready]
+        gone.update(ready)
 
 
 @dataclass(slots=True)

@@ -11,7 +11,7 @@ from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Hold, Mover
 from pico.planning.paths import NoPath
 from pico.planning.reasons import body_overlap
-from pico.planning.solve import Refusal
+from pico.planning.solve import Refusal, Solution
 from pico.planning.target import Source, located
 
 
@@ -25,7 +25,19 @@ def explain(refused: Refusal, source: Source) -> list[Diagnostic]:
     ]  # fmt: skip
     if refused.blocked and not refused.core:
         return [_no_path(table, refused.blocked[-1], source)]
-    return [_ring(table, stuck, refused.proven, source)]
+    return [_ring(table, stuck, refused, source)]
+
+
+def storage_note(answer: Solution) -> list[Diagnostic]:
+    """Return a note where storage has too little room for as few stagings as there might be."""
+    if answer.staged <= answer.least or not answer.slots:
+        return []
+    more = answer.staged - answer.least
+    return [Diagnostic(
+        severity="note", code="storage",
+        summary=f"{more} more staging move{'s' if more > 1 else ''} than with more room in storage",
+        hint=f"with {answer.slots} free slots within reach {answer.least} would do",
+    )]  # fmt: skip
 
 
 def _alone(refused: Refusal, i: int, source: Source) -> Diagnostic:
@@ -105,7 +117,7 @@ def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
     )  # fmt: skip
 
 
-def _ring(table: Conflicts, stuck: Sequence[int], proven: bool, source: Source) -> Diagnostic:
+def _ring(table: Conflicts, stuck: Sequence[int], refused: Refusal, source: Source) -> Diagnostic:
     arcs = {(a, b): text for a in stuck for b in stuck if a != b and (text := before(table, a, b))}
     ring = _cycle(stuck, arcs)
     names = [table.movers[i].name for i in (ring or stuck)]
@@ -113,15 +125,16 @@ def _ring(table: Conflicts, stuck: Sequence[int], proven: bool, source: Source) 
     lines += [_storage_line(table, i) for i in (ring or stuck)]
     if ring:
         summary = f"{_list(names)} block one another in a ring that no storage slot breaks"
-    elif proven:
+    elif refused.proven:
         summary = f"{_list(names)} can't all reach their places in any order"
     else:
         summary = f"found no order in which {_list(names)} reach their places, within the limit of the search"
     inventory = table.setup.lab.inventory
     allowed = [name for name in names if inventory[name].stage == "never"]
-    hint = "free one slot within reach, or leave more room between them"
+    enough = f"{refused.slots} slots within reach that take them" if refused.slots > 1 else "one slot within reach"
+    hint = f"free {enough}, or leave more room between them"
     if allowed and len(allowed) < 6:
-        hint = f"free one slot within reach, or allow staging of {_list(allowed, 'or')}"
+        hint = f"free {enough}, or allow staging of {_list(allowed, 'or')}"
     first = names[0] if names else ""
     return error(
         "impossible", summary, detail="\n".join(lines), hint=hint, address=f"{first}.pose",

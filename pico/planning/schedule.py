@@ -96,3 +96,15 @@ def _numbered(operations: Sequence[Operation], starts: dict[int, float]) -> tupl
 def makespan(operations: Sequence[Operation]) -> float:
     """Return when the last operation ends [s]."""
     return round(max((o.start + o.seconds for o in operations), default=0.0), 6)
+
+
+def least_makespan(operations: Sequence[Operation], arms: float | None) -> float | None:
+    """Return a time before which no schedule of these operations ends [s]: what the arms need in any order, or what one
+    component's motors and set-points need one after the other. None where the arms do not tell."""
+    if arms is None or not operations:
+        return None
+    chains: dict[str, float] = {}
+    for o in operations:
+        if o.primitive in ("set", "home"):
+            chains[o.component] = chains.get(o.component, 0.0) + o.seconds
+    return round(min(max(arms, *chains.values(), 0.0), makespan(operations)), 6)

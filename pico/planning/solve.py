@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pico.model.lab import Setup
 from pico.model.observation import Observation
@@ -11,10 +11,11 @@ from pico.motion.types import Motion
 from pico.planning.conflicts import Conflicts
 from pico.planning.hunt import COMPLETE, hunt, stagings
 from pico.planning.movers import Mover, Obstacle
-from pico.planning.order import arranged, precedence
+from pico.planning.order import precedence
 from pico.planning.paths import NoPath, Paths, find_paths
 from pico.planning.search import Configuration, Step
 from pico.planning.shorten import shortened
+from pico.planning.travel import Tour, toured
 
 PATH_ROUNDS = 200
 """How often the search may start again because a path was blocked."""
@@ -23,12 +24,19 @@ PATH_ROUNDS = 200
 @dataclass(frozen=True, slots=True)
 class Solution:
     """The moves in order, with the tables that they were found in, their paths (None without motion), and a number of
-    stagings below which no plan can go that moves the same components."""
+    stagings below which no plan can go that moves the same components. `slots`: how many free slots would do for as few
+    as storage with room for all would need, where there are not so many."""
 
     table: Conflicts
-    steps: tuple[Step, ...]
+    tour: Tour
     paths: Paths | None
     least: int = 0
+    slots: int = 0
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The moves in order."""
+        return self.tour.steps
 
     @property
     def staged(self) -> int:
@@ -39,19 +47,21 @@ class Solution:
 @dataclass(frozen=True, slots=True)
 class Refusal:
     """Why there is no order: movers that can't all reach their goals whatever the others do (`core`, proven), or none
-    known; the configuration that came closest; the paths that were blocked on the way."""
+    known; the configuration that came closest; the paths that were blocked on the way. `slots`: how many free slots
+    would do, if that is all that lacks."""
 
     table: Conflicts
     core: tuple[int, ...]
     closest: Configuration
     proven: bool
     blocked: tuple[NoPath, ...] = ()
+    slots: int = 0
 
 
 @dataclass(slots=True)
 class Problem:
     """One planning problem. `asides`: components that are right but may be moved to make room, as movers; `direct`:
-    only moves straight to the goal, of nobody else."""
+    only moves straight to the goal, of nobody else. `on_table`: parts may be put down in staging regions, too."""
 
     setup: Setup
     seen: Observation
@@ -59,19 +69,26 @@ class Problem:
     obstacles: tuple[Obstacle, ...]
     asides: tuple[Mover, ...]
     motion: Motion | None
+    on_table: bool = False
 
     def widened(self, names: frozenset[str]) -> Problem:
         """Return the problem in which these components may be moved aside."""
         movers = (*self.movers, *(m for m in self.asides if m.name in names))
         rest = tuple(o for o in self.obstacles if o.name not in names)
-        return Problem(self.setup, self.seen, movers, rest, (), self.motion)
+        return Problem(self.setup, self.seen, movers, rest, (), self.motion, self.on_table)
 
 
 def solve(problem: Problem) -> Solution | Refusal:
-    """Return an order of moves, moving what is right only where there is none without; or why there is none."""
+    """Return an order of moves, or why there is none. Parts are put down on the free table only where slots do not
+    suffice, and what is right is moved only where there is no other way."""
     first = attempt(problem)
     if isinstance(first, Solution):
         return first
+    if any(region.staging for region in problem.setup.lab.regions.values()):
+        problem = replace(problem, on_table=True)
+        second = attempt(problem)
+        if isinstance(second, Solution):
+            return second
     for names in _asides(problem, first):
         answer = attempt(problem.widened(names))
         if isinstance(answer, Solution):
@@ -81,19 +98,19 @@ def solve(problem: Problem) -> Solution | Refusal:
 
 def attempt(problem: Problem) -> Solution | Refusal:
     """Return an order for exactly these movers, every path of it checked, or why there is none."""
-    table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion)
+    table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
     blocked: list[NoPath] = []
     while True:
         found = hunt(table)
         if found.steps is None:
-            return Refusal(table, found.core, found.closest, found.proven, tuple(blocked))
+            return Refusal(table, found.core, found.closest, found.proven, tuple(blocked), found.slots)
         steps = shortened(table, found.steps)
-        steps = arranged(problem.setup, table, steps, precedence(table, steps, {}))
+        tour = toured(table, steps, precedence(table, steps, {}), problem.seen, problem.motion)
         if problem.motion is None:
-            return Solution(table, steps, None, found.least)
-        paths = find_paths(table, steps, problem.seen, problem.motion)
+            return Solution(table, tour, None, found.least, found.slots)
+        paths = find_paths(table, tour.steps, problem.seen, problem.motion)
         if isinstance(paths, Paths):
-            return Solution(table, steps, paths, found.least)
+            return Solution(table, tour, paths, found.least, found.slots)
         blocked.append(paths)
         if len(blocked) > PATH_ROUNDS:
             return Refusal(table, (), found.closest, False, tuple(blocked))

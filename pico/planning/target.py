@@ -154,7 +154,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
     shape, name, spot = goal_shape(mover, mover.goal), mover.name, _spot(mover.goal)
     address = f"{name}.pose"
     blame = located(source, mover)
-    out = overhang(setup.lab.table, shape)
+    out = 0.0 if setup.lab.beside_table(mover.goal.slot) else overhang(setup.lab.table, shape)
     if out > 0:
         width, depth = setup.lab.table.size
         found.append(error(

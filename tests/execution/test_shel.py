@@ -82,5 +82,6 @@ def test_motors_turn_while_the_arm_moves(tmp_path: Path) -> None:
     assert result.seconds == pytest.approx(arm + result.operations[park].data["seconds"] + shut)
     started = [e.operation for e in events if e.kind == "operation_started" and e.time == 0.0]
     assert started == ["op1", "op2", "op3", "op4"]
-    moving = next(e.time for e in events if e.kind == "operation_started" and e.component == "p2")
+    first = next(op.id for op in planned.operations if op.robot)
+    moving = next(e.time for e in events if e.kind == "operation_started" and e.operation == first)
     assert moving == pytest.approx(0.05)

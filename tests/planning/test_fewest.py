@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from checker import check
 from exhaustive import Undecided, least_moves
 from fuzzing import plan_case
 from planning_benches import bench, moves, planned, see, want
 from random_labs import random_case
 
-from pico.model.lab import Slot
+from pico.model.lab import Box2, Region, Slot
 from pico.model.plan import Staging
 
 
@@ -43,3 +44,18 @@ def test_where_storage_has_room_for_less_the_plan_says_so() -> None:
     made = planned(setup, seen, want({"a": (300, 300), "b": (200, 300), "c": (600, 300), "d": (500, 300)}))
     assert made.staging == Staging(count=2, lower_bound=2, proven=True)
     assert [to for _, to in moves(made)].count("s1") == 2
+
+
+def test_the_free_table_is_used_where_a_lab_allows_it_and_slots_do_not_suffice() -> None:
+    free = {"front": Region(area=Box2(x=(0, 200), y=(200, 500)), staging=True)}
+    seen = {"a": (300, 300), "b": (500, 300)}
+    wanted = want({"a": (500, 300), "b": (300, 300)})
+    without, beside = bench({"a": "block", "b": "block"}, {}), bench({"a": "block", "b": "block"}, regions=free)
+    alone = bench({"a": "block", "b": "block"}, {}, regions=free)
+    assert planned(without, see(without, seen), wanted).errored
+    assert moves(planned(beside, see(beside, seen), wanted))[0][1] == "s2"
+    made = planned(alone, see(alone, seen), wanted)
+    assert check(alone, see(alone, seen), wanted, made) == []
+    assert made.staging == Staging(count=1, lower_bound=1, proven=True)
+    x, y = map(float, moves(made)[0][1].split(","))
+    assert 30 <= x <= 170 and 230 <= y <= 470

@@ -44,7 +44,7 @@ def test_times_are_those_of_the_paths_and_each_starts_where_the_last_ended() -> 
     seen = see(setup, {"a": (200, 300), "b": (500, 300)})
     made = planned(setup, seen, want({"a": (300, 300), "b": (600, 300)}), arm)
     assert [(o.start, o.seconds) for o in made.operations] == [(0, 4), (4, 4), (8, 1)]
-    assert [joints for _, joints, _ in arm.asked] == [None, (600.0,)]
+    assert [joints for _, joints, _ in arm.asked] == [None, (300,)]
 
 
 def test_a_grasp_that_is_out_of_reach_is_not_taken() -> None:

@@ -207,6 +207,18 @@ def test_a_vacuum_gripper_packs_closer_than_fingers_can() -> None:
     assert len(moves(planned(vacuum, see(vacuum, start), want(places)))) == 2
 
 
+def test_a_gantry_may_have_its_storage_beside_the_table() -> None:
+    gantry = Robot(model="gantry", mount=Mount(x=0, y=0), gripper=Gripper(fingers="none"))
+    beside = {"s1": Slot(x=-200, y=100)}
+    seen, wanted = {"a": (300, 300), "b": (500, 300)}, want({"a": (500, 300), "b": (300, 300)})
+    setup = bench({"a": "block", "b": "block"}, beside, robots={"arm1": gantry})
+    made = planned(setup, see(setup, seen), wanted)
+    assert check(setup, see(setup, seen), wanted, made) == []
+    assert made.staging.count == 1
+    with_an_arm = bench({"a": "block", "b": "block"}, beside)
+    assert planned(with_an_arm, see(with_an_arm, seen), wanted).errored
+
+
 @pytest.mark.parametrize("margin", [0.0, 2.0])
 def test_touching_counts_and_a_margin_is_the_least_distance_kept(margin: float) -> None:
     setup = bench({"a": "block", "b": "block"}, margins=Margins(body=margin, fingers=0))

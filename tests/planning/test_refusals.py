@@ -93,3 +93,12 @@ def test_fingers_without_room_name_what_they_would_touch() -> None:
     assert found.summary == (
         "a can't be put down at (536, 300, 0°): a finger of the gripper would touch wall by 5 mm, every grasp yaw tried"
     )
+
+
+def test_where_slots_do_not_suffice_the_refusal_says_how_many_would() -> None:
+    # every two block one another: two must be in storage at a time, and one slot is free
+    setup = bench(dict.fromkeys("abc", "rail"), {"s1": Slot(x=80, y=40)})
+    seen = see(setup, {"a": (300, 300), "b": (300, 363), "c": (300, 426)})
+    made = planned(setup, seen, want({"a": (250, 363, 90), "b": (313, 363, 90), "c": (376, 363, 90)}))
+    (found,) = made.diagnostics
+    assert "free 2 slots within reach that take them" in found.hint
