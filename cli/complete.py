@@ -13,7 +13,7 @@ SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
     "-n", "--number", "--explain", "--target",
-    "--exclude", "--prefer", "--after", "--distance", "--dx", "--dy", "--dyaw",
+    "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dyaw",
 )  # fmt: skip
 _CHOICE = ("--target", "--exclude", "--prefer")
 _APPLY = ("--auto-approve", "--exact", "--fidelity", *_CHOICE)
@@ -21,7 +21,7 @@ _ONE = ("--dry-run", "--fidelity")
 OPTIONS: dict[str, tuple[str, ...]] = {
     "init": ("--example",),
     "status": ("--all",),
-    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", *_CHOICE),
+    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", "--picture", *_CHOICE),
     "apply": _APPLY,
     "checkout": ("--auto-approve", "--fidelity"),
     "explain": ("--fidelity",),

@@ -18,7 +18,6 @@ from pico.history.reader import Reader
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
-from pico.model.pose import Pose
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
 from pico.model.state import place_of
@@ -256,26 +255,40 @@ class AsyncBench(Reader):
         return self.folder.commit(message, captured.changes, self.fidelity)
 
     async def render(
-        self, revision: str | None = None, *, view: View = "perspective", plan: bool = False, out: Path | None = None
+        self,
+        revision: str | None = None,
+        *,
+        view: View = "perspective",
+        plan: bool | Plan = False,
+        out: Path | None = None,
     ) -> Image:
         """Return a picture (height, width, 3), sRGB, of the bench as it is, or as a revision wants it.
 
-        `plan` (from above only): the bench as it is, with what would move there, or to the manifest, drawn dashed.
-        `out`: write it there, too, as PNG. Raises PicoError.
+        `plan` (from above only): the bench as it is, with what this plan moves, or that to the revision or the
+        manifest, drawn dashed; where it is impossible, what is in whose way, in red. `out`: write it there, too, as
+        PNG. Raises PicoError.
         """
+        from pico.pictures import goals, marks, places
         from pico.twin.picture import render, write_png
 
         seen = await self.observe()
-        live = {name: part.pose for name, part in seen.components.items() if part.presence == "seen" and part.pose}
+        if plan is True:
+            plan = await self.plan(revision)
         joints = {name: robot.joints for name, robot in seen.robots.items()}
-        poses, ghosts = live, dict[str, Pose]()
-        if plan or revision:
-            wanted = self.state_at(revision) if revision else self.state
-            goals = {name: place_of(self.setup, wanted, name)[1] for name in self.setup.lab.inventory}
-            moving = {c.component for c in diff_observed(self.setup, seen, wanted) if c.tunable == "pose"}
-            poses = live if plan else goals
-            ghosts = {name: goals[name] for name in moving} if plan else ghosts
-        image = render(self.setup, poses, joints, view=view, ghosts=ghosts)
+        if isinstance(plan, Plan) or not revision:
+            poses = places(self.setup, seen, self.sim.placements() if self.backend_name == "sim" else {})
+        else:
+            wanted = self.state_at(revision)
+            poses = {name: place_of(self.setup, wanted, name)[1] for name in self.setup.lab.inventory}
+        drawn = plan if isinstance(plan, Plan) else None
+        image = render(
+            self.setup,
+            poses,
+            joints,
+            view=view,
+            ghosts=goals(self.setup, drawn) if drawn else None,
+            marks=marks(self.setup, drawn) if drawn else (),
+        )
         if out is not None:
             write_png(image, out)
         return image
@@ -394,7 +407,12 @@ class Bench(Reader):
         return self._thread.wait(self._bench.commit(message, mode))
 
     def render(
-        self, revision: str | None = None, *, view: View = "perspective", plan: bool = False, out: Path | None = None
+        self,
+        revision: str | None = None,
+        *,
+        view: View = "perspective",
+        plan: bool | Plan = False,
+        out: Path | None = None,
     ) -> Image:
         """Return a picture (height, width, 3) of the bench; see `AsyncBench.render`."""
         return self._thread.wait(self._bench.render(revision, view=view, plan=plan, out=out))

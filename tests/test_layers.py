@@ -21,9 +21,10 @@ LAYERS: dict[str, set[str]] = {
     "twin": {"diagnostics", "model", "geometry", "motion"},
     "backends": {"diagnostics", "model", "journal", "geometry", "motion", "twin"},
     "execution": {"diagnostics", "model", "journal", "backends"},
+    "pictures": {"diagnostics", "model", "planning", "twin"},
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "twin",
-        "backends", "execution",
+        "backends", "execution", "pictures",
     },
 }  # fmt: skip
 

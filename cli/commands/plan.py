@@ -11,11 +11,19 @@ from pico.diagnostics import ExitCode
 
 from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Targets
 from ..session import Session
+from ..views import picture as picture_view
 from ..views import plan as view
 
 Explain = Annotated[
     str | None,
     typer.Option("--explain", metavar="COMPONENT", help="Say why the plan does with COMPONENT what it does."),
+]
+
+Picture = Annotated[
+    Path | None,
+    typer.Option(
+        "--picture", metavar="PNG", help="Draw the plan from above; where it is impossible, who blocks whom in red."
+    ),
 ]
 
 
@@ -30,6 +38,7 @@ def plan(
     target: Targets = None,
     exclude: Exclude = None,
     prefer: Prefer = "fewest-moves",
+    picture: Picture = None,
 ) -> int:
     """Show what would move to make the bench equal to the manifest or a revision.
 
@@ -52,6 +61,9 @@ def plan(
             goal=bench.goal_name(found),
             next_step=_next(revision, out, _again(target, exclude, prefer)),
         )
+    if picture:
+        bench.render(view="top", plan=found, out=session.folder / picture)
+        session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='the plan')}")
     if not session.json and not explain:
         session.report(found.diagnostics)
     if found.errored:

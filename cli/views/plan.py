@@ -204,7 +204,10 @@ def _summary(plan: Plan) -> list[str]:
     stay = len(plan.base.state) - len(touched)
     lines = [line, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
     lines += [f"policy: {' · '.join(rule['text'] for rule in plan.policy)}"] if plan.policy else []
-    return [*lines, _scope(plan)] if plan.target.scope else lines
+    if plan.target.scope:
+        return [*lines, _scope(plan)]
+    waiting = plan.absent or any(d.code == "blocked" for d in plan.diagnostics)
+    return [*lines, f"the bench will not equal {goal_name(plan)} yet: the warnings say why"] if waiting else lines
 
 
 def _scope(plan: Plan) -> str:

@@ -30,7 +30,7 @@ def text(report: RunReport) -> str:
 
 
 def _bench(report: RunReport) -> list[str]:
-    if not report.remaining and not report.absent:
+    if not report.remaining and not report.absent and not report.held:
         if report.whole:
             return [f"The bench equals {report.goal}."]
         if report.scope:
@@ -39,9 +39,22 @@ def _bench(report: RunReport) -> list[str]:
     lines = []
     if report.remaining:
         lines.append(f"Still to do for {report.goal}: {brief(report.remaining)}.")
-    if report.absent:
-        lines.append(f"Not seen where it should stand: {listed(report.absent)}.")
-    return [*lines, "Continue with the same command: it plans from what is observed now."]
+    away = [name for name in report.absent if name not in report.held.values()]
+    if away:
+        lines.append(f"Not seen where it should stand: {listed(away)}.")
+    lines += [_in_hand(robot, part, report.clock) for robot, part in report.held.items()]
+    first = "Then continue" if report.held else "Continue"
+    return [*lines, f"{first} with the same command: it plans from what is observed now."]
+
+
+def _in_hand(robot: str, part: str, clock: str) -> str:
+    """Return what to do about a component that a run left in a gripper."""
+    what = (
+        f"{robot} still holds {part} and can't pick anything else. Take it out of the gripper and set it down upright"
+    )
+    if clock == "simulated":
+        return f"{what}: here `pico sim nudge {part}` sets it down where it is, `pico sim remove {part}` takes it away."
+    return f"{what}, by hand, on the table where a camera sees it."
 
 
 def _partial(report: RunReport) -> str:

@@ -87,6 +87,7 @@ def run_report(
         wall=wall,
         evidence=evidence,
         whole=whole,
+        held={name: robot.holding for name, robot in sorted(seen.robots.items()) if robot.holding},
         scope=plan.target.scope,
         left=_left(setup, plan, seen) if plan.target.scope else (),
         remaining=_remaining(setup, plan, seen, whole),

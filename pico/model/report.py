@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import field
 from typing import Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
@@ -17,9 +19,9 @@ class RunReport:
     """The end of a run.
 
     `seconds`: on the backend's clock, `clock` says whose; `wall`: here. `remaining`: what differs from the goal beyond
-    tolerance, observed after the run; `absent`: components that are missing, held or toppled. `whole`: the plan was
-    for the whole bench, not for one operation or for some components; `scope`: for which (`only p2`), and `left`: what
-    else differs from the goal. `evidence`: what the run counts as.
+    tolerance, observed after the run; `absent`: components that are missing, held or toppled; `held`: what each robot
+    still has in its gripper. `whole`: the plan was for the whole bench, not for one operation or for some components;
+    `scope`: for which (`only p2`), and `left`: what else differs from the goal. `evidence`: what the run counts as.
     """
 
     schema: str = "pico.report/v1"
@@ -35,6 +37,7 @@ class RunReport:
     wall: float = 0.0
     evidence: str = ""
     whole: bool = True
+    held: Mapping[str, str] = field(default_factory=dict)
     scope: str = ""
     left: tuple[str, ...] = ()
     remaining: tuple[Change, ...] = ()

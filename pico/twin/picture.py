@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from pico.twin.marks import Mark
     from pico.twin.perspective import Beam
     from pico.twin.viewpoint import Viewpoint
 
@@ -42,17 +43,22 @@ def render(
     ghosts: Mapping[str, Pose] | None = None,
     labels: bool = True,
     beams: bool = True,
+    marks: Sequence[Mark] = (),
 ) -> Image:
     """Return a picture (height, width, 3) of the bench, sRGB.
 
     `poses`: where components stand, by name; a `Placement` where one does not stand on its base; names that are
     missing are not drawn. `joints`: of each robot [rad], parked where missing. `ghosts`: where components are to go,
-    drawn dashed in the view from above. `beams`: draw the light of sources up to what stops it.
+    drawn dashed in the view from above; `marks`: what is in whose way, drawn red there. `beams`: draw the light of
+    sources up to what stops it.
     """
     if view == "top":
         from pico.twin.topview import draw
 
-        return draw(setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams)
+        return draw(
+            setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams,
+            marks=marks,
+        )  # fmt: skip
     return _perspective(setup, poses, joints, width, height, labels, beams)
 
 

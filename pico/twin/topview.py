@@ -14,7 +14,9 @@ from pico.motion.types import Joints
 from pico.twin.beams import Place, beam_paths, flat
 from pico.twin.canvas import Canvas, Point
 from pico.twin.lettering import Color
+from pico.twin.marks import LEGEND, Mark, draw_marks
 from pico.twin.names import Named, write_names
+from pico.twin.outlines import circle, outline
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,6 +38,7 @@ _COLORS: dict[str, Color] = {
     "none": (104, 112, 124),
 }
 _OPTIC_WIDTH = 3.0  # pixels
+REACH_LEGEND = "dashed arcs: reach of the arm · tick: where a component faces"
 _GRASP_HEIGHT = 100.0  # mm, where nothing that can be grasped says otherwise
 
 
@@ -49,6 +52,7 @@ def draw(
     ghosts: Mapping[str, Pose],
     labels: bool,
     beams: bool,
+    marks: Sequence[Mark] = (),
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.twin.picture.render`."""
     canvas = new_canvas(setup, width, height)
@@ -74,9 +78,10 @@ def draw(
         gone = {name: goal for name, goal in ghosts.items() if not _stays(setup, name, places.get(name), goal)}
         named = [(name, pose, _INK) for name, pose in places.items()]
         named += [(name, goal, _MOVE) for name, goal in gone.items()]
-        things = [Named(n, _outline(setup.type_of(n).geometry.footprint, pose), ink) for n, pose, ink in named]
+        things = [Named(n, outline(setup.type_of(n).geometry.footprint, pose), ink) for n, pose, ink in named]
         write_names(canvas, things, size)
-    _draw_legend(canvas, setup, size)
+    draw_marks(canvas, setup, marks, places, ghosts, size)
+    _draw_legend(canvas, setup, size, LEGEND if marks else REACH_LEGEND)
     return canvas.finished()
 
 
@@ -139,7 +144,7 @@ def _draw_reach(canvas: Canvas, setup: Setup, robot: Robot) -> None:
     for radius in span(robot, max(grasps, default=_GRASP_HEIGHT)):
         if radius < 1.0:
             continue
-        for arc in _on_table(setup, _circle((robot.mount.x, robot.mount.y), radius, 180)):
+        for arc in _on_table(setup, circle((robot.mount.x, robot.mount.y), radius, 180)):
             canvas.dashes(arc, _REACH, 1.2, (8, 5))
 
 
@@ -147,9 +152,9 @@ def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None
     """Footprint, a line where the optic stands across the beam, and a tick where the component faces."""
     kind = setup.type_of(name)
     color = _COLORS.get(kind.optics.element, _COLORS["none"])
-    outline = _outline(kind.geometry.footprint, pose)
-    canvas.fill(outline, _mixed(color, 0.80))
-    canvas.line(outline, color, 1.3, closed=True)
+    corners = outline(kind.geometry.footprint, pose)
+    canvas.fill(corners, _mixed(color, 0.80))
+    canvas.line(corners, color, 1.3, closed=True)
     front = _front(kind.geometry.footprint)
     ox, oy, _ = kind.frames.optical
     if kind.geometry.clear_aperture and kind.optics.element not in ("source", "none"):
@@ -166,17 +171,17 @@ def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None
 def _draw_ghost(canvas: Canvas, setup: Setup, name: str, now: Pose | None, goal: Pose, size: float) -> None:
     """Where a component is to go: a dashed outline, a tick, and an arrow from where it is, or by how much it turns."""
     footprint = setup.type_of(name).geometry.footprint
-    outline = _outline(footprint, goal)
+    corners = outline(footprint, goal)
     stays = _stays(setup, name, now, goal)
     if not stays:
-        canvas.fill(outline, (255, 240, 222), 0.55)
-    canvas.dashes([*outline, outline[0]], _MOVE, 1.5, (6, 4))
+        canvas.fill(corners, (255, 240, 222), 0.55)
+    canvas.dashes([*corners, corners[0]], _MOVE, 1.5, (6, 4))
     front = _front(footprint)
     canvas.line((goal.apply(0.45 * front, 0), goal.apply(front, 0)), _MOVE, 1.5)
     if now is not None and now.distance(goal) > 1.0:
         canvas.arrow((now.x, now.y), (goal.x, goal.y), _MOVE, 1.6, 10.0)
     if now is not None and stays and abs(turn := angle_between(now.yaw, goal.yaw)) > 0.05:
-        top = max(y for _, y in outline)
+        top = max(y for _, y in corners)
         canvas.text(f"{turn:+.3g}°", (goal.x, top), 0.85 * size, _MOVE, align="center", weight=600, shift=(0, -4))
 
 
@@ -194,13 +199,13 @@ def _draw_arm(canvas: Canvas, name: str, robot: Robot, joints: Joints | None, si
     for side in (-1, 1):
         jaw = [hand.apply(side * (38 + 8 * a), 11 * b) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         canvas.fill(jaw, (88, 98, 114), 0.8)
-    base = _circle((mount.x, mount.y), 62.0, 48)
+    base = circle((mount.x, mount.y), 62.0, 48)
     canvas.fill(base, (214, 221, 230))
     canvas.line(base, (96, 108, 126), 1.5, closed=True)
     canvas.text(name, (mount.x, mount.y), 0.95 * size, _INK, align="center", weight=600, shift=(0, 0.35 * size))
 
 
-def _draw_legend(canvas: Canvas, setup: Setup, size: float) -> None:
+def _draw_legend(canvas: Canvas, setup: Setup, size: float, words: str) -> None:
     """Title above, and below the scale bar, the axes and what the dashed lines are."""
     x, y = setup.lab.table.size
     canvas.text(setup.lab.title or setup.lab.name, (0, y), 1.25 * size, _INK, weight=600, shift=(0, -0.9 * size))
@@ -214,23 +219,11 @@ def _draw_legend(canvas: Canvas, setup: Setup, size: float) -> None:
     for a, b in (((0, -down), (length, -down)), *(((e, -down - tick), (e, -down + tick)) for e in (0.0, length))):
         canvas.line((a, b), _INK, 1.5)
     canvas.text(f"{length:g} mm", (length, -down), 0.85 * size, _INK, shift=(8, 0.3 * size))
-    words = "dashed arcs: reach of the arm · tick: where a component faces"
     canvas.text(words, (x, -down), 0.85 * size, _FAINT, align="right", shift=(0, 0.3 * size))
-
-
-def _outline(footprint: Footprint, pose: Pose) -> list[Point]:
-    if footprint.disc is not None:
-        return _circle((pose.x, pose.y), footprint.disc, 48)
-    return [pose.apply(x, y) for x, y in footprint.vertices]
 
 
 def _front(footprint: Footprint) -> float:
     return footprint.disc if footprint.disc is not None else max(x for x, _ in footprint.vertices)
-
-
-def _circle(center: Point, radius: float, count: int) -> list[Point]:
-    angles = (2 * math.pi * i / count for i in range(count))
-    return [(center[0] + radius * math.cos(a), center[1] + radius * math.sin(a)) for a in angles]
 
 
 def _on_table(setup: Setup, ring: list[Point]) -> list[list[Point]]:

@@ -7,6 +7,7 @@ from collections.abc import Generator
 from dataclasses import replace
 from typing import Any
 
+from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.mover import InProgress, MoveFailed
 from pico.backends.sim.world import Body, FreePose, World
 from pico.diagnostics import error
@@ -15,7 +16,6 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
-from pico.motion.kinematics import tool_pose
 from pico.motion.types import MovePath
 from pico.twin.handling import FALLEN, TOPPLED, Handling, Lost, walk
 from pico.twin.physics import Twin
@@ -38,7 +38,7 @@ class PhysicsWorld:
 
     def __init__(self, setup: Setup, world: World, *, friction: float | None = None) -> None:
         self._setup = setup
-        places = {name: place for name in world.components if (place := _placement(setup, world, name))}
+        places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
         things = {n: Thing(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
         self._own = tuple(things)
         for name, stranger in world.unknown.items():
@@ -106,28 +106,6 @@ class PhysicsWorld:
             return
         text = f"physics has no model of {robot}: it knows the xArm7 with fingers only"
         raise MoveFailed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
-
-
-def _placement(setup: Setup, world: World, name: str) -> Placement | None:
-    """Where a component is in space, or None where it isn't on the table."""
-    body = world.components[name]
-    if body.presence == "missing" or body.pose is None or name not in setup.lab.inventory:
-        return None
-    if body.free is not None:
-        x, y, z = (v / 1000 for v in body.free.position)
-        return Placement((x, y, z), body.free.quaternion)
-    if body.presence == "held":
-        return upright(body.pose, _in_hand(setup, world, name))
-    return upright(body.pose)
-
-
-def _in_hand(setup: Setup, world: World, name: str) -> float:
-    """The height of the base [mm] of a component that a kinematic world left in a gripper."""
-    grasp = setup.type_of(name).geometry.grasp
-    for key, robot in world.robots.items():
-        if robot.holding == name and grasp is not None and setup.lab.robots[key].model == "xarm7":
-            return tool_pose(setup.lab.robots[key], robot.joints)[2] - grasp.height
-    return 0.0
 
 
 def _seen(body: Body, placement: Placement, held: bool) -> Body:

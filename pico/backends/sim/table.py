@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import change_world, load_world, reset_world
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.request import require_component
+from pico.twin.placement import Placement
 
 
 class SimulatedTable:
@@ -16,6 +18,13 @@ class SimulatedTable:
 
     def __init__(self, setup: Setup, root: Path) -> None:
         self._setup, self._root = setup, root
+
+    def placements(self) -> dict[str, Placement]:
+        """Return where the components are in space, also those in a gripper or on their side; missing ones are left
+        out."""
+        world, _ = load_world(self._setup, self._root)
+        found = {name: body_placement(self._setup, world, name) for name in world.components}
+        return {name: place for name, place in found.items() if place is not None}
 
     def reset(self) -> None:
         """Put every part home, as in a new world, whatever the world's file holds."""

@@ -1,0 +1,22 @@
+"""Outlines of footprints on the table, as corners in mm."""
+
+from __future__ import annotations
+
+import math
+
+from pico.model.catalog import Footprint
+from pico.model.pose import Pose
+from pico.twin.canvas import Point
+
+
+def outline(footprint: Footprint, pose: Pose) -> list[Point]:
+    """Return the corners of a footprint at a pose; a disc has 48."""
+    if footprint.disc is not None:
+        return circle((pose.x, pose.y), footprint.disc, 48)
+    return [pose.apply(x, y) for x, y in footprint.vertices]
+
+
+def circle(center: Point, radius: float, count: int) -> list[Point]:
+    """Return `count` points of a circle."""
+    angles = (2 * math.pi * i / count for i in range(count))
+    return [(center[0] + radius * math.cos(a), center[1] + radius * math.sin(a)) for a in angles]
