@@ -75,9 +75,9 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        guarded = with_interlocks(setup, request.seen, request.wanted, (*moves.operations, *shifted))
+        guarded = with_interlocks(setup, request.seen, (*moves.operations, *shifted))
         operations = schedule(guarded)
-        diagnostics = (*diagnostics, *unguarded(setup, request.seen, request.wanted, operations))
+        diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
@@ -89,7 +89,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         target=target, changes=changes, operations=operations,
         staging=Staging() if _errored(diagnostics) else moves.staging,
         makespan=makespan(operations), bound=least_makespan(operations, moves.bound),
-        policy=policy_rules(setup, request.seen, request.wanted, operations),
+        policy=policy_rules(setup, request.seen, operations),
         diagnostics=diagnostics,
     ).sealed()  # fmt: skip
 
@@ -112,7 +112,10 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     others = () if request.alone else asides(request, situation, movers)
     if request.alone:
         movers = tuple(replace(m, stages=False) for m in movers)
-    answer = solve(Problem(request.setup, request.seen, movers, tuple(obstacles), others, request.motion))
+    answer = solve(Problem(
+        request.setup, request.seen, movers, tuple(obstacles), others, request.motion,
+        fastest=request.prefer == "shortest-time",
+    ))  # fmt: skip
     if not isinstance(answer, Solution):
         return Compiled(diagnostics=(*put_off, *explain(answer, request.source)))
     operations, notes = _operations(request, answer)

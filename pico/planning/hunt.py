@@ -38,7 +38,7 @@ class Hunted:
     """The moves, or None; `least`: stagings below which no order of these movers' moves goes. Without moves: `core`,
     movers that are proven not to get home together, if known, the configuration that came closest, and whether it is
     `proven` that there is no order. `slots`: where storage has no room for the fewest stagings, how many free slots
-    would do; 0 where it has, or where that is not known."""
+    would do; 0 where it has, or where that is not known. `others`: more answers, which may stage more."""
 
     steps: tuple[Step, ...] | None
     least: int = 0
@@ -46,6 +46,7 @@ class Hunted:
     closest: Configuration = ()
     proven: bool = False
     slots: int = 0
+    others: tuple[tuple[Step, ...], ...] = ()
 
 
 def stagings(steps: Sequence[Step]) -> int:
@@ -53,8 +54,9 @@ def stagings(steps: Sequence[Step]) -> int:
     return len(steps) - len({s.mover for s in steps})
 
 
-def hunt(table: Conflicts) -> Hunted:
-    """Return the moves with the fewest stagings that were found, and how few there must be."""
+def hunt(table: Conflicts, *, several: bool = False) -> Hunted:
+    """Return the moves with the fewest stagings that were found, and how few there must be; `several`: and what else a
+    longer search finds."""
     for i, mover in enumerate(table.movers):
         if not mover.right and not any(table.ways(i, 0, g) for g in mover.goals):
             alone = search(table, PROOF, (i,))
@@ -65,8 +67,9 @@ def hunt(table: Conflicts) -> Hunted:
         core = tuple(sorted({i for cycle in relaxed.cycles for link in cycle for i in (link[0], link[2])}))
         return Hunted(None, 0, core, (0,) * len(table.movers), True)
     least = _least(table, relaxed)
-    for steps in _with_room(table, relaxed):
-        return Hunted(steps, least)
+    answers = _with_room(table, relaxed)
+    for steps in answers:
+        return Hunted(steps, least, others=tuple(_others(table, answers)) if several else ())
     slots = slots_needed(relaxation(table), relaxed) if relaxed.options is not None else 0
     found = _searched(table)
     if found.steps is not None:
@@ -100,6 +103,13 @@ def _with_room(table: Conflicts, relaxed: Staging) -> Iterator[tuple[Step, ...]]
         for i in answer.staged:
             weights[i] += costs[i] / (2 * len(costs))
         answer = fewest_staged(relaxation(table, tuple(weights)), BOUND)
+
+
+def _others(table: Conflicts, answers: Iterator[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
+    yield from answers
+    for effort in EFFORTS[:2]:
+        if found := search(table, effort).steps:
+            yield found
 
 
 def _searched(table: Conflicts) -> Found:

@@ -99,12 +99,14 @@ def makespan(operations: Sequence[Operation]) -> float:
 
 
 def least_makespan(operations: Sequence[Operation], arms: float | None) -> float | None:
-    """Return a time before which no schedule of these operations ends [s]: what the arms need in any order, or what one
-    component's motors and set-points need one after the other. None where the arms do not tell."""
+    """Return a time before which no schedule of these operations ends [s]: what the arms need in any order and people
+    while the arms stand still, or what one component's motors and set-points need one after the other. None where the
+    arms do not tell."""
     if arms is None or not operations:
         return None
+    people = sum(o.seconds for o in operations if o.primitive == "operator")
     chains: dict[str, float] = {}
     for o in operations:
         if o.primitive in ("set", "home"):
             chains[o.component] = chains.get(o.component, 0.0) + o.seconds
-    return round(min(max(arms, *chains.values(), 0.0), makespan(operations)), 6)
+    return round(min(max(arms + people, *chains.values(), 0.0), makespan(operations)), 6)

@@ -11,7 +11,6 @@ from pico.motion.types import Motion
 from pico.planning.conflicts import Conflicts
 from pico.planning.hunt import COMPLETE, hunt, stagings
 from pico.planning.movers import Mover, Obstacle
-from pico.planning.order import precedence
 from pico.planning.paths import NoPath, Paths, find_paths
 from pico.planning.search import Configuration, Step
 from pico.planning.shorten import shortened
@@ -61,7 +60,8 @@ class Refusal:
 @dataclass(slots=True)
 class Problem:
     """One planning problem. `asides`: components that are right but may be moved to make room, as movers; `direct`:
-    only moves straight to the goal, of nobody else. `on_table`: parts may be put down in staging regions, too."""
+    only moves straight to the goal, of nobody else. `on_table`: parts may be put down in staging regions, too.
+    `fastest`: of several answers take that which takes least time, though it stage more."""
 
     setup: Setup
     seen: Observation
@@ -70,12 +70,13 @@ class Problem:
     asides: tuple[Mover, ...]
     motion: Motion | None
     on_table: bool = False
+    fastest: bool = False
 
     def widened(self, names: frozenset[str]) -> Problem:
         """Return the problem in which these components may be moved aside."""
         movers = (*self.movers, *(m for m in self.asides if m.name in names))
         rest = tuple(o for o in self.obstacles if o.name not in names)
-        return Problem(self.setup, self.seen, movers, rest, (), self.motion, self.on_table)
+        return Problem(self.setup, self.seen, movers, rest, (), self.motion, self.on_table, self.fastest)
 
 
 def solve(problem: Problem) -> Solution | Refusal:
@@ -101,11 +102,12 @@ def attempt(problem: Problem) -> Solution | Refusal:
     table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
     blocked: list[NoPath] = []
     while True:
-        found = hunt(table)
+        found = hunt(table, several=problem.fastest)
         if found.steps is None:
             return Refusal(table, found.core, found.closest, found.proven, tuple(blocked), found.slots)
-        steps = shortened(table, found.steps)
-        tour = toured(table, steps, precedence(table, steps, {}), problem.seen, problem.motion)
+        answers = dict.fromkeys(shortened(table, steps) for steps in (found.steps, *found.others))
+        tours = (toured(table, steps, problem.seen, problem.motion) for steps in answers)
+        tour = min(tours, key=lambda t: (round(t.seconds, 3), len(t.steps)))
         if problem.motion is None:
             return Solution(table, tour, None, found.least, found.slots)
         paths = find_paths(table, tour.steps, problem.seen, problem.motion)

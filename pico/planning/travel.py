@@ -4,20 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pico.model.observation import Observation
 from pico.motion.types import Joints, Motion
 from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Place
-from pico.planning.order import Closure, arranged
+from pico.planning.order import arranged, precedence
 from pico.planning.search import Step
 from pico.planning.sequencing import Effort, best_order
+from pico.planning.shorten import valid
 
 SPEED = 300.0
 """What the hand travels at where no motion is asked for [mm/s]."""
 TURN = 45.0
 """What it turns at [deg/s]."""
+HANDLING = 6.0
+"""What picking and placing takes besides [s]."""
+CLOSE = 8
+"""How many other places to stage a component are weighed."""
 FAR = 1000.0
 """What stands for a way that the arm says it can't take by itself [s]; the paths have the last word."""
 MANY = Effort(moves=150_000, steps=20_000_000, rounds=3)
@@ -26,25 +31,59 @@ MANY = Effort(moves=150_000, steps=20_000_000, rounds=3)
 
 @dataclass(frozen=True, slots=True)
 class Tour:
-    """Steps in order, and the least time in which the arms can take them in any order [s]; None where no arm told."""
+    """Steps in order, how long they take about [s], and the least time in which the arms can take them in any order
+    [s]; None where no arm told."""
 
     steps: tuple[Step, ...]
+    seconds: float
     bound: float | None = None
 
 
-def toured(table: Conflicts, steps: Sequence[Step], closure: Closure, seen: Observation, motion: Motion | None) -> Tour:
-    """Return the steps in the order that takes least time, as far as it is found. Where several robots or people take
-    turns, each goes on as long as it can, to the nearest."""
-    robots = {s.hold.robot for s in steps}
+def toured(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: Motion | None) -> Tour:
+    """Return the steps in the order that takes least time, as far as it is found, staged where that is near. Where
+    several robots or people take turns, each goes on as long as it can, to the nearest."""
     clock = Clock(table, seen, motion)
-    loaded = sum(clock.loaded(s) for s in steps) if clock.told else None
+    robots = {s.hold.robot for s in steps}
     if len(robots) > 1 or None in robots or len(steps) < 2:
-        return Tour(arranged(table.setup, table, steps, closure), loaded)
+        order = arranged(table.setup, table, steps, precedence(table, steps, {}))
+        loaded = sum(clock.loaded(s) for s in order)
+        return Tour(order, loaded, loaded if clock.told else None)
+    first = _sequenced(clock, steps)
+    moved = nearer(clock, first.steps)
+    return _sequenced(clock, moved) if moved != first.steps else first
+
+
+def _sequenced(clock: Clock, steps: Sequence[Step]) -> Tour:
     between = [[clock.between(a, b) if a is not b else 0.0 for b in steps] for a in steps]
     start, end = [clock.start(s) for s in steps], [clock.end(s) for s in steps]
-    best = best_order(start, between, end, closure, limit=MANY)
-    bound = None if loaded is None else loaded + best.lower_bound
-    return Tour(tuple(steps[k] for k in best.order), bound)
+    best = best_order(start, between, end, precedence(clock.table, steps, {}), limit=MANY)
+    loaded = sum(clock.loaded(s) for s in steps)
+    bound = loaded + best.lower_bound if clock.told else None
+    return Tour(tuple(steps[k] for k in best.order), loaded + best.cost, bound)
+
+
+def nearer(clock: Clock, steps: tuple[Step, ...]) -> tuple[Step, ...]:
+    """Return the steps with each staging where it costs the arm least; the others and the order stay."""
+    for k, step in enumerate(steps):
+        back = next((n for n in range(k + 1, len(steps)) if steps[n].mover == step.mover), None)
+        if back is None or step.goal not in clock.table.movers[step.mover].staging:
+            continue
+        best = clock.around(steps, k) + clock.around(steps, back)
+        for place in _close(clock.table, step, steps[back]):
+            changed = list(steps)
+            changed[k], changed[back] = replace(step, goal=place), replace(steps[back], start=place)
+            tried = valid(clock.table, changed)
+            if tried and (cost := clock.around(tried, k) + clock.around(tried, back)) < best - 1e-6:
+                best, steps = cost, tried
+    return steps
+
+
+def _close(table: Conflicts, there: Step, back: Step) -> list[int]:
+    """Return the storage places of a component that lie least off its way."""
+    places = table.movers[there.mover].places
+    a, b = places[there.start].pose, places[back.goal].pose
+    detours = {p: places[p].pose.distance(a) + places[p].pose.distance(b) for p in table.movers[there.mover].staging}
+    return sorted((p for p in detours if p != there.goal), key=lambda p: (round(detours[p], 6), p))[:CLOSE]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +102,10 @@ class Clock:
     def loaded(self, step: Step) -> float:
         """Return the least time of a move from above its start until the hand is empty above its goal."""
         a, b = self._places(step)
-        if self.motion is None or step.hold.robot is None:
+        if step.hold.robot is None:
             return 0.0
+        if self.motion is None or not self.told:
+            return HANDLING + a.pose.distance(b.pose) / SPEED
         name = self.table.movers[step.mover].name
         seconds = self.motion.carry(step.hold.robot, name, a.pose, b.pose, step.hold.yaw)
         return seconds if math.isfinite(seconds) else 0.0
@@ -94,6 +135,12 @@ class Clock:
             return self._travel(step.hold.robot or "", place, None, step.hold.yaw, 0.0)
         mount = self.table.setup.lab.robots[step.hold.robot or ""].mount
         return math.hypot(place.pose.x - mount.x, place.pose.y - mount.y) / SPEED
+
+    def around(self, steps: Sequence[Step], k: int) -> float:
+        """Return what step `k` costs with the ways to it and from it."""
+        way = self.start(steps[k]) if k == 0 else self.between(steps[k - 1], steps[k])
+        on = self.end(steps[k]) if k + 1 == len(steps) else self.between(steps[k], steps[k + 1])
+        return way + self.loaded(steps[k]) + on
 
     def _places(self, step: Step) -> tuple[Place, Place]:
         places = self.table.movers[step.mover].places
