@@ -25,7 +25,7 @@ def text(plan: Plan, found: Explanation, *, head: str = "", goal: str = "") -> s
     else:
         blocks += ["\n".join(_full(step)) for step in found.steps] or [_untouched(plan, found.component)]
     moved = found.component is None or any(s.operation.primitive in ("move", "stow") for s in found.steps)
-    blocks += ["\n".join(block) for block in (_impossible(found), _fewer(found.fewer) if moved else []) if block]
+    blocks += ["\n".join(block) for block in (_impossible(found), _fewer(found) if moved else []) if block]
     return "\n\n".join(blocks)
 
 
@@ -147,9 +147,20 @@ def _impossible(found: Explanation) -> list[str]:
     return lines + [part for b in found.blocks for part in wrap(b.text, "  ")]
 
 
-def _fewer(fewer: Fewer) -> list[str]:
-    if not fewer.moves:
-        return []
+def _fewer(found: Explanation) -> list[str]:
+    return [*_moves(found.fewer), *wrap(_time(found), "  ")] if found.fewer.moves else []
+
+
+def _time(found: Explanation) -> str:
+    """Return how much faster another order could be."""
+    if found.bound is None or found.fewer.moves < 2:
+        return ""
+    if found.makespan - found.bound < 0.05:
+        return f"No order of these moves takes less than {seconds(found.makespan)} (proven)."
+    return f"No order of these moves takes less than {seconds(found.bound)}; this one takes {seconds(found.makespan)}."
+
+
+def _moves(fewer: Fewer) -> list[str]:
     s = fewer.staging
     lines = [paint("bold", "Why not fewer moves")]
     parts = f"{count(fewer.moved, 'component')} must move"
@@ -159,7 +170,7 @@ def _fewer(fewer: Fewer) -> list[str]:
     proof = "no plan has fewer (proven)" if s.proven else "that fewer would do is not ruled out"
     if s.lower_bound and not s.proven:
         proof = f"at least {s.lower_bound} {'is' if s.lower_bound == 1 else 'are'} needed; {proof}"
-    lines += wrap(f"{parts}, with {stops} in storage on the way: {proof}.", "  ")
+    lines += wrap(f"{parts}, with {stops} on the way: {proof}.", "  ")
     for ring in fewer.rings[:SHOWN_RINGS]:
         names = [b.blocker for b in ring]
         lines += wrap(f"{listed(names, 12)} block one another in a ring; one of them must step aside:", "  ")

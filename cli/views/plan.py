@@ -24,7 +24,7 @@ def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "", sin
     blocks = [header(plan, head, goal, single)]
     if plan.operations:
         blocks.append("\n".join(operations(plan)))
-    blocks.append("\n".join([*_tolerated(plan), *(f"  {line}" for line in _summary(plan))]))
+    blocks.append("\n".join([*_tolerated(plan), *(part for line in _summary(plan) for part in wrap(line, "  "))]))
     if plan.errored:
         blocks.append("This plan can't be applied; what is wrong stands below.")
     elif next_step and plan.operations:
@@ -197,12 +197,13 @@ def _summary(plan: Plan) -> list[str]:
     if any(op.primitive in ("move", "stow") for op in plan.operations):
         parts.append(_staging(plan))
     arms = sum(op.seconds for op in plan.operations if op.robot)
-    parts.append(f"{seconds(plan.makespan)} in all" + (f", arm {seconds(arms)}" if arms else ""))
+    parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arms)}" if arms else ""))
     line = " · ".join(part for part in parts if part)
     changed = [op for op in plan.operations if op.reason.kind != "interlock"]
     touched = {op.component for op in changed if op.component in plan.base.state}
     stay = len(plan.base.state) - len(touched)
-    lines = [line, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
+    whole = [line] if width(line) <= WIDTH - 2 else [" · ".join(parts[:-1]), parts[-1]]
+    lines = [*whole, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
     lines += [f"policy: {' · '.join(rule['text'] for rule in plan.policy)}"] if plan.policy else []
     if plan.target.scope:
         return [*lines, _scope(plan)]
@@ -215,6 +216,14 @@ def _scope(plan: Plan) -> str:
     left = any(d.code == "left" for d in plan.diagnostics)
     will = f"the bench will {'not equal' if left else 'equal'} {goal_name(plan)}"
     return paint("yellow", f"{plan.target.scope}: {will}" + ("" if left else ", for nothing else differs"))
+
+
+def _bound(plan: Plan) -> str:
+    """Return how much of the time no other order of the same operations saves, where that is known."""
+    if plan.bound is None or sum(op.primitive in ("move", "stow") for op in plan.operations) < 2:
+        return ""
+    least = plan.makespan - plan.bound < 0.05
+    return " (least possible)" if least else f" (at least {seconds(plan.bound)})"
 
 
 def _staging(plan: Plan) -> str:

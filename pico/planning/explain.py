@@ -68,13 +68,15 @@ class Fewer:
 class Explanation:
     """The explanation of a plan, or of what it does with one `component`.
 
-    `changes`: what differs; `steps`: the operations in their order; `clashes`, `blocks`: what makes it impossible, as
-    far as geometry tells; `diagnostics`: what was found that concerns the component.
+    `bound`: no order of these operations ends before that [s], where it is known. `changes`: what differs; `steps`:
+    the operations in their order; `clashes`, `blocks`: what makes it impossible, as far as geometry tells;
+    `diagnostics`: what was found that concerns the component.
     """
 
     plan: str
     component: str | None = None
     makespan: float = 0.0
+    bound: float | None = None
     changes: tuple[Change, ...] = ()
     steps: tuple[Step, ...] = ()
     fewer: Fewer = Fewer()
@@ -95,7 +97,7 @@ def explain(setup: Setup, plan: Plan, component: str | None = None) -> Explanati
     chosen = [n for n in graph.nodes if component in (None, n.operation.component)]
     clashes, blocks = why_impossible(setup, plan)
     return Explanation(
-        plan=plan.digest, component=component, makespan=plan.makespan,
+        plan=plan.digest, component=component, makespan=plan.makespan, bound=plan.bound,
         changes=tuple(c for c in plan.changes if component in (None, c.component)),
         steps=tuple(_step(setup, plan, graph, node) for node in chosen),
         fewer=_fewer(setup, plan, component),
