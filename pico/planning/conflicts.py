@@ -58,6 +58,8 @@ class Conflicts:
         on_table: bool = False,
     ) -> None:
         self.setup, self.motion = setup, motion
+        self.more_slots = False
+        """Whether there are more free slots than are considered."""
         self.obstacles = {o.name: o for o in obstacles}
         self.static: Grid[str] = Grid.of({o.name: o.shape for o in obstacles})
         self._mouths: Grid[str] = Grid.of({name: capture_disc(slot) for name, slot in setup.lab.slots.items()})
@@ -65,6 +67,8 @@ class Conflicts:
         movers = self.movers = with_spots(setup, movers, obstacles) if on_table else movers
         self.spots: list[Spot] = [(i, p) for i, m in enumerate(movers) for p in range(len(m.places))]
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
+        self.ends = sum_of(self._bits[i, p] for i, m in enumerate(movers) for p in {0, *m.goals})
+        """Where movers stand at first and where they may end."""
         self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
         self._alike = self._group()
         self._mobile: Grid[Look] = Grid.of({look: placed(look[0], look[2]) for look in self._alike})
@@ -78,6 +82,7 @@ class Conflicts:
         slots = self.setup.lab.slots if any(m.stages for m in movers) else {}
         free = [name for name in sorted(slots) if not self.static.conflicts(self._mouths.shapes[name], 0.0)]
         most = MANY_SLOTS if len(movers) <= FEW else ENOUGH_SLOTS
+        self.more_slots = len(free) > most
         wanted = {m.goal.slot for m in movers}
         return tuple(with_storage(self.setup, m, free, wanted, most) for m in movers)
 

@@ -12,7 +12,7 @@ from pico.planning.movers import Hold
 
 def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Problem:
     """Return the problem of staging as few as possible (weighted by what the movers cost to stage, or by `weights`),
-    in which a staged component stands in nobody's way.
+    in which a staged component stands in nobody's way, though somebody may stand in its own.
 
     A component leaves where it stands when it is first picked, and arrives when it is last put down. Whatever a plan
     does in between, these two keep every order that this problem asks for, so no plan stages less.
@@ -37,34 +37,60 @@ def _direct(table: Conflicts, i: int) -> Iterator[Option]:
 
 
 def _picks(table: Conflicts, i: int) -> Iterator[Option]:
-    """Yield the holds in which a component can be picked and put down in some slot, be it its own."""
-    known: list[int] = []
+    """Yield the ways to pick a component and put it down in some slot, be it its own."""
+    found: list[tuple[int, Hold]] = []
     for hold in table.movers[i].holds:
         mask = table.grip(i, 0, hold)
-        if mask is None or any(m | mask == mask for m in known) or not _storable(table, i, hold):
-            continue
-        known.append(mask)
+        if mask is not None:
+            found += [(m, hold) for m in _least(mask & table.ends, _meanwhile(table, i, hold, body=True), table.ends)]
+    for mask, hold in _undominated(found):
         yield Option(hold, _arcs(table, leaves(i), mask, 0))
 
 
-def _storable(table: Conflicts, i: int, hold: Hold) -> bool:
-    mover = table.movers[i]
-    between = (*mover.staging, *(mover.goals if len(mover.goals) > 1 else ()))
-    return any(table.grip(i, p, hold) is not None and table.arrive(i, p) is not None for p in between)
-
-
 def _places(table: Conflicts, i: int) -> Iterator[Option]:
+    """Yield the ways to pick a component in some slot and put it down where it belongs."""
     mover = table.movers[i]
     for goal in sorted(mover.finished):
         body = table.arrive(i, goal)
-        known: list[int] = []
+        found: list[tuple[int, Hold]] = []
         for hold in mover.holds if body is not None else ():
             grip = table.grip(i, goal, hold)
-            mask = (body or 0) | (grip or 0)
-            if grip is None or any(m | mask == mask for m in known) or not _storable(table, i, hold):
-                continue
-            known.append(mask)
+            if grip is not None and body is not None:
+                found += [(m, hold) for m in _least((body | grip) & table.ends, _meanwhile(table, i, hold), table.ends)]
+        for mask, hold in _undominated(found):
             yield Option((goal, hold), _arcs(table, arrives(i), mask, body or 0), goal)
+
+
+def _meanwhile(table: Conflicts, i: int, hold: Hold, *, body: bool = False) -> Iterator[int]:
+    """Yield for each place where a component may stand in between what must be empty for the fingers
+    there, and (`body`) for itself."""
+    mover = table.movers[i]
+    if mover.stages and table.more_slots:
+        yield 0  # nobody looked at all of them
+    for place in (*mover.staging, *(mover.goals if len(mover.goals) > 1 else ())):
+        arrival = table.arrive(i, place)
+        grip = None if arrival is None else table.grip(i, place, hold)
+        if arrival is not None and grip is not None:
+            yield (arrival if body else 0) | grip
+
+
+def _least(mask: int, more: Iterator[int], ends: int) -> list[int]:
+    """Return a mask with what each of `more` adds to it: as it is where one adds nothing."""
+    found: list[int] = []
+    for extra in more:
+        if not extra & ends & ~mask:
+            return [mask]
+        found.append(mask | extra & ends)
+    return found
+
+
+def _undominated(options: list[tuple[int, Hold]]) -> list[tuple[int, Hold]]:
+    """Return the options without those that need all that another needs."""
+    kept: list[tuple[int, Hold]] = []
+    for mask, hold in sorted(options, key=lambda o: o[0].bit_count()):
+        if not any(m | mask == mask for m, _ in kept):
+            kept.append((mask, hold))
+    return kept
 
 
 def _arcs(table: Conflicts, event: Event, mask: int, body: int) -> tuple[Arc, ...]:
