@@ -22,9 +22,13 @@ LAYERS: dict[str, set[str]] = {
     "backends": {"diagnostics", "model", "journal", "geometry", "motion", "twin"},
     "execution": {"diagnostics", "model", "journal", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
-    "bench": {
+    "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "twin",
         "backends", "execution", "pictures",
+    },
+    "bench": {
+        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "twin",
+        "backends", "execution", "pictures", "async_bench",
     },
 }  # fmt: skip
 

@@ -1,0 +1,315 @@
+"""One bench, asynchronous: reads its lab, observes, plans, runs. `pico.bench.Bench` is its synchronous face."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.execution.watched import AsyncRun
+from pico.history.folder import LabFolder
+from pico.history.reader import Reader
+from pico.model.diff import Change, diff_observed
+from pico.model.observation import Observation, live_state
+from pico.model.plan import Base, Plan, Target
+from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
+from pico.model.request import Request, asked, read_values, require_seen
+from pico.model.state import place_of
+from pico.model.status import Status, compare, refuse_unapplied
+from pico.motion.deferred import DeferredMotion
+
+if TYPE_CHECKING:
+    from pico.backends.protocol import Backend
+    from pico.backends.sim.table import SimulatedTable
+    from pico.planning.explain import Explanation
+    from pico.planning.request import Preference
+    from pico.twin.picture import Image, View
+
+CommitMode = Literal["strict", "capture", "planned"]
+
+
+class AsyncBench(Reader):
+    """One bench: its lab's folder, and the backend that sees and moves it. Open it with `AsyncBench.open`."""
+
+    def __init__(self, folder: LabFolder, fidelity: str | None = None) -> None:
+        self.folder = folder
+        self.backend_name = "sim"
+        self.fidelity = fidelity or folder.setup.lab.sim.fidelity
+        self._backend: Backend | None = None
+
+    @classmethod
+    def open(
+        cls, path: str | Path = ".", *, backend: str = "sim", fidelity: str | None = None, speed: float | None = None
+    ) -> AsyncBench:
+        """Open the lab that `path` lies in. Nothing is contacted yet.
+
+        `backend`: `sim`; `hardware` says what it lacks. `fidelity`: `kinematic` or `physics`, the lab's own word where
+        None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
+        """
+        _require_backend(backend, fidelity, speed)
+        folder = LabFolder(Path(path))
+        if backend == "hardware":
+            from pico.backends.hardware import HardwareBackend
+
+            HardwareBackend(folder.setup, folder.root)  # says what is missing
+        if speed is not None:
+            robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
+            folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
+        return cls(folder, fidelity)
+
+    def _adopt(self, plan: Plan) -> None:
+        """Run a saved plan in the fidelity that it was made for."""
+        if plan.backend == self.backend_name and plan.fidelity != self.fidelity:
+            self.fidelity, self._backend = plan.fidelity, None
+
+    @property
+    def backend(self) -> Backend:
+        """The backend, made when it is first needed."""
+        if self._backend is None:
+            from pico.backends.sim.backend import SimBackend
+
+            self._backend = SimBackend(self.setup, self.root, self.fidelity)
+        return self._backend
+
+    async def close(self) -> None:
+        """Let go of the backend."""
+        if self._backend is not None:
+            await self._backend.close()
+            self._backend = None
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen."""
+        return await self.backend.observe()
+
+    async def plan(
+        self,
+        revision: str | None = None,
+        *,
+        exact: bool = False,
+        prefer: Preference = "fewest-moves",
+        targets: Collection[str] = (),
+        exclude: Collection[str] = (),
+    ) -> Plan:
+        """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
+
+        The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
+        `shortest-time`. `targets`: plan for these components, and for what must make way for them; `exclude`: leave
+        these alone. Raises PicoError for a revision that can't be read, and for a component that there is not; what is
+        physically impossible is in the plan's diagnostics.
+        """
+        from pico.planning import plan
+
+        _require_preference(prefer)
+        manifests = self.folder.manifests_at(revision) if revision else self.folder.manifests
+        commit = self.folder.history().resolve(revision).id if revision else None
+        _, wanted = manifests.require()
+        seen = await self.observe()
+        return plan(
+            self.setup,
+            seen,
+            wanted,
+            motion=DeferredMotion(self.setup),
+            backend=self.backend_name,
+            fidelity=self.fidelity,
+            base=self._base(seen),
+            target=Target(
+                revision=revision,
+                commit=commit,
+                only=tuple(sorted(targets)) or None,
+                exclude=tuple(sorted(exclude)) or None,
+                state=wanted.as_json(),
+            ),
+            exact=exact,
+            source=manifests.source,
+            prefer=prefer,
+            targets=targets,
+            exclude=exclude,
+        )
+
+    def _base(self, seen: Observation) -> Base:
+        head = self.folder.head()
+        state = live_state(self.setup, seen).as_json()
+        return Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
+
+    async def plan_of(self, word: str | None, *, folder: Path = Path(), **options: Any) -> Plan:
+        """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None).
+
+        `options` are those of `plan`; raises PicoError for any of them with a saved plan, which is what it is.
+        """
+        found = self.find(word, folder) if word else None
+        if not isinstance(found, Plan):
+            return await self.plan(found, **options)
+        if any(options.get(k) for k in ("exact", "targets", "exclude")) or options.get("prefer") == "shortest-time":
+            text = f"{word} is a saved plan, and is taken as it is"
+            raise PicoError(error("usage", text, hint="--exact, --target, --exclude and --prefer go with `pico plan`"))
+        return found
+
+    def explain(self, plan: Plan, component: str | None = None) -> Explanation:
+        """Return why a plan is as it is, or what it does with one component; raises PicoError for an unknown one."""
+        from pico.planning.explain import explain
+
+        return explain(self.setup, plan, component)
+
+    async def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision that is about to be checked out; raises PicoError where edits would be lost."""
+        self.folder.refuse_edits()
+        return await self.plan(revision, exact=exact)
+
+    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
+        """Check a revision out with git. Moves nothing; raises PicoError.
+
+        This bench stays what it is, for a revision can't change which parts there are; a warning says so where the
+        revision's own lab differs.
+        """
+        bench = self.setup
+        self.folder.history().checkout(revision)
+        self.folder.reload()
+        if self.setup.digest() == bench.digest():
+            return ()
+        self.folder.setup = bench
+        text = f"the lab's own files at {revision} describe the bench as it was then"
+        hint = "where parts came or went since: `git checkout BRANCH -- lab.yaml` brings today's bench back"
+        return (warning("lab-differs", text, hint=hint),)
+
+    async def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
+        """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
+        seen = await self.observe()
+        return self._one(seen, asked(self.setup, seen, component, primitive, arguments or {}))
+
+    async def place(self, component: str, *, after: str, distance: float) -> Plan:
+        """Return the plan that places a component `distance` mm after another along its beam; raises PicoError."""
+        from pico.planning import place_after
+
+        seen = await self.observe()
+        require_seen(self.setup, seen, component, after)
+        pose = place_after(self.setup, seen, component, after, distance)
+        return self._one(seen, Request(component=component, primitive="move", pose=pose))
+
+    def _one(self, seen: Observation, request: Request) -> Plan:
+        from pico import planning
+
+        name, options = request.component, {"backend": self.backend_name, "fidelity": self.fidelity}
+        base = self._base(seen)
+        if request.primitive == "set":
+            assert request.tunable is not None and request.value is not None
+            return planning.set_one(self.setup, seen, name, request.tunable, request.value, base=base, **options)
+        if request.primitive == "home":
+            assert request.tunable is not None
+            return planning.home_one(self.setup, seen, name, request.tunable, base=base, **options)
+        goal = request.slot or request.pose
+        assert goal is not None
+        return planning.move_one(self.setup, seen, name, goal, motion=DeferredMotion(self.setup), base=base, **options)
+
+    def run(self, plan: Plan) -> AsyncRun:
+        """Return the run of a plan: iterate over it for its events, then read its `report`."""
+        self._adopt(plan)
+        return AsyncRun(self.setup, plan, self.backend)
+
+    async def apply(self, what: Plan | str | None = None) -> RunReport:
+        """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it."""
+        run = self.run(what if isinstance(what, Plan) else await self.plan(what))
+        async for _ in run:
+            pass
+        return run.report
+
+    async def status(self) -> Status:
+        """Return committed, desired and live side by side."""
+        return compare(self.setup, self.folder.committed(), self.state, await self.observe(), self.head_name())
+
+    async def drift(self) -> tuple[Change, ...]:
+        """Return where the bench differs from HEAD: `before` is live, `after` committed; raises PicoError."""
+        return diff_observed(self.setup, await self.observe(), self.state_at("HEAD"))
+
+    async def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
+        """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""
+        return parts_of(self.setup, self.state, await self.observe(), free=free)
+
+    async def read(self, component: str, tunable: str | None = None) -> dict[str, dict[str, Any]]:
+        """Return the tunables of a component as observed: `value`, `unit`, `status` of each; raises PicoError."""
+        return read_values(self.setup, await self.observe(), component, tunable)
+
+    async def capture(self) -> Captured:
+        """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest."""
+        return self.folder.capture(live_state(self.setup, await self.observe()))
+
+    async def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
+        """Capture and commit the manifests.
+
+        `strict` refuses edits that were never applied; `capture`: the bench wins; `planned`: the manifest wins, and
+        the commit says where it was never realized. Raises PicoError.
+        """
+        seen = await self.observe()
+        status = compare(self.setup, self.folder.committed(), self.state, seen)
+        if mode == "strict":
+            refuse_unapplied(status)
+        if mode == "planned":
+            never = any(row.off or row.note for row in status.rows)
+            return self.folder.commit(message, (), "planned" if never else self.fidelity)
+        captured = self.folder.capture(live_state(self.setup, seen))
+        return self.folder.commit(message, captured.changes, self.fidelity)
+
+    async def render(
+        self,
+        revision: str | None = None,
+        *,
+        view: View = "perspective",
+        plan: bool | Plan = False,
+        out: Path | None = None,
+    ) -> Image:
+        """Return a picture (height, width, 3), sRGB, of the bench as it is, or as a revision wants it.
+
+        `plan` (from above only): the bench as it is, with what this plan moves, or that to the revision or the
+        manifest, drawn dashed; where it is impossible, what is in whose way, in red. `out`: write it there, too, as
+        PNG. Raises PicoError.
+        """
+        from pico.pictures import goals, marks, places
+        from pico.twin.picture import render, write_png
+
+        seen = await self.observe()
+        if plan is True:
+            plan = await self.plan(revision)
+        joints = {name: robot.joints for name, robot in seen.robots.items()}
+        if isinstance(plan, Plan) or not revision:
+            poses = places(self.setup, seen, self.sim.placements() if self.backend_name == "sim" else {})
+        else:
+            wanted = self.state_at(revision)
+            poses = {name: place_of(self.setup, wanted, name)[1] for name in self.setup.lab.inventory}
+        drawn = plan if isinstance(plan, Plan) else None
+        image = render(
+            self.setup,
+            poses,
+            joints,
+            view=view,
+            ghosts=goals(self.setup, drawn) if drawn else None,
+            marks=marks(self.setup, drawn) if drawn else (),
+        )
+        if out is not None:
+            write_png(image, out)
+        return image
+
+    @property
+    def sim(self) -> SimulatedTable:
+        """The simulated world, to be changed as a hand would; raises PicoError for another backend."""
+        from pico.backends.sim.table import SimulatedTable
+
+        return SimulatedTable(self.setup, self.root)
+
+
+def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:
+    if backend not in ("sim", "hardware"):
+        raise PicoError(
+            error("backend", f"there is no backend `{backend}`", hint=did_you_mean(backend, ["sim", "hardware"]))
+        )
+    if fidelity not in (None, "kinematic", "physics"):
+        known = ["kinematic", "physics"]
+        raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))
+    if speed is not None and not 0 < speed <= 1:
+        raise PicoError(error("speed", f"a speed of {speed:g} is no share of the joint limits", hint="0.01 to 1"))
+
+
+def _require_preference(prefer: str) -> None:
+    known = ["fewest-moves", "shortest-time"]
+    if prefer not in known:
+        raise PicoError(error("prefer", f"a plan can't prefer `{prefer}`", hint=did_you_mean(prefer, known)))
