@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic, warning
+from pico.diagnostics import Diagnostic, error, warning
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Observation
@@ -132,9 +132,13 @@ def _set(shutter: Shutter, before: Value | None, after: Value, why: str) -> Oper
 
 
 def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Diagnostic]:
-    """Return a warning for each laser whose beam nothing closes while somebody works in it."""
-    if setup.lab.policy.open_beam or not _guarded(setup, operations):
+    """Return an error for each shutter that would open while a robot holds something over the table, and a warning for
+    each laser whose beam nothing closes while somebody works in it."""
+    if setup.lab.policy.open_beam:
         return []
+    held = [*_opened_over_a_hand(setup, seen, operations)]
+    if held or not _guarded(setup, operations):
+        return held
     closed = {s.laser for s in _shutters(setup, seen, operations)}
     why = _why(operations, _guarded(setup, operations))
     return [
@@ -145,6 +149,16 @@ def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
         for laser in _lasers(setup)
         if laser not in closed and laser in seen.components and seen.components[laser].presence != "missing"
     ]  # fmt: skip
+
+
+def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Diagnostic]:
+    for robot, hand in sorted(seen.robots.items()):
+        for laser in _lasers(setup):
+            if hand.holding and any(_sets(o, laser) and o.arguments["to"] == OPEN for o in operations):
+                text = f"the shutter of {laser} stays closed while {robot} holds {hand.holding}"
+                hint = f"take {hand.holding} out of the gripper and set it down, on the simulated bench with "
+                hint += f"`pico sim nudge {hand.holding}`; then plan again"
+                yield error("hand-full", text, hint=hint, address=f"{laser}.shutter")
 
 
 def policy_rules(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> tuple[Mapping[str, Any], ...]:

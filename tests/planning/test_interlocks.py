@@ -16,7 +16,7 @@ from random_labs import random_case
 from pico.execution.graph import Graph
 from pico.model.catalog import ComponentType, OpticalElement, Tunable
 from pico.model.lab import Mount, Policy, Robot, Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
@@ -145,6 +145,15 @@ def test_where_the_lab_allows_open_beam_work_the_shutter_stays() -> None:
     made = planned(setup, seen, wanted)
     assert steps(made) == ["move", "park"]
     assert [rule["text"] for rule in made.policy] == ["open beam allowed during 1 move"]
+
+
+def test_no_shutter_opens_while_a_robot_holds_something() -> None:
+    setup, seen, wanted = case(shutter="closed", goal="open", moves=False)
+    hand = {"arm1": ObservedRobot(joints=(), holding="a")}
+    made = planned(setup, replace(seen, robots=hand), wanted)
+    assert made.errored
+    assert [d.summary for d in made.diagnostics if d.code == "hand-full"]
+    assert not planned(setup, seen, wanted).errored
 
 
 def test_a_laser_that_nothing_can_close_is_told() -> None:
