@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
+from pico.model.tethers import turn_between
 from pico.motion import gantry
-from pico.motion.reach import check_grip, check_reach, check_table
+from pico.motion.reach import check_grip, check_reach, check_table, check_tether
 from pico.motion.stability import check_stability
 from pico.motion.travel import Travel
 from pico.motion.types import Blocked, Joints, MovePath, Standing
@@ -50,6 +52,7 @@ class ArmMotion:
         found = (
             check_grip(robot, arm, component, geometry)
             or self._on_table(component, geometry, pose)
+            or check_tether(self.setup, component, pose)
             or self._stability(component, geometry)
         )
         if found or arm.model == "gantry":
@@ -74,6 +77,8 @@ class ArmMotion:
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
         now = joints or self.park_joints(robot)
         if arm.model == "gantry":
+            turn = turn_between(self.setup, component, start, goal)
+            goal = goal if turn is None else replace(goal, yaw=start.yaw + turn)
             return gantry.move(robot, arm, component, geometry, start, goal, grasp_yaw, standing, now)
         from pico.motion.moves import Move
         from pico.motion.recheck import Task

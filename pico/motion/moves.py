@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from pico.model.catalog import Geometry
 from pico.model.pose import Pose
+from pico.model.tethers import turn_between
 from pico.motion import timing
 from pico.motion.explain import Errand, blocked
 from pico.motion.kinematics import Column, tool_pose
@@ -86,6 +87,7 @@ class Move:
     def _choices(self, above: Joints) -> list[Choice]:
         """Pairs of postures in which the part keeps its place between the jaws, by how far the joints go."""
         pairs = []
+        turn = turn_between(self.scene.setup, self.component, self.start, self.goal)
         for half in (0.0, 180.0):
             picks, places = (
                 postures(self.scene.robot, pose, self.grasp_yaw + half, self.low) for pose in (self.start, self.goal)
@@ -93,6 +95,8 @@ class Move:
             for pick, up in picks:
                 first = distance(above, up)
                 for place, down in places:
+                    if turn is not None and abs(turned(pick, place) - turn) > 1.0:
+                        continue  # the other way around, which would wind the part's cable by a whole turn
                     wound = abs(place.q1) + abs(place.q7)
                     pairs.append((round(first + distance(up, down) + WOUND * wound, 9), Choice(pick, place)))
         return [choice for _, choice in sorted(pairs, key=lambda pair: pair[0])]
@@ -168,6 +172,11 @@ class Move:
             Segment("retreat", *up, self.opening),
         )
         return MovePath(self.scene.name, self.component, segments)
+
+
+def turned(pick: Column, place: Column) -> float:
+    """Return by how much a part in hand turns on the way from one posture to the other [deg], whole turns included."""
+    return math.degrees((place.q1 - place.q7) - (pick.q1 - pick.q7))
 
 
 def find_park(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:

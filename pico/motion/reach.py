@@ -7,8 +7,9 @@ import math
 from pico.geometry import table as tabletop
 from pico.geometry.shape import placed, separation
 from pico.model.catalog import Geometry
-from pico.model.lab import Lab, Robot
+from pico.model.lab import Lab, Robot, Setup
 from pico.model.pose import Pose
+from pico.model.tethers import tether_fault
 from pico.motion.kinematics import reaches, span
 from pico.motion.shapes import PALM_LENGTH
 from pico.motion.types import Blocked
@@ -69,6 +70,12 @@ def check_table(lab: Lab, component: str, geometry: Geometry, pose: Pose) -> Blo
                 "keep_out", text, obstacle=name, by=-gap, help=f"place it {-gap:.4g} mm farther out of {name}"
             )
     return None
+
+
+def check_tether(setup: Setup, component: str, pose: Pose) -> Blocked | None:
+    """Return why the cable of `component` keeps it from `pose`, or None where it has none, or long enough."""
+    text, by, hint = tether_fault(setup, component, pose)
+    return Blocked("reach", f"{component} can't stand at {pose}: {text}", by=by, help=hint) if text else None
 
 
 def check_reach(name: str, robot: Robot, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:

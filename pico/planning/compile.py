@@ -21,6 +21,7 @@ from pico.planning.request import Preference, Request
 from pico.planning.selection import done_by, selection, told
 from pico.planning.situation import Situation, read_situation
 from pico.planning.target import Source, check_target, no_source
+from pico.planning.tethers import check_tethers
 from pico.planning.values import OPERATOR_SECONDS, value_operations
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     if not movers:
         return Compiled(diagnostics=tuple(put_off))
     impossible = check_target(request.setup, movers, obstacles, request.source)
+    impossible += check_tethers(request.setup, movers, request.source)
     if impossible:
         return Compiled(diagnostics=(*put_off, *impossible))
     others = () if request.alone else asides(request, situation, movers)
