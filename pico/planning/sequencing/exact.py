@@ -9,13 +9,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.planning.sequencing.problem import Tour
+from pico.planning.sequencing.problem import TOLERANCE, Tour
 
 MOST = 30
 """Operations up to which the search is tried."""
 
 Layer = tuple[Any, Any]
 """Sets of operations as bits, ascending, (n,); the least cost for each last operation and set, (m + 1, n)."""
+
+
+def improved(tour: Tour, order: tuple[int, ...], steps: int) -> tuple[bool, tuple[int, ...]]:
+    """Return whether the search ended within so many steps, and a cheaper order where it found one, else `order`."""
+    from pico.planning.sequencing.assignment import assign
+
+    floor, cost = assign(tour), tour.cost(order)
+    room = cost - floor.bound - TOLERANCE * abs(cost)
+    if room <= 0:
+        return True, order
+    ended, found = cheapest_below(tour, floor.excess, room, steps)
+    return ended, found or order
 
 
 def cheapest_below(tour: Tour, excess: Any, limit: float, steps: int) -> tuple[bool, tuple[int, ...] | None]:

@@ -14,7 +14,7 @@ from collections import abc
 
 from pico.planning.sequencing.problem import Masks, Tour
 
-HOT, COLD = 0.6, 0.06
+HOT, COLD = 0.6, 0.1
 """First and last temperature, in mean costs of an arc of the first order."""
 NEAR = 10
 """How many good successors of an operation are tried."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import abc, deque
+from collections import abc
 
 Arc = tuple[int, int, float]
 """Tail, head and capacity."""
 
 TINY = 1e-9
+"""Less room than this is none."""
 
 
 class Network:
@@ -45,9 +46,9 @@ class Network:
 
     def _search(self, source: int, sink: int, banned: int, room: abc.Sequence[float]) -> dict[int, int]:
         """Return for each node that can still be reached the arc that a shortest path enters it by."""
-        back, queue, head = {source: -1}, deque([source]), self._head
-        while queue:
-            for e in self._out[queue.popleft()]:
+        back, queue, head, out = {source: -1}, [source], self._head, self._out
+        for reached in queue:  # it grows meanwhile
+            for e in out[reached]:
                 node = head[e]
                 if room[e] > TINY and node not in back and not banned >> node & 1:
                     back[node] = e

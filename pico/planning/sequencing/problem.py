@@ -12,6 +12,9 @@ from dataclasses import dataclass
 Masks = tuple[int, ...]
 """For each operation a set of operations, as bits."""
 
+TOLERANCE = 1e-9
+"""Two costs that differ by less than this share are the same."""
+
 
 @dataclass(frozen=True, slots=True)
 class Effort:
@@ -21,9 +24,9 @@ class Effort:
     18 operations). `rounds`: how often the bound is tightened where the exact search does not end.
     """
 
-    moves: int = 1_000_000
+    moves: int = 1_200_000
     steps: int = 85_000_000
-    rounds: int = 9
+    rounds: int = 7
     seed: int = 0
 
 

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 
 from pico.planning.sequencing.exchange import NEAR, anneal
 from pico.planning.sequencing.nearest import nearest_order
-from pico.planning.sequencing.problem import Effort, Sequence, Tour, read_tour
+from pico.planning.sequencing.problem import TOLERANCE, Effort, Sequence, Tour, read_tour
 
 if TYPE_CHECKING:
     from pico.planning.sequencing.assignment import Assignment
 
 SHARE = 1000
 """Moves of the local search an operation before the exact search; a good order makes that one short."""
-TOLERANCE = 1e-9
-"""Two costs that differ by less than this share are the same."""
 
 
 def best_order(
@@ -37,28 +35,18 @@ def best_order(
     if tour.count < 2:
         return _proven(tour, order)
     from pico.planning.sequencing.assignment import assign
-    from pico.planning.sequencing.exact import MOST
+    from pico.planning.sequencing.exact import MOST, improved
+    from pico.planning.sequencing.stretches import rearranged
 
     floor = assign(tour)
     near = _near(floor)
     if tour.count <= MOST:
         order = anneal(tour, order, near, min(limit.moves, SHARE * tour.count), limit.seed)
-        ended, cheaper = _search(tour, floor, order, limit)
+        ended, order = improved(tour, order, limit.steps)
         if ended:
-            return _proven(tour, cheaper or order)
-    order = anneal(tour, order, near, limit.moves, limit.seed)
+            return _proven(tour, order)
+    order = rearranged(tour, anneal(tour, order, near, limit.moves, limit.seed))
     return _bounded(tour, order, floor.bound, limit)
-
-
-def _search(
-    tour: Tour, floor: Assignment, order: tuple[int, ...], limit: Effort
-) -> tuple[bool, tuple[int, ...] | None]:
-    """Return whether the exact search ended, and an order cheaper than `order` if it found one."""
-    from pico.planning.sequencing.exact import cheapest_below
-
-    cost = tour.cost(order)
-    room = cost - floor.bound - TOLERANCE * abs(cost)
-    return (True, None) if room <= 0 else cheapest_below(tour, floor.excess, room, limit.steps)
 
 
 def _proven(tour: Tour, order: tuple[int, ...]) -> Sequence:

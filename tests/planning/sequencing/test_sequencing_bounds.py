@@ -14,6 +14,7 @@ from pico.planning.sequencing.cuts import cut_bound, violated
 from pico.planning.sequencing.exchange import exchangeable
 from pico.planning.sequencing.flow import Network
 from pico.planning.sequencing.nearest import nearest_order
+from pico.planning.sequencing.stretches import rearranged, stretch
 
 
 def test_potentials_are_below_all_costs_and_add_up_to_the_cheapest_assignment() -> None:
@@ -79,6 +80,25 @@ def test_stretches_change_places_only_where_nothing_is_ordered_between_them() ->
     assert not exchangeable([0], [1, 3], after)
     assert not exchangeable([0, 1, 2], [3], after)
     assert exchangeable([1, 2], [3], after)
+
+
+def test_no_stretch_of_a_rearranged_order_could_be_cheaper_and_precedence_is_kept() -> None:
+    for seed in range(4):
+        case = instance(40, 0.3, seed)
+        order = nearest_order(case.tour)
+        better = rearranged(case.tour, order)
+        assert keeps(better, case.before)
+        assert case.tour.cost(better) < case.tour.cost(order)
+        line = [40, *better, 40]
+        for first in range(1, 36, 7):
+            inner = stretch(case.tour, line, first, first + 6)
+            legal = [p for p in permutations(range(6)) if all(not inner.after[b] >> a & 1 for a, b in pairs_of(p))]
+            assert inner.cost(tuple(range(6))) == min(inner.cost(p) for p in legal)
+
+
+def pairs_of(order: tuple[int, ...]) -> list[tuple[int, int]]:
+    """Return all pairs of an order, the earlier first."""
+    return [(a, b) for n, a in enumerate(order) for b in order[n + 1 :]]
 
 
 def test_the_nearest_neighbor_waits_for_what_must_come_first() -> None:

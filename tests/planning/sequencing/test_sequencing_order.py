@@ -87,7 +87,7 @@ def test_the_same_problem_has_the_same_answer() -> None:
 def test_an_answer_that_every_version_of_python_must_give() -> None:
     case = instance(40, 0.05, 4)
     found = ask(case, Effort(moves=20_000, rounds=0))
-    assert (found.cost, found.order[:8]) == (161.0, (5, 36, 13, 7, 38, 17, 25, 35))
+    assert (found.cost, found.order[:8]) == (163.0, (5, 36, 10, 39, 31, 25, 4, 9))
 
 
 def test_nothing_to_order() -> None:
