@@ -50,7 +50,7 @@ FIXED = {
     "--view": ("perspective", "top"),
     "--prefer": ("fewest-moves", "shortest-time"),
     "--format": ("dot", "mermaid"),
-    "--example": ("minimal", "shel", "crowded"),
+    "--example": ("minimal", "shel", "crowded", "two_arms"),
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")

@@ -15,7 +15,8 @@ def init(
     context: typer.Context,
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet.")],
     example: Annotated[
-        str | None, typer.Option("--example", metavar="NAME", help="minimal, shel or crowded, with its history.")
+        str | None,
+        typer.Option("--example", metavar="NAME", help="minimal, shel, crowded or two_arms, with its history."),
     ] = None,
 ) -> int:
     """Make a new lab, or an example with its history."""

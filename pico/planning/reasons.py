@@ -91,7 +91,9 @@ def _making_room(table: Conflicts, steps: Sequence[Step], k: int) -> tuple[tuple
         elif not text:
             text = f"makes room for {name}: {_touching(table, depth, table.movers[step.mover].name)}"
     if not of:
-        text = "put down in storage to be gripped at another angle"
+        onward = steps[back].hold.robot if back < len(steps) else step.hold.robot
+        handed = onward is not None and onward != step.hold.robot
+        text = f"put down for {onward} to take on" if handed else "put down in storage to be gripped at another angle"
     return tuple(dict.fromkeys(of)), round(best, 3) if best > 0 else None, text
 
 
