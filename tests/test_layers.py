@@ -18,16 +18,17 @@ LAYERS: dict[str, set[str]] = {
     "geometry": {"diagnostics", "model"},
     "motion": {"diagnostics", "model", "geometry"},
     "planning": {"diagnostics", "model", "geometry", "motion"},
-    "twin": {"diagnostics", "model", "geometry", "motion"},
-    "backends": {"diagnostics", "model", "journal", "geometry", "motion", "twin"},
+    "vision": {"diagnostics", "model", "geometry"},
+    "twin": {"diagnostics", "model", "geometry", "motion", "vision"},
+    "backends": {"diagnostics", "model", "journal", "geometry", "motion", "vision", "twin"},
     "execution": {"diagnostics", "model", "journal", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
     "async_bench": {
-        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "twin",
+        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "vision", "twin",
         "backends", "execution", "pictures",
     },
     "bench": {
-        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "twin",
+        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "vision", "twin",
         "backends", "execution", "pictures", "async_bench",
     },
 }  # fmt: skip
