@@ -37,7 +37,7 @@ class CameraModel:
         return replace(self, pose=parent @ self.pose, robot=None)
 
     def project(self, points: Array) -> Array:
-        """Return the pixels (n, 2) at which `points` (n, 3) [mm] of the camera's parent frame are seen; NaN behind it."""
+        """Return the pixels (n, 2) at which `points` (n, 3) [mm] of the parent's frame appear; NaN behind it."""
         import cv2
         import numpy as np
 
@@ -49,7 +49,7 @@ class CameraModel:
         return pixels
 
     def rays(self, pixels: Array) -> tuple[Array, Array]:
-        """Return origin (3,) [mm] and unit directions (n, 3) of the rays behind `pixels` (n, 2), in the parent's frame."""
+        """Return origin (3,) [mm] and directions (n, 3) of the rays behind `pixels` (n, 2), in the parent's frame."""
         import cv2
         import numpy as np
 
