@@ -27,6 +27,7 @@ from pico.planning.values import OPERATOR_SECONDS, value_operations
 if TYPE_CHECKING:
     from pico.planning.order import Turn
     from pico.planning.solve import Solution
+    from pico.planning.together import Meetings
 
 MOVE_SECONDS = 10.0
 """What a pick and place takes where no motion is asked for [s]."""
@@ -131,10 +132,12 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:
     from pico.planning.order import precedence, reduced, turns
     from pico.planning.reasons import move_reasons
+    from pico.planning.together import meetings
 
     table, steps, paths = answer.table, answer.steps, answer.paths
     closure = precedence(table, steps, paths.extra if paths else {})
     reasons = move_reasons(request.setup, request.wanted, table, steps, closure)
+    met = meetings(request.setup, steps, paths) if paths and len(request.setup.lab.robots) > 1 else None
     operations = []
     for k, (step, after) in enumerate(zip(steps, reduced(closure), strict=True)):
         actor = table.movers[step.mover]
@@ -145,10 +148,10 @@ def _operations(request: Request, answer: Solution) -> tuple[list[Operation], li
             id="", component=actor.name, robot=step.hold.robot, after=tuple(str(e) for e in after),
             primitive="operator" if step.hold.robot is None else "stow" if goal.slot else "move",
             arguments=_arguments(start, goal, step.hold.yaw if step.hold.robot else None, actor.name),
-            resources=_resources(request.setup, step.hold.robot, actor.name),
+            resources=_resources(request.setup, step.hold.robot, actor.name, met.zones.get(k, ()) if met else None),
             reason=request.reason or reasons[k], seconds=path.seconds if path else nominal,
         ))  # fmt: skip
-    return _with_parks(operations, turns(steps), paths.parks if paths else ())
+    return _with_parks(operations, turns(steps), paths.parks if paths else (), met)
 
 
 def _arguments(start: Place, goal: Place, grasp_yaw: float | None, name: str) -> dict[str, Any]:
@@ -161,18 +164,24 @@ def _place(place: Place) -> dict[str, Any]:
     return {"pose": as_json(place.pose)} | ({"slot": place.slot} if place.slot else {})
 
 
-def _resources(setup: Setup, robot: str | None, component: str) -> tuple[str, ...]:
-    """A person works where no arm moves; several arms take turns, for nothing else keeps them from one another."""
+def _resources(
+    setup: Setup, robot: str | None, component: str, zones: tuple[str, ...] | None = None
+) -> tuple[str, ...]:
+    """A person works where no arm moves; several arms take turns where nobody knows which `zones` they come into."""
     if robot is None:
         return (component, *sorted(setup.lab.robots))
-    return (robot, component, *(("arms",) if len(setup.lab.robots) > 1 else ()))
+    if zones is None:
+        zones = ("arms",) if len(setup.lab.robots) > 1 else ()
+    return (robot, component, *zones)
 
 
 def _with_parks(
-    operations: list[Operation], turns: Sequence[Turn], paths: Sequence[MovePath | Blocked]
+    operations: list[Operation], turns: Sequence[Turn], paths: Sequence[MovePath | Blocked], met: Meetings | None
 ) -> tuple[list[Operation], list[Diagnostic]]:
-    """Return the operations with a park after each turn; the next robot's turn waits for it."""
+    """Return the operations with a park after each turn; the next robot's turn waits for it, or, where it is known
+    which steps meet, these for one another."""
     out, notes = list(operations), []
+    parks: dict[int, int] = {}
     for n, turn in enumerate(turns):
         path = paths[n] if paths else None
         if isinstance(path, Blocked):
@@ -181,10 +190,15 @@ def _with_parks(
             continue
         waited = {int(e) for k in turn.steps for e in operations[k].after}
         after = tuple(str(k) for k in turn.steps if k not in waited)
-        for k in turns[n + 1].steps if n + 1 < len(turns) else ():
+        for k in turns[n + 1].steps if met is None and n + 1 < len(turns) else ():
             out[k] = replace(out[k], after=(*out[k].after, str(len(out))))
+        parks[n] = len(out)
         out.append(Operation(
-            id="", primitive="park", component=turn.robot, robot=turn.robot, resources=(turn.robot,), after=after,
+            id="", primitive="park", component=turn.robot, robot=turn.robot, after=after,
+            resources=(turn.robot, *(met.parks.get(n, ()) if met else ())),
             reason=Reason(kind="parked", text="out of the beam"), seconds=path.seconds if path else PARK_SECONDS,
         ))  # fmt: skip
+    for k, waits in met.waits.items() if met else ():
+        ends = (str(e if e >= 0 else parks[-1 - e]) for e in waits if e >= 0 or -1 - e in parks)
+        out[k] = replace(out[k], after=tuple(dict.fromkeys((*out[k].after, *ends))))
     return out, notes

@@ -14,6 +14,7 @@ from pico.planning.order import arranged, precedence
 from pico.planning.search import Step
 from pico.planning.sequencing import Effort, best_order
 from pico.planning.shorten import valid
+from pico.planning.together import staggered
 
 SPEED = 300.0
 """What the hand travels at where no motion is asked for [mm/s]."""
@@ -46,8 +47,9 @@ def toured(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: M
     robots = {s.hold.robot for s in steps}
     if len(robots) > 1 or None in robots or len(steps) < 2:
         order = arranged(table.setup, table, steps, precedence(table, steps, {}))
-        loaded = sum(clock.loaded(s) for s in order)
-        return Tour(order, loaded, loaded if clock.told else None)
+        order = staggered(table.setup, table, order) if motion else order
+        loaded = {r: sum(clock.loaded(s) for s in order if s.hold.robot == r) for r in robots}
+        return Tour(order, sum(loaded.values()), max(loaded.values()) if clock.told else None)
     first = _sequenced(clock, steps)
     moved = nearer(clock, first.steps)
     return _sequenced(clock, moved) if moved != first.steps else first

@@ -23,7 +23,7 @@ from pico.model.operation import Operation, OperationResult
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
-from pico.motion.types import Blocked, Motion, MovePath
+from pico.motion.types import Blocked, Joints, Motion, MovePath
 
 PROGRESS = 0.25
 """Simulated seconds between two reports of an operation's progress, at least."""
@@ -125,7 +125,7 @@ class Session:
         start = judge.require_ready(self._setup, self.world(), operation, planned)
         path = self._motion.move(
             robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)),
-            judge.standing(self._setup, self.world()), self.world().robots[robot].joints,
+            judge.standing(self._setup, self.world()), self.world().robots[robot].joints, self._elsewhere(robot),
         )  # fmt: skip
         if isinstance(path, Blocked):
             raise judge.blocked(name, path)
@@ -140,10 +140,14 @@ class Session:
             raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
         judge.require_empty(self.world(), robot)
         joints = self.world().robots[robot].joints
-        path = self._motion.park(robot, joints, judge.standing(self._setup, self.world()))
+        path = self._motion.park(robot, joints, judge.standing(self._setup, self.world()), self._elsewhere(robot))
         if isinstance(path, Blocked):
             raise judge.blocked(robot, path)
         return (yield from self._reported(operation, key, path, self._mover.park(path)))
+
+    def _elsewhere(self, robot: str) -> dict[str, Joints]:
+        """Return the joints of the other arms as they are now."""
+        return {name: other.joints for name, other in self.world().robots.items() if name != robot}
 
     def _set(self, operation: Operation) -> InProgress:
         """Drive a tunable to a value, or its axis to its home; while it moves nobody knows its value."""
