@@ -24,12 +24,12 @@ LAYERS: dict[str, set[str]] = {
     "execution": {"diagnostics", "model", "journal", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
     "async_bench": {
-        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "vision",
-        "twin", "backends", "execution", "pictures",
+        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
+        "vision", "twin", "backends", "execution", "pictures",
     },
     "bench": {
-        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning", "vision",
-        "twin", "backends", "execution", "pictures", "async_bench",
+        "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
+        "vision", "twin", "backends", "execution", "pictures", "async_bench",
     },
 }  # fmt: skip
 
