@@ -38,8 +38,9 @@ def move(
 ) -> MovePath | Blocked:
     """Return the way over the top; blocked where the footprint at `goal` overlaps another."""
     shape = placed(geometry.footprint, goal)
-    for other, thing in sorted(standing.items()):
-        gap = separation(shape, placed(thing.geometry.footprint, thing.pose))
+    near = [n for n, t in standing.items() if goal.distance(t.pose) < shape.radius + t.geometry.footprint.radius]
+    for other in sorted(near):
+        gap = separation(shape, placed(standing[other].geometry.footprint, standing[other].pose))
         if other != component and gap < 0:
             text = f"{component} would hit {other} by {-gap:.1f} mm, setting it down at {goal}"
             return Blocked("collision", text, "lower", other, round(-gap, 3))

@@ -11,7 +11,7 @@ from pico.planning.conflicts import FEW, Conflicts, sum_of
 from pico.planning.feedback import Limit, Staging
 from pico.planning.feedback import solve as fewest_staged
 from pico.planning.realize import realized, slots_needed
-from pico.planning.relaxed import relaxation
+from pico.planning.relaxed import relaxation, staging_cost
 from pico.planning.search import Configuration, Effort, Found, Step, search
 
 COMPLETE = FEW
@@ -82,14 +82,14 @@ def hunt(table: Conflicts, *, several: bool = False) -> Hunted:
 
 def _least(table: Conflicts, relaxed: Staging) -> int:
     """Return the fewest stagings, whatever they cost."""
-    if relaxed.count and any(m.penalty for m in table.movers):
+    if relaxed.count and any(staging_cost(m) > 1 for m in table.movers):
         relaxed = fewest_staged(relaxation(table, (1.0,) * len(table.movers)), BOUND)
     return math.ceil(relaxed.lower_bound - 1e-6) if math.isfinite(relaxed.lower_bound) else 0
 
 
 def _with_room(table: Conflicts, relaxed: Staging) -> Iterator[tuple[Step, ...]]:
     """Yield moves that stage no more than the relaxed answer, with a slot for each."""
-    costs = [1.0 + m.penalty for m in table.movers]
+    costs = [staging_cost(m) for m in table.movers]
     weights, answer = list(costs), relaxed
     for _ in range(1 + OTHERS):
         if answer.options is None or sum(costs[i] for i in answer.staged) > relaxed.weight + 1e-6:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pico.planning.conflicts import Conflicts
 from pico.planning.feedback import Arc, Component, Event, Option, Problem, arrives, leaves
-from pico.planning.movers import Hold
+from pico.planning.movers import Hold, Mover
 
 
 def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Problem:
@@ -19,7 +19,7 @@ def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Pr
     """
     components, common = [], list[Arc]()
     for i, mover in enumerate(table.movers):
-        weight = weights[i] if weights else 1.0 + mover.penalty
+        weight = weights[i] if weights else staging_cost(mover)
         own = Component(tuple(_direct(table, i)), tuple(_picks(table, i)), tuple(_places(table, i)), weight)
         shared = _shared(own)
         common += shared
@@ -27,13 +27,21 @@ def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Pr
     return Problem(tuple(components), tuple(common))
 
 
+def staging_cost(mover: Mover) -> float:
+    """Return what it costs to stage a component, in moves: one more than going straight to the goal; there and back,
+    where it could stay."""
+    return 1.0 + mover.penalty + mover.right
+
+
 def _direct(table: Conflicts, i: int) -> Iterator[Option]:
     mover = table.movers[i]
-    for goal in mover.goals:
-        for way in table.ways(i, 0, goal):
-            yield Option((goal, way.hold), _arcs(table, arrives(i), way.mask, table.arrive(i, goal) or 0), goal)
     if mover.right:
         yield Option(None, (), 0)  # stays; whatever excludes its place already waits for it to leave
+    for goal in mover.goals:
+        if mover.right and mover.places[goal].pose == mover.start.pose:
+            continue
+        for way in table.ways(i, 0, goal):
+            yield Option((goal, way.hold), _arcs(table, arrives(i), way.mask, table.arrive(i, goal) or 0), goal)
 
 
 def _picks(table: Conflicts, i: int) -> Iterator[Option]:

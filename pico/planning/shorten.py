@@ -10,7 +10,7 @@ from pico.planning.search import Step
 
 def shortened(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...]:
     """Return the steps without those that can be merged with the next of the same component, or left out where they
-    bring it back to where it was, as long as every remaining move stays possible."""
+    bring it back to where it was, or from right to right, as long as every remaining move stays possible."""
     best = tuple(steps)
     while True:
         better = next((b for b in (valid(table, c) for c in _shorter(table, best)) if b is not None), None)
@@ -23,11 +23,13 @@ def _shorter(table: Conflicts, steps: tuple[Step, ...]) -> Iterator[tuple[Step, 
     """Yield the steps with two consecutive moves of one component replaced by one, early or late, or by none."""
     for first, step in enumerate(steps):
         later = next((k for k in range(first + 1, len(steps)) if steps[k].mover == step.mover), None)
+        mover = table.movers[step.mover]
         if later is None:
+            if mover.right and step.start == 0 and step.goal in mover.goals:
+                yield (*steps[:first], *steps[first + 1 :])
             continue
         before, between, after = steps[:first], steps[first + 1 : later], steps[later + 1 :]
         end = steps[later].goal
-        mover = table.movers[step.mover]
         if end == step.start or (mover.right and step.start == 0 and end in mover.goals):
             yield (*before, *between, *after)
         if end != step.start:
