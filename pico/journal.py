@@ -1,8 +1,10 @@
 """The write-ahead record of operations: what was meant, what began, and what became of it.
 
 SQLite in `.pico/journal.sqlite`, WAL with synchronous=FULL: a record is on the disk when its function returns. Each
-attempt at an operation has a key, `run id/operation id/attempt`, and at most three records: `intent` before anything,
-`started` before motion, one of `done`, `failed` and `unknown` before anyone hears of it. Records are only added.
+attempt at an operation has a key, `run id/operation id/attempt`, and at most four records: `intent` before anything,
+`started` before motion, one of `done`, `failed` and `unknown` before anyone hears of it; after an `unknown` one
+`resolved`, once an observation or a person says how it ended. Records are only added, in the order of their numbers:
+times are for people, for a clock can be set back.
 """
 
 from __future__ import annotations
@@ -11,26 +13,39 @@ import json
 import sqlite3
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
 
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import ObservedComponent, ObservedValue, Uncertainty
-from pico.model.operation import Operation, OperationResult
+from pico.model.operation import Operation, OperationResult, Outcome, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json, digest, record
 
-RecordKind = Literal["intent", "started", "done", "failed", "unknown"]
+RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 RunOutcome = Literal["done", "failed", "interrupted"]
 
-VERSION = 1
-_PHASE: Mapping[str, int] = {"intent": 0, "started": 1, "done": 2, "failed": 2, "unknown": 2}
-_TABLES = """
+VERSION = 2
+_PHASE: Mapping[str, int] = {"intent": 0, "started": 1, "done": 2, "failed": 2, "unknown": 2, "resolved": 3}
+_RUNS = """
 CREATE TABLE IF NOT EXISTS runs (
-  run TEXT PRIMARY KEY, plan TEXT NOT NULL, holder TEXT NOT NULL, started_at TEXT NOT NULL,
-  finished_at TEXT, outcome TEXT, tally TEXT
-) WITHOUT ROWID;
+  number INTEGER PRIMARY KEY AUTOINCREMENT, run TEXT NOT NULL UNIQUE, plan TEXT NOT NULL, holder TEXT NOT NULL,
+  started_at TEXT NOT NULL, finished_at TEXT, outcome TEXT, tally TEXT, document TEXT, resumed INTEGER DEFAULT 0
+);
+CREATE TABLE IF NOT EXISTS fence (one INTEGER PRIMARY KEY CHECK (one = 1), token INTEGER NOT NULL);
+INSERT OR IGNORE INTO fence VALUES (1, 0);
+"""
+_FROM_1 = f"""
+ALTER TABLE runs RENAME TO old_runs;
+{_RUNS}
+INSERT INTO runs (run, plan, holder, started_at, finished_at, outcome, tally)
+  SELECT run, plan, holder, started_at, finished_at, outcome, tally FROM old_runs ORDER BY started_at, run;
+DROP TABLE old_runs;
+"""
+_TABLES = f"""
+{_RUNS}
 CREATE TABLE IF NOT EXISTS records (
   seq INTEGER PRIMARY KEY AUTOINCREMENT, key TEXT NOT NULL, run TEXT NOT NULL, phase INTEGER NOT NULL,
   kind TEXT NOT NULL, component TEXT NOT NULL, digest TEXT NOT NULL, token INTEGER NOT NULL, at TEXT NOT NULL,
@@ -38,11 +53,17 @@ CREATE TABLE IF NOT EXISTS records (
 );
 CREATE INDEX IF NOT EXISTS records_of_run ON records (run);
 """
+_LAST_PICK = """
+SELECT i.data FROM records AS s JOIN records AS i ON i.key = s.key AND i.phase = 0
+WHERE s.phase = 1 AND json_extract(i.data, '$.robot') = ? AND json_extract(i.data, '$.primitive') IN ('move', 'stow')
+  AND json_extract(i.data, '$.arguments.from.held') IS NULL ORDER BY s.seq DESC LIMIT 1
+"""
 
 
 @record
 class JournalRecord:
-    """One record. `data`: the operation of an `intent`, the observed component of a `started`, the result of an end."""
+    """One record. `data`: the operation of an `intent`, the observed component of a `started`, the result of an end;
+    of a `resolved`, `outcome`, `by` and the observed component (`after`)."""
 
     seq: int
     key: str
@@ -56,7 +77,8 @@ class JournalRecord:
 
 @record
 class RunRecord:
-    """One run. `finished_at`, `outcome` and `tally` are None while it goes on, or where it was killed."""
+    """One run. `finished_at`, `outcome` and `tally` are None while it goes on, or where it was killed. `resumed`: how
+    often it was taken up again."""
 
     run: str
     plan: str
@@ -65,6 +87,17 @@ class RunRecord:
     finished_at: str | None = None
     outcome: RunOutcome | None = None
     tally: Mapping[str, Any] | None = None
+    resumed: int = 0
+
+
+@record
+class Unsettled:
+    """An operation of which nobody knows how it ended: it began (`before`), and was cut short or answered nothing."""
+
+    key: str
+    operation: Operation
+    before: ObservedComponent | None
+    ended: bool
 
 
 def utc_now() -> str:
@@ -102,23 +135,43 @@ class Journal:
         (version,) = self._db.execute("PRAGMA user_version").fetchone()
         if version > VERSION:
             raise PicoError(error("journal", f"{self.path} is of a newer PICO (version {version})", hint="update PICO"))
-        if version == 0:
-            self._db.executescript(f"BEGIN EXCLUSIVE;{_TABLES}PRAGMA user_version={VERSION};COMMIT;")
+        if version < VERSION:
+            script = _TABLES if version == 0 else _FROM_1
+            self._db.executescript(f"BEGIN EXCLUSIVE;{script}PRAGMA user_version={VERSION};COMMIT;")
 
     def close(self) -> None:
         """Let go of the database."""
         self._db.close()
 
+    def fence(self, token: int) -> None:
+        """Let nobody with a lesser token write any more; raises PicoError (exit code LOCKED) where this one is late."""
+        with self._guarded():
+            self._db.execute("UPDATE fence SET token = ? WHERE token <= ?", (token, token))
+            highest = self._db.execute("SELECT token FROM fence").fetchone()[0]
+        if highest > token:
+            raise PicoError(_late(token), ExitCode.LOCKED)
+
     # runs
 
-    def begin_run(self, run: str, plan: str, holder: str) -> None:
-        """Record that a run of the plan with digest `plan` begins; a run that is resumed goes on under its id."""
-        row = (run, plan, holder, self._clock())
+    def begin_run(self, run: str, plan: str, holder: str, *, document: str | None = None) -> None:
+        """Record that a run of the plan with digest `plan` begins, with the plan itself as JSON (`document`)."""
+        row = (run, plan, holder, self._clock(), document)
+        columns = "INSERT OR IGNORE INTO runs (run, plan, holder, started_at, document) VALUES (?, ?, ?, ?, ?)"
         with self._guarded():
-            self._db.execute("INSERT OR IGNORE INTO runs (run, plan, holder, started_at) VALUES (?, ?, ?, ?)", row)
+            self._db.execute(columns, row)
             known = self._db.execute("SELECT plan FROM runs WHERE run = ?", (run,)).fetchone()[0]
         if known != plan:
             raise PicoError(error("journal-key", f"run {run} is of another plan", hint="start the run under a new id"))
+
+    def resume_run(self, run: str) -> int:
+        """Record that a run is taken up again, with a new plan to the same goal; return how often it now was."""
+        change = "UPDATE runs SET finished_at = NULL, outcome = NULL, tally = NULL, resumed = resumed + 1 WHERE run = ?"
+        with self._guarded():
+            self._db.execute(change, (run,))
+            row = self._db.execute("SELECT resumed FROM runs WHERE run = ?", (run,)).fetchone()
+        if row is None:
+            raise PicoError(error("journal-key", f"the journal has no run {run}"))
+        return int(row[0])
 
     def end_run(self, run: str, outcome: RunOutcome, tally: Mapping[str, Any]) -> None:
         """Record how a run ended: `tally` counts its operations."""
@@ -127,12 +180,17 @@ class Journal:
             self._db.execute("UPDATE runs SET finished_at = ?, outcome = ?, tally = ? WHERE run = ?", row)
 
     def runs(self) -> tuple[RunRecord, ...]:
-        """Return the runs, oldest first."""
+        """Return the runs in the order in which they began."""
+        columns = "run, plan, holder, started_at, finished_at, outcome, tally, resumed"
         with self._guarded():
-            rows = self._db.execute(
-                "SELECT run, plan, holder, started_at, finished_at, outcome, tally FROM runs ORDER BY started_at, run"
-            ).fetchall()
+            rows = self._db.execute(f"SELECT {columns} FROM runs ORDER BY number").fetchall()
         return tuple(_run(row) for row in rows)
+
+    def document(self, run: str) -> str | None:
+        """Return the plan that a run began with, as JSON; None where it was not kept."""
+        with self._guarded():
+            row = self._db.execute("SELECT document FROM runs WHERE run = ?", (run,)).fetchone()
+        return row[0] if row else None
 
     # operations
 
@@ -153,7 +211,8 @@ class Journal:
             raise PicoError(error("journal-key", text, hint="start the run under a new id"))
         ended = next((known[k] for k in ("done", "failed", "unknown") if k in known), None)
         if ended:
-            return result_from_json(ended.data)
+            result = result_from_json(ended.data)
+            return replace(result, outcome=known["resolved"].data["outcome"]) if "resolved" in known else result
         return _cut_short(key, operation) if "started" in known else None
 
     def started(self, key: str, before: ObservedComponent | None, token: int) -> None:
@@ -172,6 +231,36 @@ class Journal:
             return self._select("WHERE key = ?", key)
         return self._select("WHERE run = ?", run) if run is not None else self._select("")
 
+    def resolve(self, key: str, outcome: Outcome, by: str, after: ObservedComponent | None, token: int) -> None:
+        """Record how an operation of which nobody knew it ended; `by`: `observation`, or who said so."""
+        kinds = {r.kind: r for r in self.records(key=key)}
+        data = {"outcome": outcome, "by": by} | ({"after": as_json(after)} if after else {})
+        if "unknown" not in kinds:
+            cut = _cut_short(key, operation_from_json(kinds["intent"].data))
+            self._add(key, "unknown", kinds["intent"].component, kinds["intent"].digest, token, as_json(cut))
+        if outcome != "unknown":
+            self._add(key, "resolved", kinds["intent"].component, kinds["intent"].digest, token, data)
+
+    def unsettled(self) -> tuple[Unsettled, ...]:
+        """Return the operations that began and of which nobody knows how they ended, in the order of their start."""
+        where = (
+            "AS s WHERE phase = 1 AND NOT EXISTS (SELECT 1 FROM records AS e WHERE e.key = s.key AND"
+            " (e.phase = 3 OR e.phase = 2 AND e.kind != 'unknown'))"
+        )
+        found = []
+        for started in self._select(where):
+            known = {r.kind: r for r in self.records(key=started.key)}
+            operation = operation_from_json(known["intent"].data)
+            before = _observed(started.data or None)
+            found.append(Unsettled(key=started.key, operation=operation, before=before, ended="unknown" in known))
+        return tuple(found)
+
+    def last_pick(self, robot: str) -> Operation | None:
+        """Return the last move that a robot began from the table: what it may hold, and where that stood before."""
+        with self._guarded():
+            row = self._db.execute(_LAST_PICK, (robot,)).fetchone()
+        return operation_from_json(json.loads(row[0])) if row else None
+
     def unfinished(self) -> tuple[JournalRecord, ...]:
         """Return the `started` records without an end: what was under way when a process was killed."""
         return self._select("WHERE phase = 1 AND key NOT IN (SELECT key FROM records WHERE phase = 2)")
@@ -186,11 +275,13 @@ class Journal:
     def _add(self, key: str, kind: RecordKind, component: str, content: str, token: int, data: Any) -> None:
         row = (key, run_of(key), _PHASE[kind], kind, component, content, token, self._clock(), _text(data))
         with self._guarded():
-            self._db.execute(
+            written = self._db.execute(
                 "INSERT INTO records (key, run, phase, kind, component, digest, token, at, data)"
-                " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                row,
-            )
+                " SELECT ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE ? >= (SELECT token FROM fence)",
+                (*row, token),
+            ).rowcount
+        if not written:
+            raise PicoError(_late(token), ExitCode.LOCKED)
 
     @contextmanager
     def _guarded(self) -> Iterator[None]:
@@ -200,6 +291,10 @@ class Journal:
             raise PicoError(error("journal-key", f"this is recorded in {self.path} already: {exc}")) from exc
         except (sqlite3.Error, OSError) as exc:
             raise PicoError(_trouble(self.path, exc)) from exc
+
+
+def _late(token: int) -> Diagnostic:
+    return error("lease", f"the lease {token} is not the current one: somebody took the bench since", hint="plan again")
 
 
 def _text(data: Any) -> str:
@@ -220,7 +315,8 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
 
 def _run(row: tuple[Any, ...]) -> RunRecord:
     names = ("run", "plan", "holder", "started_at", "finished_at", "outcome")
-    return RunRecord(**dict(zip(names, row[:6], strict=True)), tally=json.loads(row[6]) if row[6] else None)
+    tally = json.loads(row[6]) if row[6] else None
+    return RunRecord(**dict(zip(names, row[:6], strict=True)), tally=tally, resumed=int(row[7] or 0))
 
 
 def _cut_short(key: str, operation: Operation) -> OperationResult:
@@ -228,6 +324,14 @@ def _cut_short(key: str, operation: Operation) -> OperationResult:
     hint = "plan again: it starts from what stands on the table now"
     found = error("unknown-outcome", text, hint=hint, address=operation.component)
     return OperationResult(key=key, outcome="unknown", error=found)
+
+
+def operation_from_json(data: Mapping[str, Any]) -> Operation:
+    """Return the operation whose `as_json` gave `data`."""
+    listed = {k: tuple(data[k]) for k in ("resources", "after") if k in data}
+    why = data["reason"]
+    reason = Reason(**{**why, "of": tuple(why.get("of", ()))})
+    return Operation(**{**data, **listed, "reason": reason})
 
 
 def result_from_json(data: Mapping[str, Any]) -> OperationResult:

@@ -23,6 +23,8 @@ async def run(
     holder: str,
     setup: Setup,
     cancelled: Callable[[], bool] = lambda: False,
+    stop_on_error: bool = False,
+    resumed: bool = False,
 ) -> AsyncGenerator[Event, None]:
     """Execute `plan` on `backend` and yield what happens; the last event is `run_finished`, with the tally.
 
@@ -30,6 +32,9 @@ async def run(
     raises PicoError: exit code IMPOSSIBLE for a plan with errors, STALE where the bench or the lab
     changed since it was made, LOCKED where somebody else has the bench, ERROR where the backend can't do what the plan
     asks. A failure of an operation is an event.
+
+    Where an operation fails, what depends on it is skipped and the rest goes on, unless `stop_on_error`. `resumed`: the
+    journal knows the run, which goes on under its id.
 
     Once `cancelled()` is true, or the task that iterates is cancelled, nothing more starts; what is under way goes on
     to its safe end, and the events end with `run_finished`, outcome `interrupted`. Cancelled twice, it stops at once.
@@ -40,7 +45,10 @@ async def run(
         seen = await backend.observe()
         require_current(setup, plan, seen)
         journal: Journal | None = getattr(backend, "journal", None)  # one at the far end of a network keeps its own
-        walk = Walk(plan, backend, lease, run=run_id, now=seen.time, cancelled=cancelled, journal=journal)
+        walk = Walk(
+            plan, backend, lease, run=run_id, now=seen.time, cancelled=cancelled, journal=journal,
+            stop_on_error=stop_on_error, resumed=resumed,
+        )  # fmt: skip
         async with aclosing(_events(walk, backend)) as events:
             async for event in events:
                 yield event

@@ -10,15 +10,12 @@ from typing import Any
 
 from pico.backends.protocol import Backend, Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
-from pico.execution.graph import Graph
+from pico.execution.executor import Dispatch, Executor
 from pico.journal import Journal, RunOutcome
 from pico.model.event import Event, EventKind
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Plan
 from pico.model.record import as_json
-
-PLACEMENTS = 3
-"""How often a component is placed at most until it stands within tolerance: once, and twice again."""
 
 
 class Walk:
@@ -34,18 +31,19 @@ class Walk:
         now: float,
         cancelled: Callable[[], bool],
         journal: Journal | None = None,
+        stop_on_error: bool = False,
+        resumed: bool = False,
     ) -> None:
         self.events: asyncio.Queue[Event | None] = asyncio.Queue()
         self._plan, self._backend, self._lease, self._run = plan, backend, lease, run
-        self._graph = Graph(plan.operations)
+        self._executor = Executor(plan.operations, run, stop_on_error)
         self._begun = self._now = now
-        self._cancelled, self._journal = cancelled, journal
-        self._interrupted = False
+        self._cancelled, self._journal, self._resumed = cancelled, journal, resumed
         self._seq = 0
 
     def interrupt(self) -> None:
         """Start nothing more; what is under way goes on to its safe end."""
-        self._interrupted = True
+        self._executor.interrupt()
 
     async def run(self) -> None:
         """Walk, then end the events, whatever happened."""
@@ -59,8 +57,9 @@ class Walk:
 
         Raises PicoError where the run can't be journalled.
         """
-        if self._journal:
-            self._journal.begin_run(self._run, self._plan.digest, self._lease.holder)
+        if self._journal and not self._resumed:
+            document = self._plan.to_json()
+            self._journal.begin_run(self._run, self._plan.digest, self._lease.holder, document=document)
         relay = asyncio.create_task(self._relay(self._backend.events()))
         try:
             self._emit("run_started", data={"plan": self._plan.digest, "operations": len(self._plan.operations)})
@@ -73,71 +72,76 @@ class Walk:
             self._finish()
 
     async def _operations(self) -> None:
-        under_way: dict[asyncio.Task[OperationResult], Operation] = {}
+        under_way: dict[asyncio.Task[OperationResult], Dispatch] = {}
         while True:
-            for op in [] if self._stopping() else self._graph.ready():
-                self._graph.start(op)
-                under_way[asyncio.create_task(self._execute(op))] = op
+            for dispatch in self._due():
+                under_way[self._start(dispatch)] = dispatch
             if not under_way:
                 return
             over, _ = await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
             for task in [t for t in under_way if t in over]:
-                self._over(under_way.pop(task), task)
+                again = self._over(under_way.pop(task), task)
+                if again is not None:
+                    under_way[self._start(again)] = again
 
-    def _stopping(self) -> bool:
-        self._interrupted = self._interrupted or self._cancelled()
-        return self._interrupted
+    def _due(self) -> list[Dispatch]:
+        if self._cancelled():
+            self._executor.interrupt()
+        return self._executor.due()
 
-    async def _execute(self, op: Operation) -> OperationResult:
-        """Execute an operation; a part that was put down outside its tolerance is placed again."""
-        attempt = 1
-        while True:
-            key = f"{self._run}/{op.id}/{attempt}"
-            result = await self._backend.execute(op, key, self._lease)
-            again = result.error is not None and result.error.code == "misplaced" and result.after is not None
-            if not again or attempt == PLACEMENTS or self._stopping():
-                return result
-            op, attempt = _from_where_it_is(op, result), attempt + 1
+    def _start(self, dispatch: Dispatch) -> asyncio.Task[OperationResult]:
+        return asyncio.create_task(self._execute(dispatch))
 
-    def _over(self, op: Operation, task: asyncio.Task[OperationResult]) -> None:
+    async def _execute(self, dispatch: Dispatch) -> OperationResult:
+        return await self._backend.execute(dispatch.operation, dispatch.key, self._lease)
+
+    def _over(self, dispatch: Dispatch, task: asyncio.Task[OperationResult]) -> Dispatch | None:
+        """Tell how an attempt ended; return the one that follows, if any."""
+        op = dispatch.operation
         try:
             result = task.result()
         except PicoError as exc:
             if exc.exit_code == ExitCode.INTERRUPTED:  # the backend was halted before this began
-                self._interrupted = True
-                self._graph.put_back(op)
-                return
-            self._interrupted = True  # a journal or a lease that is gone: nothing more can be done in order
-            key = f"{self._run}/{op.id}/1"
-            result = OperationResult(key=key, outcome="unknown", error=exc.diagnostics[0], ended=self._now)
-        if result.error is not None and result.error.code == "stopped":
-            self._interrupted = True
+                self._executor.refused(dispatch)
+                return None
+            self._executor.interrupt()  # a journal or a lease that is gone: nothing more can be done in order
+            result = OperationResult(key=dispatch.key, outcome="unknown", error=exc.diagnostics[0], ended=self._now)
         self._now = max(self._now, result.ended)
+        if self._cancelled():
+            self._executor.interrupt()
+        after = self._executor.over(dispatch, result)
+        if after.again is not None:
+            self._emit("operation_retried", op, {"attempt": after.again.attempt, **_failure(op, result)})
+            return after.again
         self._tell_end(op, result)
-        for other in self._graph.finish(op, result.outcome):
+        for other in after.skipped:
             self._emit("operation_skipped", other, {"because": op.id})
+        return None
 
     def _tell_end(self, op: Operation, result: OperationResult) -> None:
         if result.outcome == "done":
             self._emit("operation_done", op, {"seconds": result.seconds, **result.data})
             return
         kind: EventKind = "operation_failed" if result.outcome == "failed" else "operation_unknown"
-        found = result.error or Diagnostic("error", "failed", f"{op.primitive} of {op.component} failed")
-        self._emit(kind, op, {"seconds": result.seconds, "diagnostic": as_json(found)})
+        self._emit(kind, op, {"seconds": result.seconds, **_failure(op, result)})
 
     def _finish(self) -> None:
-        left = self._graph.waiting()
-        stopped = self._interrupted and bool(left or self._graph.count("failed") or self._graph.count("unknown"))
+        graph, broken = self._executor.graph, self._executor.broken
+        left = graph.waiting()
+        unmet = bool(left or graph.count("failed") or graph.count("unknown"))
+        stopped = self._executor.interrupted and unmet
         for op in left:
-            self._emit("operation_skipped", op, {"interrupted": True})
-        counts = {s: self._graph.count(s) for s in ("done", "failed", "unknown")}
-        counts["skipped"] = self._graph.count("skipped") + len(left)
+            self._emit("operation_skipped", op, {"stopped": True} if broken else {"interrupted": True})
+        counts = {s: graph.count(s) for s in ("done", "failed", "unknown")}
+        counts["skipped"] = graph.count("skipped") + len(left)
         missed = counts["failed"] + counts["unknown"]
         outcome: RunOutcome = "interrupted" if stopped else "failed" if missed else "done"
         tally = {**counts, "seconds": self._now - self._begun}
-        if self._journal:
-            self._journal.end_run(self._run, outcome, tally)
-        self._emit("run_finished", data={"outcome": outcome, **tally})
+        try:
+            if self._journal:
+                self._journal.end_run(self._run, outcome, tally)
+        finally:  # a journal that is gone must not hide what became of the run
+            self._emit("run_finished", data={"outcome": outcome, **tally})
 
     async def _relay(self, events: AsyncIterator[Event]) -> None:
         """Pass on what the backend says of the operations of this run."""
@@ -154,7 +158,6 @@ class Walk:
         self.events.put_nowait(event)
 
 
-def _from_where_it_is(op: Operation, result: OperationResult) -> Operation:
-    assert result.after is not None
-    start = {"pose": as_json(result.after.pose)}
-    return replace(op, arguments={**op.arguments, "from": start})
+def _failure(op: Operation, result: OperationResult) -> dict[str, Any]:
+    found = result.error or Diagnostic("error", "failed", f"{op.primitive} of {op.component} failed")
+    return {"diagnostic": as_json(found)}

@@ -10,7 +10,7 @@ from pico.model.record import record
 
 EventKind = Literal[
     "run_started", "operation_started", "operation_progress", "operation_done", "operation_failed",
-    "operation_unknown", "operation_skipped", "run_finished",
+    "operation_unknown", "operation_skipped", "operation_retried", "run_finished",
 ]  # fmt: skip
 
 
@@ -20,7 +20,9 @@ class Event:
 
     `operation_progress`: `phase`, `fraction` (0 to 1), `pose` of the carried part; `operation_done`: `error_mm`,
     `error_deg` of a placement, `seconds`; `operation_failed` and `operation_unknown`: `diagnostic`;
-    `operation_skipped`: `because` (an operation's id); `run_finished`: `done`, `failed`, `skipped`, `seconds`.
+    `operation_retried`: `attempt` that follows, `diagnostic` of the one that failed; `operation_skipped`: `because` (an
+    operation's id), or `interrupted`, or `stopped` (after an error); `run_finished`: `done`,
+    `failed`, `skipped`, `seconds`.
     """
 
     schema: str = "pico.event/v1"

@@ -21,6 +21,7 @@ from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
 
 if TYPE_CHECKING:
+    from pico.backends.recovery import Settled
     from pico.backends.sim.session import Session
     from pico.journal import Journal
 
@@ -31,7 +32,8 @@ class SimBackend:
     """Executes operations on the simulated table of the lab in folder `root`.
 
     `motion` finds the paths (that of the lab's arms where None); `clock` gives the wall time as ISO 8601, UTC. Without
-    a lease it reads the table as it is stored; with one it is the only one that changes it.
+    a lease it reads the table as it is stored; with one it is the only one that changes it. `settled`: what had begun
+    and was found out about when the bench was taken.
     """
 
     def __init__(
@@ -45,6 +47,7 @@ class SimBackend:
     ) -> None:
         self.setup, self.root, self.fidelity = setup, root, fidelity
         self.diagnostics: tuple[Diagnostic, ...] = ()
+        self.settled: tuple[Settled, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
         self._motion = motion or DeferredMotion(setup)
         self._session: Session | None = None
@@ -102,6 +105,7 @@ class SimBackend:
 
     async def acquire(self, holder: str) -> Lease:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
+        from pico.backends.recovery import settle
         from pico.backends.sim.session import Session
 
         lease = self._lock.acquire(holder)
@@ -111,7 +115,9 @@ class SimBackend:
                 self.setup, self.root, world, fidelity=self.fidelity, journal=self.journal, token=lease.token,
                 motion=self._motion, tell=self._tell,
             )  # fmt: skip
+            self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
         except BaseException:
+            self._session = None
             self._lock.release()
             raise
         self._halted = False

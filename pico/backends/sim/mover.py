@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Generator
 from typing import Any, Protocol
 
+from pico.backends.attempt import Failed
 from pico.backends.sim.world import World
-from pico.diagnostics import Diagnostic
 from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.motion.types import MovePath
@@ -15,12 +15,8 @@ InProgress = Generator[float, None, dict[str, Any]]
 """An operation in progress: yields the seconds until it wants to be resumed, returns the data of its result."""
 
 
-class MoveFailed(Exception):
+class MoveFailed(Failed):
     """A motion that did not do what it should: a missed grasp, a drop, a slip. Carries the diagnostic."""
-
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        self.diagnostic = diagnostic
-        super().__init__(diagnostic.summary)
 
 
 class Mover(Protocol):

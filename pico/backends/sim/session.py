@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from pico.backends.attempt import Attempts
 from pico.backends.sim import judge
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import InProgress, MoveFailed, Mover
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World, observe
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.journal import Journal, run_of
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
@@ -45,11 +46,12 @@ class Session:
         tell: Callable[[Event], None],
     ) -> None:
         self.token = token
-        self._setup, self._root, self._world, self._journal = setup, root, world, journal
+        self._setup, self._root, self._world = setup, root, world
         self._motion, self._tell_all = motion, tell
         self._mover = new_mover(setup, world, fidelity)
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
+        self._attempts = Attempts(journal, self, token, self._began)
         self._told = 0
 
     def world(self) -> World:
@@ -62,10 +64,10 @@ class Session:
         Raises PicoError (exit code INTERRUPTED) where it was stopped before it began.
         """
         if key not in self._running:
-            known = self._journal.intend(key, operation, self.token)
+            known = self._attempts.known(operation, key)
             if known is not None:
                 return known
-            self._running[key] = self._time.start(key, self._perform(operation, key))
+            self._running[key] = self._time.start(key, self._attempts.perform(operation, key))
             self._running[key].add_done_callback(lambda _: self._running.pop(key, None))
         try:
             return await asyncio.shield(self._running[key])
@@ -81,35 +83,27 @@ class Session:
         self._time.interrupt(MoveFailed(judge.STOPPED))
         await self._time.idle()
 
-    def _perform(self, operation: Operation, key: str) -> Generator[float, None, OperationResult]:
-        """Do one operation from its first record to its last; stores the world before it says how it ended."""
-        before, begun = self._seen(operation.component), self._time.now
-        self._journal.started(key, before, self.token)
-        self._tell(
-            "operation_started", operation, key, {"primitive": operation.primitive, "seconds": operation.seconds}
-        )
-        data: Mapping[str, Any] = {}
-        failure: Diagnostic | None = None
-        try:
-            data = yield from self._act(operation, key)
-        except MoveFailed as exc:
-            failure = exc.diagnostic
+    # the table that attempts act on
+
+    @property
+    def now(self) -> float:
+        """Simulated time [s]."""
+        return self._time.now
+
+    def look(self, component: str) -> ObservedComponent | None:
+        """Return a component as it is."""
+        return observe(self.world(), "sim", "").components.get(component)
+
+    def store(self) -> None:
+        """Store the world durably."""
         self._world = self.world()
         save_world(self._root, self._world)
-        result = OperationResult(
-            key=key,
-            outcome="failed" if failure else "done",
-            error=failure,
-            before=before,
-            after=self._seen(operation.component),
-            seconds=self._time.now - begun,
-            ended=self._time.now,
-            data=data,
-        )
-        self._journal.ended(result, self.token)
-        return result
 
-    def _act(self, operation: Operation, key: str) -> InProgress:
+    def _began(self, operation: Operation, key: str) -> None:
+        data = {"primitive": operation.primitive, "seconds": operation.seconds}
+        self._tell("operation_started", operation, key, data)
+
+    def act(self, operation: Operation, key: str) -> InProgress:
         if operation.primitive in ("move", "stow"):
             return (yield from self._move(operation, key))
         if operation.primitive == "park":
@@ -195,9 +189,6 @@ class Session:
         pose = self._mover.carried(path.robot)
         found = {"phase": phase, "fraction": min(1.0, elapsed / path.seconds) if path.seconds else 1.0}
         return found | ({"pose": as_json(pose)} if pose else {})
-
-    def _seen(self, component: str) -> ObservedComponent | None:
-        return observe(self.world(), "sim", "").components.get(component)
 
     def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:
         self._told += 1

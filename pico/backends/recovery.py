@@ -1,0 +1,97 @@
+"""After a crash: what became of the operations that began, told by what stands on the table; nothing is replayed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pico.diagnostics import Diagnostic, error
+from pico.journal import Journal, Unsettled
+from pico.model.diff import value_distance
+from pico.model.lab import Setup
+from pico.model.observation import Observation, slot_at
+from pico.model.operation import Operation, Outcome
+from pico.model.pose import Pose, angle_between
+from pico.model.record import record
+
+BY_OBSERVATION = "observation"
+
+
+@record
+class Settled:
+    """How an operation ended of which nobody knew it, as far as an observation tells; `unknown`: a person must say."""
+
+    key: str
+    operation: Operation
+    outcome: Outcome
+
+
+def settle(setup: Setup, journal: Journal, seen: Observation, token: int) -> tuple[Settled, ...]:
+    """Find out by the observation, and record, how every operation ended that began and has no end.
+
+    Returns them in the order in which they began. Raises PicoError where the journal can't be written.
+    """
+    found = []
+    for open in journal.unsettled():
+        outcome = verdict(setup, open.operation, seen)
+        if outcome != "unknown" or not open.ended:
+            journal.resolve(open.key, outcome, BY_OBSERVATION, seen.components.get(open.operation.component), token)
+        found.append(Settled(key=open.key, operation=open.operation, outcome=outcome))
+    return tuple(found)
+
+
+def verdict(setup: Setup, operation: Operation, seen: Observation) -> Outcome:
+    """Return what an observation says of an operation that began: `done`, `failed` (it is not as it should have become,
+    so that it may be done again), or `unknown`, where looking does not tell."""
+    if not repeatable(operation):
+        return "unknown"
+    if operation.primitive in ("park", "measure"):
+        return "failed"
+    part = seen.components.get(operation.component)
+    if part is None or part.presence == "missing":
+        return "unknown"
+    if operation.primitive in ("move", "stow"):
+        there = part.presence == "seen" and part.pose is not None and arrived(setup, operation, part.pose)
+        return "done" if there else "failed"
+    return "done" if _has_value(setup, operation, seen) else "failed"
+
+
+def repeatable(operation: Operation) -> bool:
+    """Return whether an operation may be done again where an observation shows that it is not done: its target is
+    absolute. What a person does, and what can't be undone (glue), never is."""
+    return operation.primitive != "operator" and not operation.arguments.get("irreversible")
+
+
+def arrived(setup: Setup, operation: Operation, pose: Pose) -> bool:
+    """Return whether `pose` is the goal of a move: in its slot, or within the tolerance of the component."""
+    to = operation.arguments["to"]
+    goal, slot = Pose(**to["pose"]), to.get("slot")
+    if slot:
+        return slot_at(setup, pose) == str(slot)
+    tolerance = setup.type_of(operation.component).pose.tolerance
+    away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
+    return away <= tolerance.position and turned <= tolerance.yaw
+
+
+def _has_value(setup: Setup, operation: Operation, seen: Observation) -> bool:
+    tunable = str(operation.arguments.get("tunable"))
+    kind = setup.type_of(operation.component).tunables.get(tunable)
+    live = seen.components[operation.component].values.get(tunable)
+    if kind is None or live is None or live.status != "known" or live.value is None:
+        return False
+    home = kind.axis.home if kind.axis else 0.0
+    goal = home if operation.primitive == "home" else operation.arguments["to"]
+    return value_distance(kind, live.value, goal) <= max(kind.tolerance, 1e-9)
+
+
+def open_questions(unsettled: Sequence[Unsettled]) -> list[Diagnostic]:
+    """Return an error for each operation that only a person can tell the end of."""
+    found = []
+    for open in unsettled:
+        op = open.operation
+        if repeatable(op):
+            continue
+        what = op.arguments.get("text") or f"{op.primitive} of {op.component}"
+        hint = f"look; then `pico recover --done {open.key}` or `pico recover --not-done {open.key}`"
+        text = f"nobody knows whether this was done before the last run ended: {what}"
+        found.append(error("unknown-outcome", text, hint=hint, address=op.component))
+    return found
