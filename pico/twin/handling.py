@@ -1,143 +1,117 @@
 """Picking, carrying and placing one component by friction, step by step as a real cell would do it.
 
-Above the goal the part's pose in the hand is measured (exactly, for now), and the goal is shifted so that the part, not
-the hand, comes to stand where it should. It is measured once more just over the table: on the way down the part slides
-between the fingers by a few tenths of a millimetre.
+Above the goal a camera sees where the part is in the hand, and the goal is shifted so that the part, not the hand,
+comes to stand where it should. It is looked at once more just over the table: on the way down the part slides between
+the fingers by a few tenths of a millimetre. Where no camera sees it, it is not placed: it goes back where it stood.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import error
 from pico.model.lab import Robot
 from pico.model.pose import Pose, angle_between
 from pico.motion.kinematics import Column, columns, tool_pose
-from pico.motion.types import Joints, MovePath, Segment
+from pico.motion.types import Joints, MovePath, Segment, SegmentName
+from pico.twin.gestures import CHUNK, Steps, backward, nudge, passing, settle, walk
+from pico.twin.lost import Lost, lies, whereabouts
 from pico.twin.physics import Twin
-from pico.twin.placement import Placement
+from pico.twin.sight import Sight
 
-Steps = Generator[float, None, None]
-
-CHUNK = 0.1
-"""An operation in progress is resumed at least this often [s], to see whether the part is still in the hand."""
-SETTLE = 0.1
-"""Time between two corrections of an arm at rest [s]: two time constants of its servos."""
-ROUNDS = 3
-CLOSE = 5e-5
-"""An arm is where it should be within this [rad]: at the tool about 0.01 mm."""
-AIMED = 0.01
-"""A part in the hand is above its goal within this [mm, deg]."""
-AIM_SECONDS = 0.25
-"""How long the arm takes for the shift of the goal."""
 HOVER = 2.0
-"""Height above the table at which a part is measured for the last time [mm]."""
+"""Height above the table at which a part is looked at for the last time [mm]."""
 CLEARANCE = 0.05
 """Height above the table at which a part is let go [mm]."""
 STILL = 0.2
 """What is slower rests [mm/s]."""
-TOPPLED = 5.0
-"""A part that leans more than this does not stand [deg]."""
-FALLEN = -20.0
-"""A part whose base is lower than this has left the table [mm]."""
+SLID_MM, SLID_DEG = 10.0, 10.0
+"""A part that is farther than this from where the hand should have it has slipped: paths have no room for more."""
 
 
-class Lost(Exception):
-    """A part that is not where it should be: missed, dropped, toppled. Carries the diagnostic."""
+@dataclass(frozen=True, slots=True)
+class _Held:
+    """A part seen from the tool: its pose, and its base above the tool center point [mm], a negative number."""
 
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        self.diagnostic = diagnostic
-        super().__init__(diagnostic.summary)
-
-
-def walk(twin: Twin, robot: str, segments: tuple[Segment, ...]) -> Steps:
-    """Drive an arm along `segments` and bring it to rest, its fingers as they are."""
-    for segment in segments:
-        twin.drive(robot, segment.times, segment.joints)
-        yield from _pass(segment.seconds)
-    yield from settle(twin, robot)
-
-
-def settle(twin: Twin, robot: str) -> Steps:
-    """Wait until an arm is where it should be, correcting its set-points by what is missing."""
-    for _ in range(ROUNDS):
-        yield SETTLE
-        if twin.trim(robot) < CLOSE:
-            return
-    yield SETTLE
-
-
-def _pass(seconds: float) -> Steps:
-    """Let time pass, in chunks."""
-    count = max(1, math.ceil(seconds / CHUNK - 1e-9))
-    for _ in range(count):
-        yield seconds / count
+    pose: Pose
+    base: float
 
 
 @dataclass
 class Handling:
-    """One pick and place of `component` by an arm along `path`, to come to rest at `goal`."""
+    """One pick and place of `component` by an arm along `path`, to come to rest at `goal`.
+
+    `sight` sees the part in the hand; None places it blindly, as if it were in the hand where the path means it to be.
+    `seated` is told when the part has been let go, and lets its seat pull it.
+    """
 
     twin: Twin
     robot: Robot
     component: str
     path: MovePath
     goal: Pose
+    sight: Sight | None = None
+    seated: Callable[[str], None] | None = None
     _carrying: bool = field(default=False, init=False)
 
     def run(self) -> Generator[float, None, dict[str, Any]]:
         """Do it; raises Lost with the hand open and above the table.
 
-        Returns `error_mm` and `error_deg`, how far from the goal the part came to rest, and `correction_mm` and
+        Returns `error_mm` and `error_deg`, how far from the goal the part really came to rest, and `correction_mm` and
         `correction_deg`, by how much the goal was shifted for the pose in the hand.
         """
         legs = {segment.name: segment for segment in self.path.segments}
-        yield from self._pick(legs["approach"], legs["descend"], legs["grip"])
-        self._carrying = True
+        self.twin.handles[self.path.robot] = self.component
+        yield from self._pick(legs)
         yield from self._follow(legs["lift"])
         yield from self._follow(legs["transit"])
         yield from settle(self.twin, self.path.robot)
         yield from self._watch()
-        correction = self._off()
-        column = yield from self._aim()
-        yield from self._follow(self._shifted(legs["lower"], column, self._touch_down() + HOVER))
+        meant = self._meant(legs)
+        held = yield from self._look(legs)
+        correction = held.pose.distance(meant.pose), abs(angle_between(meant.pose.yaw, held.pose.yaw))
+        column = yield from self._aim(held, self.goal)
+        yield from self._follow(self._shifted(legs["lower"], column, HOVER - held.base))
         yield from settle(self.twin, self.path.robot)
-        column = yield from self._aim()
-        yield from self._put_down(column)
-        self._carrying = False
-        self.twin.grip(self.path.robot, legs["release"].opening)
-        yield from _pass(legs["release"].seconds)
+        held = yield from self._look(legs)
+        column = yield from self._aim(held, self.goal)
+        yield from self._put_down(column, held)
+        yield from self._let_go(legs["release"])
         yield from self._follow(self._shifted(legs["retreat"], column, None))
         yield from self._rest()
-        if _lies(self.twin.placement(self.component)):
+        if lies(self.twin.placement(self.component)):
             yield from self._lose("toppled", f"{self.component} toppled when {self.path.robot} let go of it")
-        error_mm, error_deg = self._off()
+        pose = self.twin.placement(self.component).pose
         return {
-            "error_mm": error_mm,
-            "error_deg": error_deg,
+            "error_mm": pose.distance(self.goal),
+            "error_deg": abs(angle_between(self.goal.yaw, pose.yaw)),
             "correction_mm": correction[0],
             "correction_deg": correction[1],
         }
 
-    def _pick(self, approach: Segment, descend: Segment, grip: Segment) -> Steps:
-        self.twin.grip(self.path.robot, approach.opening)
-        yield from self._follow(approach)
-        self.twin.grip(self.path.robot, descend.opening)
-        yield from self._follow(descend)
-        yield from settle(self.twin, self.path.robot)
-        self.twin.grip(self.path.robot)
-        yield from _pass(grip.seconds + CHUNK)
-        if self.twin.gripped(self.path.robot) != self.component:
-            text = f"{self.path.robot} missed {self.component}: its fingers closed on nothing"
+    def _pick(self, legs: dict[SegmentName, Segment]) -> Steps:
+        robot = self.path.robot
+        for leg in ("approach", "descend"):
+            self.twin.grip(robot, legs[leg].opening)
+            yield from self._follow(legs[leg])
+        yield from settle(self.twin, robot)
+        if self.sight and not self.sight.refer(robot, self.component):
+            yield from self._lose(
+                "unseen", f"no camera sees {self.component} in the hand of {robot}: it was left there"
+            )
+        self.twin.grip(robot)
+        yield from passing(legs["grip"].seconds + CHUNK)
+        if self.twin.gripped(robot) != self.component:
+            text = f"{robot} missed {self.component}: its fingers closed on nothing"
             yield from self._lose("missed-grasp", text)
+        self._carrying = True
 
     def _follow(self, segment: Segment) -> Steps:
         """Drive the arm along a segment, and see all the time whether the part still is in the hand."""
         self.twin.drive(self.path.robot, segment.times, segment.joints)
-        for wait in _pass(segment.seconds):
+        for wait in passing(segment.seconds):
             yield wait
             yield from self._watch(segment.name)
 
@@ -146,39 +120,67 @@ class Handling:
             text = f"{self.path.robot} dropped {self.component} on the {phase}: it slid out of the fingers"
             yield from self._lose("dropped", text)
 
-    def _off(self) -> tuple[float, float]:
-        """How far the part is from its goal, seen from above [mm, deg]."""
-        pose = self.twin.placement(self.component).pose
-        return pose.distance(self.goal), abs(angle_between(self.goal.yaw, pose.yaw))
+    def _meant(self, legs: dict[SegmentName, Segment]) -> _Held:
+        """The part in the hand as the path means it: over the goal where the path ends, on the table where it grips."""
+        base = -tool_pose(self.robot, legs["grip"].joints[-1])[2]
+        return _Held(self._tool(legs["release"].joints[-1]).inverse().compose(self.goal), base)
 
-    def _aim(self) -> Generator[float, None, Column]:
-        """Bring the part in the hand over the goal; return the vertical on which the hand is then."""
+    def _look(self, legs: dict[SegmentName, Segment]) -> Generator[float, None, _Held]:
+        """Return where the part is in the hand."""
+        meant, robot = self._meant(legs), self.path.robot
+        if self.sight is None:
+            return meant
+        seen = self.sight.pose_in_hand(robot, self.component)
+        if seen is None:
+            yield from self._return(legs, meant)
+            yield from self._lose("unseen", f"no camera sees {self.component} in the hand of {robot}: it was put back")
+        assert seen is not None  # `_lose` raises
+        joints = self.twin.joints(robot)
+        held = _Held(self._tool(joints).inverse().compose(seen.pose), seen.height - tool_pose(self.robot, joints)[2])
+        slid, turned = held.pose.distance(meant.pose), abs(angle_between(meant.pose.yaw, held.pose.yaw))
+        if max(slid / SLID_MM, turned / SLID_DEG) > 1:
+            yield from self._return(legs, held)
+            text = f"{self.component} slipped by {slid:.1f} mm and {turned:.1f}° in the fingers of {robot}"
+            yield from self._lose("slipped", f"{text}: it was put back")
+        return held
+
+    def _aim(self, held: _Held, goal: Pose) -> Generator[float, None, Column]:
+        """Bring the part in the hand over `goal`; return the vertical on which the hand is then."""
         joints = self.twin.joints(self.path.robot)
-        x, y, z, yaw = tool_pose(self.robot, joints)
-        column = self._column(Pose(x, y, yaw), z, joints)
-        for _ in range(ROUNDS):
-            if max(self._off()) < AIMED:
-                break
-            x, y, _, yaw = tool_pose(self.robot, self.twin.joints(self.path.robot))
-            in_hand = Pose(x, y, yaw).inverse().compose(self.twin.placement(self.component).pose)
-            column = self._column(self.goal.compose(in_hand.inverse()), z, joints)
-            target = column.at(z)
-            assert target is not None  # `_column` looked
-            start = self.twin.joints(self.path.robot)
-            self.twin.drive(self.path.robot, *_eased(start, target))
-            yield from _pass(AIM_SECONDS)
-            yield from settle(self.twin, self.path.robot)
-            yield from self._watch()
+        z = tool_pose(self.robot, joints)[2]
+        column = self._column(goal.compose(held.pose.inverse()), z, joints)
+        yield from nudge(self.twin, self.path.robot, _required(column.at(z)))
+        yield from self._watch()
         return column
 
-    def _put_down(self, column: Column) -> Steps:
+    def _put_down(self, column: Column, held: _Held) -> Steps:
         """Lower the part the last little way, and wait until the arm rests."""
-        start = self.twin.joints(self.path.robot)
-        end = column.at(self._touch_down())
-        self.twin.drive(self.path.robot, *_eased(start, end or start))
-        yield from _pass(AIM_SECONDS)
-        yield from settle(self.twin, self.path.robot)
+        goal = column.at(CLEARANCE - held.base)
+        yield from nudge(self.twin, self.path.robot, goal or self.twin.joints(self.path.robot))
         yield from self._watch("lower")
+
+    def _let_go(self, release: Segment) -> Steps:
+        self._carrying = False
+        self.twin.grip(self.path.robot, release.opening)
+        yield from passing(release.seconds)
+        if self.seated:
+            self.seated(self.component)
+
+    def _return(self, legs: dict[SegmentName, Segment], held: _Held) -> Steps:
+        """Put the part back where it stood, the way it came, as well as is known where it is in the hand."""
+        robot, top = self.path.robot, legs["transit"].joints[-1]
+        yield from self._rise(tool_pose(self.robot, top)[2])
+        yield from nudge(self.twin, robot, top)
+        yield from self._follow(backward(legs["transit"]))
+        yield from settle(self.twin, robot)
+        column = yield from self._aim(held, self._tool(legs["grip"].joints[-1]).compose(self._meant(legs).pose))
+        yield from self._follow(self._shifted(backward(legs["lift"]), column, CLEARANCE - held.base))
+        yield from settle(self.twin, robot)
+        yield from self._let_go(legs["release"])
+
+    def _tool(self, joints: Joints) -> Pose:
+        x, y, _, yaw = tool_pose(self.robot, joints)
+        return Pose(x, y, yaw)
 
     def _column(self, tool: Pose, z: float, near: Joints) -> Column:
         """The posture over `tool` that is nearest to `near`; raises Lost at the end of the reach."""
@@ -191,11 +193,6 @@ class Handling:
             text = f"{self.path.robot} cannot reach {tool}, where it must hold {self.component} for its goal"
             raise Lost(error("unreachable", text, address=self.component))
         return min(found)[2]
-
-    def _touch_down(self) -> float:
-        """The height of the tool at which the part in the hand nearly touches the table [mm]."""
-        z = tool_pose(self.robot, self.twin.joints(self.path.robot))[2]
-        return z - self.twin.placement(self.component).position[2] * 1000 + CLEARANCE
 
     def _shifted(self, segment: Segment, column: Column, end: float | None) -> Segment:
         """The vertical `segment` on another column; its last height becomes `end` [mm] where that is given."""
@@ -222,15 +219,14 @@ class Handling:
         self.twin.hold(self.path.robot)
         self.twin.grip(self.path.robot, self.robot.gripper.stroke)
         yield from self._rest()
-        yield from self._withdraw()
+        yield from self._rise(self.robot.transit_height)
         where, hint = whereabouts(self.component, self.twin.placement(self.component))
         raise Lost(error(code, f"{text}; {where}", hint=hint, address=self.component))
 
-    def _withdraw(self) -> Steps:
-        """Bring the hand straight up to the transit height."""
+    def _rise(self, top: float) -> Steps:
+        """Bring the hand straight up to `top` [mm]."""
         joints = self.twin.joints(self.path.robot)
         x, y, z, yaw = tool_pose(self.robot, joints)
-        top = self.robot.transit_height
         if z > top - 1.0:
             return
         column = self._column(Pose(x, y, yaw), z, joints)
@@ -239,25 +235,6 @@ class Handling:
         yield from walk(self.twin, self.path.robot, (Segment("retreat", times, tuple(way), self.robot.gripper.stroke),))
 
 
-def whereabouts(component: str, placement: Placement) -> tuple[str, str]:
-    """Return where a part is, in words, and what to do about it."""
-    by_hand = f"put it upright by hand (`pico sim nudge {component}` in the simulator), then plan again"
-    pose = placement.pose
-    if placement.position[2] * 1000 < FALLEN:
-        return "it fell off the table", by_hand
-    if _lies(placement):
-        return f"it lies on its side at x = {pose.x:.0f}, y = {pose.y:.0f}", by_hand
-    tidy = Pose(round(pose.x, 1) + 0.0, round(pose.y, 1) + 0.0, round(pose.yaw, 1) + 0.0)
-    return f"it stands at {tidy}", "plan again: it starts from what stands on the table now"
-
-
-def _lies(placement: Placement) -> bool:
-    return placement.tilt > TOPPLED
-
-
-def _eased(start: Joints, end: Joints) -> tuple[tuple[float, ...], tuple[Joints, ...]]:
-    """Times and joints of a short motion that starts and ends gently."""
-    count = 20
-    shares = [(1 - math.cos(math.pi * i / count)) / 2 for i in range(count + 1)]
-    joints = [tuple(a + s * (b - a) for a, b in zip(start, end, strict=True)) for s in shares]
-    return tuple(AIM_SECONDS * i / count for i in range(count + 1)), tuple(joints)
+def _required(joints: Joints | None) -> Joints:
+    assert joints is not None  # `_column` looked
+    return joints

@@ -6,7 +6,7 @@ Joints in radians, openings of a gripper in mm, times in seconds.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +50,8 @@ class _Drive:
 class Twin:
     """A bench in motion, with `things` by name and arms at `joints` (parked where missing).
 
-    `holding`: what a gripper is closed on, by robot.
+    `holding`: what a gripper is closed on, by robot. `handles`: the component that a robot last was told to take.
+    `after_step` is called after every step where it is set.
     """
 
     def __init__(
@@ -71,6 +72,8 @@ class Twin:
         self._arms = {n: _arm(self.model, n) for n, robot in setup.lab.robots.items() if robot.model == "xarm7"}
         self._drives: dict[str, _Drive] = {}
         self._time = 0.0
+        self.handles = dict(holding or {})
+        self.after_step: Callable[[], None] | None = None
         for name in self._arms:
             width = self._width(things, (holding or {}).get(name))
             parked = tuple(math.radians(angle) for angle in setup.lab.robots[name].park)
@@ -112,7 +115,13 @@ class Twin:
         for number in range(0, steps, _CONTROL_STEPS):
             for servos, plan in plans:
                 self.data.ctrl[servos] = plan[number // _CONTROL_STEPS]
-            mujoco.mj_step(self.model, self.data, min(_CONTROL_STEPS, steps - number))
+            count = min(_CONTROL_STEPS, steps - number)
+            if self.after_step is None:
+                mujoco.mj_step(self.model, self.data, count)
+                continue
+            for _ in range(count):
+                mujoco.mj_step(self.model, self.data)
+                self.after_step()
 
     def _setpoints(self, name: str, steps: int) -> Array:
         """Set-points (n, 7) of an arm's servos from now on. A servo lags behind, so it hears early where to be."""

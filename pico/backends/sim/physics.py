@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import replace
 from typing import Any
 
@@ -17,10 +17,13 @@ from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.motion.types import MovePath
-from pico.twin.handling import FALLEN, TOPPLED, Handling, Lost, walk
+from pico.twin.gestures import walk
+from pico.twin.handling import Handling
+from pico.twin.lost import FALLEN, TOPPLED, Lost
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import Thing
+from pico.twin.sight import Exact, Sight
 
 OFF_PLANE = 3.0
 """A part whose base is farther from the table than this does not stand on it [mm]."""
@@ -33,10 +36,18 @@ SAME = 1e-4
 class PhysicsWorld:
     """Moves robots and components of `world` in the twin; implements `Mover`.
 
-    `friction`: sliding friction coefficient of the finger pads; the lab's where None.
+    `friction`: sliding friction coefficient of the finger pads; the lab's where None. `sight` makes what sees a part
+    in the hand of the twin; None places blindly.
     """
 
-    def __init__(self, setup: Setup, world: World, *, friction: float | None = None) -> None:
+    def __init__(
+        self,
+        setup: Setup,
+        world: World,
+        *,
+        friction: float | None = None,
+        sight: Callable[[Twin], Sight] | None = Exact,
+    ) -> None:
         self._setup = setup
         places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
         things = {n: Thing(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
@@ -47,6 +58,7 @@ class PhysicsWorld:
         joints = {name: robot.joints for name, robot in world.robots.items()}
         holding = {name: robot.holding for name, robot in world.robots.items() if robot.holding}
         self.twin = Twin(setup, things, joints, holding=holding, pad_friction=friction)
+        self._sight = sight(self.twin) if sight else None
 
     def advance(self, seconds: float) -> None:
         """Let `seconds` pass for all operations in progress."""
@@ -59,7 +71,7 @@ class PhysicsWorld:
         """
         self._require_fingers(path.robot)
         goal = Pose(**operation.arguments["to"]["pose"])
-        handling = Handling(self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal)
+        handling = Handling(self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal, self._sight)
         found: dict[str, Any] = yield from self._guarded(path.robot, handling.run())
         return found
 
