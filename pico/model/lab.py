@@ -133,24 +133,45 @@ class Robot:
 
 
 @record
+class DepthSensor:
+    """How a camera measures depth: within `range` [mm], with `noise` as a share of the depth (one sigma)."""
+
+    range: tuple[Length, Length] = (70.0, 500.0)
+    noise: float = 0.002
+
+
+@record
 class Camera:
-    """A camera that watches the bench: where it is and looks [mm], its vertical field of view [deg], its pixels."""
+    """A camera that watches the bench: where it is and looks [mm], its vertical field of view [deg], its pixels.
+
+    With `robot` it rides on that robot's hand: `position` and `look_at` are then in the tool's frame, whose origin is
+    the tool centre point, z out of the hand, and whose jaws close along y. Up in the picture is +y of the frame where
+    the camera looks steeper than 45 deg along z, else up along z; `roll` turns the camera about its axis, clockwise as
+    it sees. `distortion`: k1, k2, p1, p2, k3 (Brown-Conrady). `noise`: sigma of a pixel [gray levels of 255]; `blur`:
+    sigma of the lens [pixels].
+    """
 
     position: tuple[Length, Length, Length]
     look_at: tuple[Length, Length, Length]
+    roll: Angle = 0.0
     field_of_view: Angle = 45.0
     pixels: tuple[int, int] = (1280, 960)
+    distortion: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    noise: float = 2.0
+    blur: float = 0.7
     robot: str | None = None
+    depth: DepthSensor | None = None
 
 
 @record
 class Datum:
-    """A marker fixed to the table."""
+    """A marker fixed to the table: where its center is, and the edge length of its black square [mm]."""
 
     marker: int
     x: Length
     y: Length
     yaw: Angle = 0.0
+    size: Length = 36.0
 
 
 @record
@@ -199,13 +220,34 @@ class Policy:
 
 
 @record
+class SimErrors:
+    """What is wrong with the simulated cameras and markers, and not known to what looks through them.
+
+    Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
+    random axis, and its focal length is wrong by the share `focal_length`, up or down. `marker_height`: sigma by which
+    a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
+    `noise`: factor on the sensors' noise.
+    """
+
+    camera_position: Length = 0.0
+    camera_rotation: Angle = 0.0
+    focal_length: float = 0.0
+    marker_height: Length = 0.0
+    lost_frames: float = 0.0
+    noise: float = 1.0
+
+
+@record
 class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
-    the finger pads on a part."""
+    the finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
+    with the cameras."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1
     pad_friction: float = 1.0
+    renderer: Literal["raycast", "egl"] = "raycast"
+    errors: SimErrors = SimErrors()
 
 
 @record

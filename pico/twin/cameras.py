@@ -1,0 +1,137 @@
+"""The cameras of the simulated bench: pictures and depth as they would be delivered, noise and all.
+
+`Eyes` is made once for a scene and then takes pictures of it as it moves. Pixels; millimetres; gray levels of 255.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from pico.model.lab import Setup, SimErrors
+from pico.twin.camera_errors import true_cameras
+from pico.twin.camera_markers import draw_markers
+from pico.twin.camera_view import View, photograph, table_paint
+from pico.twin.stickers import Sticker, stickers
+from pico.vision.camera import CameraModel
+from pico.vision.frame import Frame, Region
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Gray = NDArray[np.float32]
+
+_DARK = 3.0
+"""Mean gray level of a frame in which nothing was exposed."""
+
+
+class Eyes:
+    """Cameras that look at a scene. `cameras`: as they really are; with the lab's errors by `seed` where None.
+
+    `markers`: what bodies carry instead of what the inventory says (None: nothing); `extra`: markers besides. Pictures
+    are drawn with ray casting; the same seed and the same calls give the same pictures.
+    """
+
+    def __init__(
+        self,
+        setup: Setup,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        cameras: Mapping[str, CameraModel] | None = None,
+        *,
+        errors: SimErrors | None = None,
+        seed: int | None = None,
+        markers: Mapping[str, int | None] | None = None,
+        extra: Sequence[Sticker] = (),
+    ) -> None:
+        import numpy as np
+
+        self.setup, self.model, self.data = setup, model, data
+        self.errors = setup.lab.sim.errors if errors is None else errors
+        seed = setup.lab.sim.seed if seed is None else seed
+        self.cameras = dict(true_cameras(setup, self.errors, seed) if cameras is None else cameras)
+        self._random = np.random.default_rng((seed, 1))
+        heights = np.random.default_rng((seed, 2))
+        plain = (*stickers(setup, model, markers), *extra)
+        sigma = self.errors.marker_height
+        self.stickers = tuple(s.raised(float(heights.normal(0.0, sigma))) if sigma else s for s in plain)
+
+    def placed(self, name: str) -> CameraModel:
+        """Return a camera as it really is and stands now, in the table's frame. Raises KeyError."""
+        camera = self.cameras[name]
+        return camera if camera.robot is None else camera.placed(tool_pose(self.model, self.data, camera.robot))
+
+    def frame(self, name: str, region: Region | None = None) -> Frame:
+        """Return what the camera `name` delivers now, of the whole sensor or of a `region` of it. Raises KeyError.
+
+        A region is clipped to the sensor. A lost frame is black.
+        """
+        import cv2
+        import numpy as np
+
+        view = self._view(name, region)
+        _, _, width, height = view.region
+        settings = self.setup.lab.cameras[name]
+        picture: Any
+        if self._random.random() < self.errors.lost_frames:
+            picture = np.full((height, width), _DARK, np.float32)
+        else:
+            picture = photograph(view, table_paint(self.setup))
+            draw_markers(view, picture, self.stickers)
+            if settings.blur > 0:
+                picture = cv2.GaussianBlur(picture, (0, 0), settings.blur)
+        noise = self._noise(picture.shape, settings.noise * self.errors.noise)
+        gray: Any = cv2.add(picture, noise, dtype=cv2.CV_8U)
+        return Frame(gray, view.region[:2], name, float(self.data.time))
+
+    def depth(self, name: str, region: Region | None = None) -> Gray:
+        """Return the depth along the optical axis (h, w) [mm] that the camera `name` measures, NaN out of its range.
+
+        Raises KeyError for no such camera, ValueError for one that measures no depth.
+        """
+        from pico.twin.camera_depth import measure
+
+        sensor = self.setup.lab.cameras[name].depth
+        if sensor is None:
+            raise ValueError(f"{name} measures no depth")
+        exact = measure(self._view(name, region), sensor.range)
+        return exact * (1 + self._noise(exact.shape, sensor.noise * self.errors.noise))
+
+    def _view(self, name: str, region: Region | None) -> View:
+        camera = self.placed(name)
+        return View(self.model, self.data, camera, clipped(region, camera.pixels))
+
+    def _noise(self, shape: Any, sigma: float) -> Gray:
+        import numpy as np
+
+        if sigma <= 0:
+            return np.zeros(shape, np.float32)
+        return self._random.standard_normal(shape, np.float32) * np.float32(sigma)  # type: ignore[no-any-return]
+
+
+def clipped(region: Region | None, pixels: tuple[int, int]) -> Region:
+    """Return the part of `region` that a sensor of `pixels` (width, height) has; the whole sensor for None.
+
+    Raises ValueError where nothing is left.
+    """
+    if region is None:
+        return 0, 0, *pixels
+    u, v = max(0, region[0]), max(0, region[1])
+    right, bottom = min(pixels[0], region[0] + region[2]), min(pixels[1], region[1] + region[3])
+    if right <= u or bottom <= v:
+        raise ValueError(f"the region {region} is off a sensor of {pixels[0]} x {pixels[1]} pixels")
+    return u, v, right - u, bottom - v
+
+
+def tool_pose(model: mujoco.MjModel, data: mujoco.MjData, robot: str) -> Array:
+    """Return the pose (4, 4) of the tool of `robot` in the table's frame [mm]; raises KeyError for one without arm."""
+    import numpy as np
+
+    site = model.site(f"{robot}/tcp").id
+    pose = np.eye(4)
+    pose[:3, :3] = data.site_xmat[site].reshape(3, 3)
+    pose[:3, 3] = data.site_xpos[site] * 1000
+    return pose
