@@ -4,6 +4,11 @@ First the classical problem on the instances of a file: discs, no fingers, stora
 first cycle that it comes across, again and again. Then random tables with a gripper: 22 x 14 mm fingers that open
 10 mm, discs with four grasp yaws, boxes with two. `bodies` is what would be staged if fingers needed no room. Seconds
 are those of the solver alone.
+
+`--plan`: make a lab of each instance of the file instead, a gantry without fingers and slots beside the table, and take
+the whole way: target, order, slots, paths of the gantry, schedule. Seconds are those of the plan; each is walked by the
+tests' independent checker. In the file discs are in one another's way strictly below two radii, on our tables where
+they touch as well: no pair of its places touches, which is checked.
 """
 
 from __future__ import annotations
@@ -21,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "tests" / "planning")]
 
 from pico.geometry import Shape, conflict, finger_zones, placed  # noqa: E402
 from pico.model.catalog import Footprint, Grasp  # noqa: E402
@@ -53,9 +58,13 @@ def main() -> int:
     parser.add_argument("instances", type=Path, help="JSON with discs, starts, goals and known optima")
     parser.add_argument("--tables", type=int, default=10, help="random tables of each kind")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--plan", action="store_true", help="plan the instances as labs, from end to end")
     given = parser.parse_args()
     solve(Problem((Component((), (Option(0),), (Option(0),)), Component((Option(0),)))))  # imports are not timed
-    wrong = classical(json.loads(given.instances.read_text())["instances"])
+    instances = json.loads(given.instances.read_text())["instances"]
+    if given.plan:
+        return int(planned(instances) > 0)
+    wrong = classical(instances)
     print()
     with_fingers(given.tables, given.seed)
     return int(wrong > 0)
@@ -83,6 +92,40 @@ def classical(instances: Sequence[dict[str, Any]]) -> int:
               f"{mean(best for best, _ in known):8.2f} {sum(b == c for b, c in known):3}/{len(known):<2} "
               f"{sum(a.proven for a, _ in answers):4}/{len(answers):<2} {statistics.median(seconds):9.3f} "
               f"{max(seconds):7.3f}")  # fmt: skip
+    return wrong
+
+
+def planned(instances: Sequence[dict[str, Any]]) -> int:
+    """Print a row for each density and size of labs planned; returns how many are not the optimum, not proven to be,
+    or have a fault."""
+    from checker import check
+    from disc_labs import disc_case
+
+    from pico.model.plan import Base, Target
+    from pico.motion.arms import ArmMotion
+    from pico.planning import plan
+
+    print(f"{'density':>7} {'n':>4} {'staged':>7} {'optimum':>8} {'equal':>6} {'proven':>7} {'faults':>7} "
+          f"{'moves':>6} {'median s':>9} {'max s':>7}")  # fmt: skip
+    wrong = 0
+    for density, n in sorted({(i["density"], i["n"]) for i in instances}):
+        cell = [i for i in instances if (i["density"], i["n"]) == (density, n)]
+        cases = [disc_case(i["radius"], 1000.0, i["start"], i["goal"]) for i in cell]
+        made = [timed(lambda c=c: plan(
+            c.setup, c.seen, c.wanted, motion=ArmMotion(c.setup), backend="sim", fidelity="kinematic", base=Base(),
+            target=Target(),
+        )) for c in cases]  # fmt: skip
+        staging, seconds = [p.staging for p, _ in made], [s for _, s in made]
+        best = [i["min_staging"] for i in cell]
+        equal = [s.count == b for s, b in zip(staging, best, strict=True)]
+        faults = [bool(p.errored or check(c.setup, c.seen, c.wanted, p, extensions=2))
+                  for c, (p, _) in zip(cases, made, strict=True)]  # fmt: skip
+        wrong += sum(not (e and s.proven) or f for e, s, f in zip(equal, staging, faults, strict=True))
+        moves = [sum(o.primitive in ("move", "stow") for o in p.operations) for p, _ in made]
+        count = mean(s.count for s in staging)
+        print(f"{density:7} {n:4} {count:7.2f} {mean(best):8.2f} {sum(equal):3}/{len(cell):<2} "
+              f"{sum(s.proven for s in staging):4}/{len(cell):<2} {sum(faults):7} {mean(moves):6.1f} "
+              f"{statistics.median(seconds):9.3f} {max(seconds):7.3f}", flush=True)  # fmt: skip
     return wrong
 
 
