@@ -1,0 +1,139 @@
+"""Plants one bug at a time, a patch of one line each, and counts the seeds until the crash points find it:
+`python benchmarks/planted_bugs.py --seeds 2000`.
+
+Prints a table, with any survivors; the exit code is 1 where there are some. Each bug is looked for by a process of its
+own, on a copy of the package.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class Bug:
+    """A line of the product as it is, and as somebody might have got it wrong."""
+
+    name: str
+    file: str
+    right: str
+    wrong: str
+
+
+JOURNAL, ATTEMPT, RECOVERY = "journal.py", "backends/attempt.py", "backends/recovery.py"
+EXECUTOR, GRAPH, RESUME = "execution/executor.py", "execution/graph.py", "execution/resume.py"
+
+BUGS = (
+    Bug("what was cut short may run again", JOURNAL,
+        'return _cut_short(key, operation) if "started" in known else None', "return None"),
+    Bug("a known result is not returned", JOURNAL, "        if ended:\n", "        if ended is None:\n"),
+    Bug("a key is taken with other content", JOURNAL, "if first.digest != content:", "if first.digest == '':"),
+    Bug("a late token may write", JOURNAL, "WHERE ? >= (SELECT token FROM fence)", "WHERE ? >= 0"),
+    Bug("what nobody answered is not asked about", JOURNAL,
+        "(e.phase = 3 OR e.phase = 2 AND e.kind != 'unknown'))\"", "(e.phase = 3 OR e.phase = 2))\""),
+    Bug("an unknown is settled by not knowing", JOURNAL, 'if outcome != "unknown":', 'if outcome != "":'),
+    Bug("the first pick, not the last", JOURNAL, "ORDER BY s.seq DESC LIMIT 1", "ORDER BY s.seq LIMIT 1"),
+    Bug("a set-down counts as a pick", JOURNAL, "AND json_extract(i.data, '$.arguments.from.held') IS NULL ", ""),
+    Bug("the start is not written", ATTEMPT, "self._journal.started(key, before, self._token)", "pass"),
+    Bug("the end is not written", ATTEMPT, "self._journal.ended(result, self._token)", "pass"),
+    Bug("a failure is told as done", ATTEMPT, 'outcome=failure.outcome if failure else "done",', 'outcome="done",'),
+    Bug("an unknown outcome is told as failed", ATTEMPT, "outcome=failure.outcome if failure", 'outcome="failed" if failure'),
+    Bug("nobody is fenced off", ATTEMPT, "journal.fence(token)", "pass"),
+    Bug("the intent is not written", ATTEMPT, "return self._journal.intend(key, operation, self._token)", "return None"),
+    Bug("nothing is settled after a crash", RECOVERY, "for open in journal.unsettled():", "for open in ():"),
+    Bug("what began counts as done", RECOVERY, 'return "done" if there else "failed"', 'return "done"'),
+    Bug("what began counts as not done", RECOVERY, 'return "done" if there else "failed"', 'return "failed"'),
+    Bug("glue may be repeated", RECOVERY, "    if not repeatable(operation):", "    if operation.primitive == '':"),
+    Bug("a stale value counts as read", RECOVERY, 'live.status != "known" or', ""),
+    Bug("beside the goal is at the goal", RECOVERY, "return away <= tolerance.position and", "return away <= 100.0 and"),
+    Bug("retried without end", EXECUTOR, "dispatch.attempt >= ATTEMPTS", "dispatch.attempt < 0"),
+    Bug("retried under the same key", EXECUTOR,
+        "return replace(dispatch, attempt=dispatch.attempt + 1)", "return replace(dispatch, attempt=dispatch.attempt)"),
+    Bug("retried though nobody knows the outcome", EXECUTOR, 'result.outcome != "failed" or', 'result.outcome == "done" or'),
+    Bug("retried after an interruption", EXECUTOR, "if not self.interrupted and (again :=", "if (again :="),
+    Bug("an interruption stops nothing", EXECUTOR, "if self.interrupted or self.broken:", "if self.broken:"),
+    Bug("an error stops nothing", EXECUTOR, "            self.broken = True", "            self.broken = False"),
+    Bug("any error stops everything", EXECUTOR, 'if result.outcome != "done" and self.stop_on_error:',
+        'if result.outcome != "done":'),
+    Bug("a resource is used by two", GRAPH, "free = taken.isdisjoint(op.resources)", "free = True"),
+    Bug("a resource under way is free", GRAPH, "            taken.update(op.resources)", "            taken.update(())"),
+    Bug("a failure counts as done for what follows", GRAPH,
+        'return all(self.status[a] == "done" for a in op.after)',
+        'return all(self.status[a] not in ("waiting", "running") for a in op.after)'),
+    Bug("what follows need not wait", GRAPH, 'return all(self.status[a] == "done" for a in op.after)',
+        'return all(self.status[a] != "waiting" for a in op.after)'),
+    Bug("only the next is skipped", GRAPH, "                lost.add(other.id)", "                lost.add(op.id)"),
+    Bug("what is skipped still waits", GRAPH, '                self.status[other.id] = "skipped"',
+        '                self.status[other.id] = "waiting"'),
+    Bug("a resumed run reuses its ids", RESUME, 'new = {op.id: f"r{time}.{op.id}"', 'new = {op.id: op.id'),
+)  # fmt: skip
+
+SEARCH = """
+import sys
+sys.path[:0] = [sys.argv[1], *sys.argv[4:]]
+from crashing import histories
+for seed, found in histories(0, int(sys.argv[3])):
+    if isinstance(found, Exception):
+        print(seed + 1, type(found).__name__, found, sep="\\t")
+        break
+"""
+
+
+def planted(bug: Bug, folder: Path) -> Path:
+    """Return a copy of the package with the bug in it."""
+    copy = folder / "planted"
+    shutil.rmtree(copy, ignore_errors=True)
+    for name in ("pico", "labs", "catalog"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+    file = copy / "pico" / bug.file
+    text = file.read_text()
+    if text.count(bug.right) != 1:
+        raise SystemExit(f"{bug.file} has `{bug.right}` {text.count(bug.right)} times")
+    file.write_text(text.replace(bug.right, bug.wrong))
+    return copy
+
+
+def hunt(bug: Bug, seeds: int, folder: Path) -> tuple[int, str] | None:
+    """Return how many seeds it took to find the bug, and by what; None for a survivor."""
+    copy = planted(bug, folder)
+    beside = [str(ROOT / "tests" / "execution")]
+    done = subprocess.run(
+        [sys.executable, "-c", SEARCH, str(copy), "-", str(seeds), *beside], capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        return 1, done.stderr.strip().splitlines()[-1]
+    line = done.stdout.strip()
+    seed, *what = line.split("\t") if line else ("",)
+    return (int(seed), ": ".join(what)) if seed else None
+
+
+def main() -> int:
+    """Hunt every bug."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seeds", type=int, default=2000)
+    parser.add_argument("--only", default="")
+    given = parser.parse_args()
+    survivors = []
+    print(f"{'bug':<44} {'file':<24} {'seeds':>6}  found by")
+    with tempfile.TemporaryDirectory() as folder:
+        for bug in BUGS:
+            if given.only not in bug.name:
+                continue
+            found = hunt(bug, given.seeds, Path(folder))
+            seeds, what = found or ("-", "NOT FOUND")
+            print(f"{bug.name:<44} {bug.file:<24} {seeds:>6}  {what[:90]}", flush=True)
+            survivors += [] if found else [bug.name]
+    print(f"\n{len(BUGS) - len(survivors)} of {len(BUGS)} bugs found within {given.seeds} seeds each")
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
