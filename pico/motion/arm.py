@@ -14,6 +14,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Fingers, Robot
+from pico.motion.engine import require_mujoco
 from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM, PALM_MASS, Shape, cup, finger
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 
@@ -40,7 +41,11 @@ _FINGER_DAMPING = 300.0  # N s/m: the gripper shuts at 90 mm/s at most
 
 
 def build_arm(robot: Robot) -> mujoco.MjSpec:
-    """Return a model of `robot` with its base at the origin, in metres and radians; joints at zero, gripper shut."""
+    """Return a model of `robot` with its base at the origin, in metres and radians; joints at zero, gripper shut.
+
+    Raises PicoError where MuJoCo can't be imported for want of OpenGL; see `require_mujoco`.
+    """
+    require_mujoco()
     import mujoco
 
     spec = mujoco.MjSpec()

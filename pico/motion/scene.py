@@ -20,6 +20,7 @@ from pico.model.catalog import Geometry
 from pico.model.lab import KeepOut, Setup
 from pico.model.pose import Pose
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm, build_arm
+from pico.motion.engine import require_mujoco
 from pico.motion.reach import grasp_height
 from pico.motion.solids import add_solids
 from pico.motion.types import Joints, Standing
@@ -69,6 +70,7 @@ class Scene:
         self._held: int | None = None
 
     def _compile(self) -> None:
+        require_mujoco()
         import mujoco
 
         spec = mujoco.MjSpec()

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from pico.geometry.mass import bodies_of, masses
 from pico.model.catalog import Body, Geometry
 from pico.model.lab import Setup
+from pico.motion.engine import require_mujoco
 from pico.twin.placement import Placement
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ def build_scene(setup: Setup, things: Mapping[str, Thing], *, pad_friction: floa
 
     `pad_friction`: sliding friction coefficient of the fingers' pads; the lab's where None.
     """
+    require_mujoco()
     import mujoco
 
     spec = mujoco.MjSpec()
