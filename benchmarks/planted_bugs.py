@@ -65,9 +65,6 @@ BUGS = (
         'if result.outcome != "done":'),
     Bug("a resource is used by two", GRAPH, "free = taken.isdisjoint(op.resources)", "free = True"),
     Bug("a resource under way is free", GRAPH, "            taken.update(op.resources)", "            taken.update(())"),
-    Bug("a failure counts as done for what follows", GRAPH,
-        'return all(self.status[a] == "done" for a in op.after)',
-        'return all(self.status[a] not in ("waiting", "running") for a in op.after)'),
     Bug("what follows need not wait", GRAPH, 'return all(self.status[a] == "done" for a in op.after)',
         'return all(self.status[a] != "waiting" for a in op.after)'),
     Bug("only the next is skipped", GRAPH, "                lost.add(other.id)", "                lost.add(op.id)"),
@@ -75,6 +72,14 @@ BUGS = (
         '                self.status[other.id] = "waiting"'),
     Bug("a resumed run reuses its ids", RESUME, 'new = {op.id: f"r{time}.{op.id}"', 'new = {op.id: op.id'),
 )  # fmt: skip
+
+HARMLESS = (
+    Bug("a failure counts as done for what follows", GRAPH,
+        'return all(self.status[a] == "done" for a in op.after)',
+        'return all(self.status[a] not in ("waiting", "running") for a in op.after)'),
+)  # fmt: skip
+"""Plants that change nothing, because the product looks twice: what follows a failure is skipped when it fails, and does
+not start because its status is not `done`. Hunted and printed all the same, and not counted."""
 
 SEARCH = """
 import sys
@@ -124,13 +129,13 @@ def main() -> int:
     survivors = []
     print(f"{'bug':<44} {'file':<24} {'seeds':>6}  found by")
     with tempfile.TemporaryDirectory() as folder:
-        for bug in BUGS:
+        for bug in (*BUGS, *HARMLESS):
             if given.only not in bug.name:
                 continue
             found = hunt(bug, given.seeds, Path(folder))
-            seeds, what = found or ("-", "NOT FOUND")
+            seeds, what = found or ("-", "harmless alone: see HARMLESS" if bug in HARMLESS else "NOT FOUND")
             print(f"{bug.name:<44} {bug.file:<24} {seeds:>6}  {what[:90]}", flush=True)
-            survivors += [] if found else [bug.name]
+            survivors += [] if found or bug in HARMLESS else [bug.name]
     print(f"\n{len(BUGS) - len(survivors)} of {len(BUGS)} bugs found within {given.seeds} seeds each")
     return 1 if survivors else 0
 
