@@ -5,6 +5,7 @@ Prints a table, with any survivors; the exit code is 1 where there are some. Eac
 own, on a copy of the package.
 """
 
+# ruff: noqa: E501 (a line of the product is quoted whole)
 from __future__ import annotations
 
 import argparse
@@ -78,8 +79,8 @@ HARMLESS = (
         'return all(self.status[a] == "done" for a in op.after)',
         'return all(self.status[a] not in ("waiting", "running") for a in op.after)'),
 )  # fmt: skip
-"""Plants that change nothing, because the product looks twice: what follows a failure is skipped when it fails, and does
-not start because its status is not `done`. Hunted and printed all the same, and not counted."""
+"""Plants that change nothing, because the product looks twice: what follows a failure is skipped when it fails, and
+does not start because its status is not `done`. Hunted and printed all the same, and not counted."""
 
 SEARCH = """
 import sys

@@ -76,7 +76,7 @@ class Executor:
         """Take note of the end of an attempt, and return what follows from it."""
         if result.error is not None and result.error.code in ("stopped", "put-back"):
             self.interrupted = True
-        if not self.interrupted and (again := retried(dispatch, result)):
+        if not self.interrupted and (again := None if self.broken else retried(dispatch, result)):
             return After(again=again)
         if result.outcome != "done" and self.stop_on_error:
             self.broken = True
