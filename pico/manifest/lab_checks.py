@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
+from pico.manifest.camera_checks import check_cameras, check_view
 from pico.manifest.names import check_names, check_own_name
 from pico.manifest.places import where, where_key
 from pico.manifest.tree import Document
@@ -23,6 +24,7 @@ def check_lab(document: Document, lab: Lab) -> list[Diagnostic]:
     found += _markers(document, lab)
     found += _on_table(document, lab)
     found += _ranges(document, lab)
+    found += check_cameras(document, lab)
     return found
 
 
@@ -36,6 +38,7 @@ def check_setup(document: Document, setup: Setup) -> list[Diagnostic]:
         if type_name in setup.catalog:
             found += _type(document, setup, setup.catalog[type_name], part_name)
     found += _slots_fit(document, setup)
+    found += check_view(document, setup)
     return found
 
 

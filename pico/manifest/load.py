@@ -150,7 +150,8 @@ def _bench(
     setup = Setup(lab=lab, catalog=catalog)
     misfits = check_setup(document, setup)
     found.extend(misfits)
-    return (None if misfits else setup), view_of(setup)
+    misfit = any(d.severity == "error" for d in misfits)
+    return (None if misfit else setup), view_of(setup)
 
 
 def _own_types(documents: list[Document], found: list[Diagnostic]) -> tuple[dict[str, ComponentType], set[str]]:
