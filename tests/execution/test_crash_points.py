@@ -10,7 +10,7 @@ def test_whatever_is_cut_off_the_invariants_hold_and_the_goal_is_reached() -> No
     for seed, found in histories(0, 250):
         assert not isinstance(found, Exception), f"seed {seed}: {found}"
         crashes += found.crashes
-    assert crashes > 700
+    assert crashes > 500
 
 
 def test_the_same_seed_is_the_same_history() -> None:
