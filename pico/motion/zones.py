@@ -16,6 +16,9 @@ HAND = 80.0
 """How far a hand without a part reaches to the side of its axis [mm]."""
 ARM_RADIUS = 110.0
 """How far a link reaches from the line between its joints, the bend of the forearm included [mm]."""
+MARGIN = 25.0
+"""How far a plan keeps an arm from a zone that it does not hold [mm]: between two waypoints it is elsewhere, and on the
+bench the path is found anew from where things really stand."""
 _APART = 60.0  # mm, of the discs that cover a link; two of them 9 mm wider than a link cover what is between
 _HEIGHTS = (50.0, 100.0, 150.0, 200.0)  # mm, besides the transit height: where the tool may be
 _CORNERS = 48  # of a circle, drawn around it
@@ -51,19 +54,27 @@ def outermost(setup: Setup, robot: Robot) -> float:
     return reach + max([HAND, *parts])
 
 
-def enters(setup: Setup, zone: Zone, path: MovePath) -> bool:
-    """Return whether an arm or what it carries comes into `zone` anywhere on `path`; a gantry always does."""
-    robot = setup.lab.robots[path.robot]
-    if robot.model != "xarm7":
-        return True
-    area = polygon(zone.corners)
-    carried = setup.type_of(path.component).geometry.footprint.radius if path.component else 0.0
+def enters(setup: Setup, zone: Zone, path: MovePath, margin: float = 0.0) -> bool:
+    """Return whether an arm or what it carries comes nearer than `margin` [mm] to `zone` anywhere on `path`, or into
+    it; a gantry always does."""
     return any(
-        separation(shape, area) <= 0.0
+        within(setup, zone, path.robot, joints, path.component, margin)
         for segment in path.segments
         for joints in segment.joints
-        for shape in _shadow(robot, joints, max(HAND, carried))
     )
+
+
+def within(
+    setup: Setup, zone: Zone, robot: str, joints: Joints, component: str | None = None, margin: float = 0.0
+) -> bool:
+    """Return whether an arm that stands so, `component` in its hand, is in `zone`, or nearer to it than `margin`
+    [mm]; a gantry always is."""
+    arm = setup.lab.robots[robot]
+    if arm.model != "xarm7":
+        return True
+    area = polygon(zone.corners)
+    carried = setup.type_of(component).geometry.footprint.radius if component else 0.0
+    return any(separation(shape, area) <= margin for shape in _shadow(arm, joints, max(HAND, carried)))
 
 
 def _shadow(robot: Robot, joints: Joints, hand: float) -> Iterable[Shape]:

@@ -19,15 +19,17 @@ from pico.planning.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.movers import Place
 from pico.planning.request import Preference, Request
 from pico.planning.selection import done_by, selection, told
+from pico.planning.setdown import after_set_downs, set_downs
 from pico.planning.situation import Situation, read_situation
 from pico.planning.target import Source, check_target, no_source
 from pico.planning.tethers import check_tethers
 from pico.planning.values import OPERATOR_SECONDS, value_operations
 
 if TYPE_CHECKING:
-    from pico.planning.order import Turn
+    from pico.planning.conflicts import Conflicts
+    from pico.planning.meetings import Item
+    from pico.planning.search import Step
     from pico.planning.solve import Solution
-    from pico.planning.together import Meetings
 
 MOVE_SECONDS = 10.0
 """What a pick and place takes where no motion is asked for [s]."""
@@ -68,16 +70,19 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     from pico.planning.schedule import least_makespan, makespan, schedule
 
     setup = request.setup
+    emptied = set_downs(setup, request.seen, request.motion)
+    request = replace(request, seen=emptied.seen)
     situation = read_situation(setup, request.seen, request.wanted, exact=request.exact)
     moves = compile_moves(request, situation) if situation.moving else Compiled()
     asked = tuple(c for c in situation.changes if request.only.chosen(c.component))
     values, notes = value_operations(setup, request.seen, asked, request.reason)
-    diagnostics = (*situation.diagnostics, *moves.diagnostics, *notes)
+    diagnostics = (*emptied.diagnostics, *situation.diagnostics, *moves.diagnostics, *notes)
     operations: tuple[Operation, ...] = ()
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        guarded = with_interlocks(setup, request.seen, (*moves.operations, *shifted))
+        ordered = after_set_downs(emptied.operations, (*moves.operations, *shifted))
+        guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
     changes = situation.changes
@@ -130,28 +135,73 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:
-    from pico.planning.order import precedence, reduced, turns
+    from pico.planning.meetings import items
+    from pico.planning.order import precedence, reduced
     from pico.planning.reasons import move_reasons
-    from pico.planning.together import meetings
 
     table, steps, paths = answer.table, answer.steps, answer.paths
     closure = precedence(table, steps, paths.extra if paths else {})
     reasons = move_reasons(request.setup, request.wanted, table, steps, closure)
-    met = meetings(request.setup, steps, paths) if paths and len(request.setup.lab.robots) > 1 else None
-    operations = []
-    for k, (step, after) in enumerate(zip(steps, reduced(closure), strict=True)):
-        actor = table.movers[step.mover]
-        path = paths.moves[k] if paths else None
-        start, goal = actor.places[step.start], actor.places[step.goal]
-        nominal = MOVE_SECONDS if step.hold.robot else OPERATOR_SECONDS
-        operations.append(Operation(
-            id="", component=actor.name, robot=step.hold.robot, after=tuple(str(e) for e in after),
-            primitive="operator" if step.hold.robot is None else "stow" if goal.slot else "move",
-            arguments=_arguments(start, goal, step.hold.yaw if step.hold.robot else None, actor.name),
-            resources=_resources(request.setup, step.hold.robot, actor.name, met.zones.get(k, ()) if met else None),
-            reason=request.reason or reasons[k], seconds=path.seconds if path else nominal,
-        ))  # fmt: skip
-    return _with_parks(operations, turns(steps), paths.parks if paths else (), met)
+    before, out, notes = reduced(closure), list[Operation](), list[Diagnostic]()
+    index: dict[int, int] = {}
+    listed = items(request.setup, steps, paths)
+    number = _numbers(listed)
+    for item in listed:
+        waits = [number[e] for e in item.waits if number[e] is not None]
+        if item.park:
+            own = [index[k] for k in item.park.steps]
+            made = _park(item, own, out)
+            if isinstance(made, Diagnostic):
+                notes.append(made)
+                continue
+        else:
+            k = item.step or 0
+            index[k] = len(out)
+            made = _moved(request, table, steps[k], item, paths.moves[k] if paths else None, reasons[k])
+            waits = [*(index[e] for e in before[k]), *waits]
+        waits = [*(int(e) for e in made.after), *waits]
+        out.append(replace(made, after=tuple(str(e) for e in dict.fromkeys(waits))))
+    return out, notes
+
+
+def _numbers(listed: Sequence[Item]) -> list[int | None]:
+    """Return which operation each item becomes; None for a park that can't be made."""
+    found: list[int | None] = []
+    for item in listed:
+        stuck = item.park is not None and isinstance(item.park.path, Blocked)
+        found.append(None if stuck else sum(n is not None for n in found))
+    return found
+
+
+def _moved(
+    request: Request, table: Conflicts, step: Step, item: Item, path: MovePath | None, reason: Reason
+) -> Operation:
+    actor = table.movers[step.mover]
+    start, goal = actor.places[step.start], actor.places[step.goal]
+    nominal = MOVE_SECONDS if step.hold.robot else OPERATOR_SECONDS
+    owners = (step.hold.robot, actor.name, *item.zones) if step.hold.robot else None
+    return Operation(
+        id="", component=actor.name, robot=step.hold.robot,
+        primitive="operator" if step.hold.robot is None else "stow" if goal.slot else "move",
+        arguments=_arguments(start, goal, step.hold.yaw if step.hold.robot else None, actor.name),
+        resources=owners or (actor.name, *sorted(request.setup.lab.robots)),  # a person works where no arm moves
+        reason=request.reason or reason, seconds=path.seconds if path else nominal,
+    )  # fmt: skip
+
+
+def _park(item: Item, own: Sequence[int], out: Sequence[Operation]) -> Operation | Diagnostic:
+    """Return the park of an arm after its operations `own`, or why it can't park."""
+    assert item.park is not None
+    robot, path = item.park.robot, item.park.path
+    if isinstance(path, Blocked):
+        stuck = warning if item.park.before is None else error
+        return stuck("blocked", f"{robot} can't park: {path.text}", address=robot)
+    waited = {int(e) for k in own for e in out[k].after}
+    return Operation(
+        id="", primitive="park", component=robot, robot=robot, after=tuple(str(k) for k in own if k not in waited),
+        resources=(robot, *item.zones), reason=Reason(kind="parked", text="out of the beam"),
+        seconds=path.seconds if path else PARK_SECONDS,
+    )  # fmt: skip
 
 
 def _arguments(start: Place, goal: Place, grasp_yaw: float | None, name: str) -> dict[str, Any]:
@@ -162,43 +212,3 @@ def _arguments(start: Place, goal: Place, grasp_yaw: float | None, name: str) ->
 
 def _place(place: Place) -> dict[str, Any]:
     return {"pose": as_json(place.pose)} | ({"slot": place.slot} if place.slot else {})
-
-
-def _resources(
-    setup: Setup, robot: str | None, component: str, zones: tuple[str, ...] | None = None
-) -> tuple[str, ...]:
-    """A person works where no arm moves; several arms take turns where nobody knows which `zones` they come into."""
-    if robot is None:
-        return (component, *sorted(setup.lab.robots))
-    if zones is None:
-        zones = ("arms",) if len(setup.lab.robots) > 1 else ()
-    return (robot, component, *zones)
-
-
-def _with_parks(
-    operations: list[Operation], turns: Sequence[Turn], paths: Sequence[MovePath | Blocked], met: Meetings | None
-) -> tuple[list[Operation], list[Diagnostic]]:
-    """Return the operations with a park after each turn; the next robot's turn waits for it, or, where it is known
-    which steps meet, these for one another."""
-    out, notes = list(operations), []
-    parks: dict[int, int] = {}
-    for n, turn in enumerate(turns):
-        path = paths[n] if paths else None
-        if isinstance(path, Blocked):
-            stuck = error if n + 1 < len(turns) else warning
-            notes.append(stuck("blocked", f"{turn.robot} can't park: {path.text}", address=turn.robot))
-            continue
-        waited = {int(e) for k in turn.steps for e in operations[k].after}
-        after = tuple(str(k) for k in turn.steps if k not in waited)
-        for k in turns[n + 1].steps if met is None and n + 1 < len(turns) else ():
-            out[k] = replace(out[k], after=(*out[k].after, str(len(out))))
-        parks[n] = len(out)
-        out.append(Operation(
-            id="", primitive="park", component=turn.robot, robot=turn.robot, after=after,
-            resources=(turn.robot, *(met.parks.get(n, ()) if met else ())),
-            reason=Reason(kind="parked", text="out of the beam"), seconds=path.seconds if path else PARK_SECONDS,
-        ))  # fmt: skip
-    for k, waits in met.waits.items() if met else ():
-        ends = (str(e if e >= 0 else parks[-1 - e]) for e in waits if e >= 0 or -1 - e in parks)
-        out[k] = replace(out[k], after=tuple(dict.fromkeys((*out[k].after, *ends))))
-    return out, notes

@@ -195,18 +195,18 @@ class Conflicts:
         return self._ways[key]
 
     def _find_ways(self, i: int, start: int, goal: int) -> Iterator[Way]:
-        body = self.arrive(i, goal)
-        if body is None:
-            return
         masks: list[int] = []
-        for hold in self.movers[i].holds:
-            parts = (self.grip(i, start, hold), self.grip(i, goal, hold), self._paths.get((i, start, goal, hold), 0))
-            if any(p is None for p in parts):
-                continue
-            mask = body | sum_of(p for p in parts if p)
-            if not any(m | mask == mask for m in masks):
+        for hold in self.movers[i].holds if self.arrive(i, goal) is not None else ():
+            mask = self.held(i, start, goal, hold)
+            if mask is not None and not any(m | mask == mask for m in masks):
                 masks.append(mask)
                 yield Way(hold, mask)
+
+    def held(self, i: int, start: int, goal: int, hold: Hold) -> int | None:
+        """Return the spots that exclude a move of mover `i` in one hold; None where what stays excludes it."""
+        path = self._paths.get((i, start, goal, hold), 0)
+        parts = (self.arrive(i, goal), self.grip(i, start, hold), self.grip(i, goal, hold), path)
+        return None if any(p is None for p in parts) else sum_of(p for p in parts if p)
 
     def way(self, i: int, start: int, goal: int, taken: int) -> Way | None:
         """Return the first way to make a move while the spots of `taken` are taken."""

@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.observation import Observation
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Standing
+from pico.motion.zones import MARGIN, enters, shared_zones, within
 from pico.planning.conflicts import Conflicts, Spot
-from pico.planning.order import Closure, precedence, turns
+from pico.planning.order import Closure, precedence
 from pico.planning.search import Step
+
+PARKED = 0.02
+"""Up to so far from its park pose an arm counts as parked [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Park:
+    """An arm goes to its park pose after these of its steps: before step `before` of another arm, or (None) at the
+    end. `path`: None without motion."""
+
+    robot: str
+    steps: tuple[int, ...]
+    before: int | None
+    path: MovePath | Blocked | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Paths:
-    """The path of each step (None for a person's), the park after each turn, and the bits that paths need empty
-    besides the masks, by step."""
+    """The path of each step (None for a person's), the parks in order, and the bits that paths need empty besides the
+    masks, by step."""
 
     moves: tuple[MovePath | None, ...]
-    parks: tuple[MovePath | Blocked, ...]
+    parks: tuple[Park, ...]
     extra: Mapping[int, int]
 
 
@@ -35,23 +51,71 @@ def find_paths(table: Conflicts, steps: Sequence[Step], seen: Observation, motio
     """Return the paths of `steps` one after the other, or the first step that has none.
 
     A path is asked for among everything that may stand there at that step in any order that keeps the precedence, so
-    that it holds in each of them; where only another order would be in the way, the order is fixed by `extra`.
+    that it holds in each of them; where only another order would be in the way, the order is fixed by `extra`. An arm
+    that stands where another must come in parks first, and so do arms that were left standing where arms meet.
     """
     extra: dict[int, int] = {}
-    joints: dict[str, Joints | None] = {name: robot.joints for name, robot in seen.robots.items()}
     moves: list[MovePath | None] = [None] * len(steps)
-    parks: list[MovePath | Blocked] = []
-    for turn in turns(steps):
-        for k in turn.steps:
-            path = _path(table, steps, k, extra, joints.get(turn.robot), motion)
-            if isinstance(path, NoPath):
-                return path
-            joints[turn.robot] = path.end
-            moves[k] = path
-        parks.append(_park(table, steps[: turn.steps[-1] + 1], turn.robot, joints[turn.robot] or (), motion))
-        end = parks[-1]
-        joints[turn.robot] = end.end if isinstance(end, MovePath) else joints[turn.robot]
-    return Paths(tuple(moves), tuple(parks), extra)
+    arms = Arms(table, steps, seen, motion)
+    for k, step in enumerate(steps):
+        robot = step.hold.robot
+        if robot is None:
+            continue
+        path = _path(table, steps, k, extra, arms.joints.get(robot), motion)
+        if isinstance(path, NoPath):
+            return path
+        arms.make_way(k, path)
+        arms.moved(k, path)
+        moves[k] = path
+    arms.park_all()
+    return Paths(tuple(moves), tuple(arms.parks), extra)
+
+
+class Arms:
+    """Where the arms stand while paths are found, and the parks that this takes."""
+
+    def __init__(self, table: Conflicts, steps: Sequence[Step], seen: Observation, motion: Motion) -> None:
+        self.parks: list[Park] = []
+        self.joints: dict[str, Joints | None] = {name: robot.joints for name, robot in seen.robots.items()}
+        self._table, self._steps, self._motion = table, steps, motion
+        self._zones = shared_zones(table.setup)
+        self._since: dict[str, list[int]] = {name: [] for name in sorted(self.joints) if self._astray(name)}
+
+    def _astray(self, robot: str) -> bool:
+        """Whether an arm was left where arms meet, and not at its park pose."""
+        joints, arm = self.joints[robot], self._table.setup.lab.robots.get(robot)
+        if not joints or arm is None or arm.model != "xarm7":
+            return False
+        parked = all(abs(q - math.radians(p)) < PARKED for q, p in zip(joints, arm.park, strict=True))
+        zones = (z for z in self._zones if robot in z.robots)
+        return not parked and any(within(self._table.setup, z, robot, joints, margin=MARGIN) for z in zones)
+
+    def moved(self, k: int, path: MovePath) -> None:
+        """Take step `k` for done."""
+        self.joints[path.robot] = path.end
+        self._since.setdefault(path.robot, []).append(k)
+
+    def make_way(self, k: int, path: MovePath) -> None:
+        """Park the other arms that stand in a zone which the path of step `k` comes into."""
+        for zone in self._zones:
+            for robot in zone.robots:
+                if robot != path.robot and robot in self._since and path.robot in zone.robots:
+                    stands = within(self._table.setup, zone, robot, self.joints[robot] or (), margin=MARGIN)
+                    if stands and enters(self._table.setup, zone, path, MARGIN):
+                        self._park(robot, k)
+
+    def park_all(self) -> None:
+        """Park every arm that has moved, in the order of their last steps."""
+        for robot in sorted(self._since, key=lambda r: max(self._since[r], default=-1)):
+            self._park(robot, None)
+
+    def _park(self, robot: str, before: int | None) -> None:
+        steps = tuple(self._since.pop(robot))
+        done = self._steps[: max(steps, default=-1) + 1 if before is None else before]
+        path = _park(self._table, done, robot, self.joints, self._motion)
+        self.parks.append(Park(robot, steps, before, path))
+        if isinstance(path, MovePath):
+            self.joints[robot] = path.end
 
 
 def _path(
@@ -111,9 +175,12 @@ def _standing(table: Conflicts, spot: Spot) -> Standing:
     return Standing(mover.places[spot[1]].pose, mover.geometry)
 
 
-def _park(table: Conflicts, done: Sequence[Step], robot: str, joints: Joints, motion: Motion) -> MovePath | Blocked:
+def _park(
+    table: Conflicts, done: Sequence[Step], robot: str, joints: Mapping[str, Joints | None], motion: Motion
+) -> MovePath | Blocked:
     places = places_before(table, done, len(done))
     standing = {name: o.standing for name, o in table.obstacles.items()} | {
         m.name: _standing(table, (j, places[j])) for j, m in enumerate(table.movers)
     }
-    return motion.park(robot, joints, standing)
+    now, others = joints.get(robot) or (), {name: q for name, q in joints.items() if q and name != robot}
+    return motion.park(robot, now, standing, others) if others else motion.park(robot, now, standing)

@@ -1,87 +1,86 @@
-"""Several arms at work at the same time: where two of them meet, one waits until the other is out of the way."""
+"""Several arms at one table: which of them makes each move, and in which order, so that all are done soonest."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pico.geometry import disc, polygon, separation
-from pico.model.lab import Setup
-from pico.motion.types import MovePath
-from pico.motion.zones import HAND, Zone, enters, shared_zones
+from pico.motion.zones import ARM_RADIUS, HAND, Zone, shared_zones
+from pico.planning.arms import Work, soonest, timed
 from pico.planning.conflicts import Conflicts
-from pico.planning.order import Closure, Turn, precedence, turns
-from pico.planning.paths import Paths
+from pico.planning.order import precedence
 from pico.planning.search import Step
 
+if TYPE_CHECKING:
+    from pico.planning.travel import Clock
 
-@dataclass(frozen=True, slots=True)
-class Meetings:
-    """What arms that may meet must keep to. `waits`: which steps come after which others, or, for a negative number
-    -1 - n, after the park of turn n. `zones`: the zones that each step holds, as resources."""
-
-    waits: dict[int, tuple[int, ...]]
-    zones: dict[int, tuple[str, ...]]
-    parks: dict[int, tuple[str, ...]]
+PASSES = 2
+"""How often each move that two arms can make is given to the other, to see whether all is then done sooner."""
 
 
-def meetings(setup: Setup, steps: Sequence[Step], paths: Paths) -> Meetings:
-    """Return which steps of one arm must wait for another to leave the zone where they meet.
-
-    An arm that keeps out of a zone can't touch the other, wherever that is. One that comes into it leaves it in its
-    last move of the turn that does, where another follows, which then begins outside; else when it parks.
-    """
-    order = turns(steps)
-    found = Meetings({}, {}, {})
-    for zone in shared_zones(setup):
-        name = "zone/" + "+".join(zone.robots)
-        last: dict[str, int] = {}
-        for n, turn in enumerate(order):
-            if turn.robot not in zone.robots:
-                continue
-            inside = [k for k in turn.steps if _enters(setup, zone, paths.moves[k])]
-            parks = _enters(setup, zone, paths.parks[n])
-            other = next(r for r in zone.robots if r != turn.robot)
-            for k in inside:
-                found.zones[k] = (*found.zones.get(k, ()), name)
-                found.waits[k] = (*found.waits.get(k, ()), *([last[other]] if other in last else []))
-            if parks:
-                found.parks[n] = (*found.parks.get(n, ()), name)
-            if inside or parks:
-                last[turn.robot] = -1 - n if parks else inside[-1]
-    return found
+def shared_out(clock: Clock, steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Return the steps in the order, and each by the arm, in which they are done soonest, as far as it is found."""
+    best, seconds = _soonest(clock, tuple(steps))
+    for _ in range(PASSES):
+        before = best
+        for step in before:
+            for other in handed(clock, step):
+                tried = tuple(other if s == step else s for s in best)
+                tried, value = _soonest(clock, tried)
+                if value < seconds - 1e-6:
+                    best, seconds = tried, value
+        if best == before:
+            break
+    return best
 
 
-def _enters(setup: Setup, zone: Zone, path: object) -> bool:
-    """A park that has no path, and so is not made, leaves the arm where it is: then it may be anywhere."""
-    return enters(setup, zone, path) if isinstance(path, MovePath) else True
+def _soonest(clock: Clock, steps: tuple[Step, ...]) -> tuple[tuple[Step, ...], float]:
+    work = work_of(clock, steps)
+    order = soonest(work, range(len(steps)))
+    return tuple(steps[k] for k in order), timed(work, order)[0]
 
 
-def staggered(setup: Setup, table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...]:
-    """Return the steps in an order in which arms hinder one another less: those of the first, third, ... turn that lie
-    where arms meet come before the others of their turn, those of the second, fourth, ... after them."""
-    zones, order = shared_zones(setup), turns(steps)
-    if not zones or len(order) < 2:
-        return tuple(steps)
-    closure = precedence(table, steps, {})
-    kept = [k for k, s in enumerate(steps) if s.hold.robot is None]
-    if kept:
-        return tuple(steps)  # what people do stands between turns; it keeps its place
-    meeting = {k for k, s in enumerate(steps) if any(_near(table, z, s) for z in zones if s.hold.robot in z.robots)}
-    return tuple(steps[k] for n, turn in enumerate(order) for k in _sorted(turn, closure, meeting, first=n % 2 == 0))
+def handed(clock: Clock, step: Step) -> Iterator[Step]:
+    """Yield the same move by each other arm that can make it wherever the arm that now does can."""
+    table, seen = clock.table, {step.hold.robot}
+    for hold in table.movers[step.mover].holds:
+        mask = None if hold.robot in seen else table.held(step.mover, step.start, step.goal, hold)
+        if mask is not None and mask | step.mask == step.mask:
+            seen.add(hold.robot)
+            yield replace(step, hold=hold, mask=mask)
 
 
-def _sorted(turn: Turn, closure: Closure, meeting: Set[int], *, first: bool) -> Iterator[int]:
-    left = list(turn.steps)
-    while left:
-        free = [k for k in left if closure[k].isdisjoint(left)]
-        k = min(free, key=lambda k: ((k in meeting) != first, k))
-        left.remove(k)
-        yield k
+def work_of(clock: Clock, steps: Sequence[Step]) -> Work:
+    """Return what the arms of a bench have to do: times as they tell, zones by where they pick and place."""
+    table, setup, count = clock.table, clock.table.setup, range(len(steps))
+    robots, zones = sorted(setup.lab.robots), shared_zones(setup)
+    arm = tuple(robots.index(s.hold.robot or "") for s in steps)
+    near = [
+        [frozenset(z for z, zone in enumerate(zones) if _near(table, zone, s, p)) for p in (s.start, s.goal)]
+        for s in steps
+    ]
+    return Work(
+        arms=len(robots), arm=arm, loaded=tuple(clock.loaded(s) for s in steps),
+        start=tuple(clock.start(s) for s in steps), again=tuple(clock.again(s) for s in steps),
+        between=tuple(
+            tuple(clock.between(steps[i], steps[j]) if i != j and arm[i] == arm[j] else 0.0 for j in count)
+            for i in count
+        ),
+        end=tuple(clock.end(s) for s in steps), before=precedence(table, steps, {}),
+        enters=tuple(pick | place for pick, place in near), stays=tuple(place for _, place in near),
+        zones=tuple((robots.index(z.robots[0]), robots.index(z.robots[1])) for z in zones),
+    )  # fmt: skip
 
 
-def _near(table: Conflicts, zone: Zone, step: Step) -> bool:
-    mover = table.movers[step.mover]
-    hand = max(HAND, mover.geometry.footprint.radius)
-    poses = [mover.places[p].pose for p in (step.start, step.goal)]
-    return any(separation(disc(p.x, p.y, hand), polygon(zone.corners)) <= 0.0 for p in poses)
+def _near(table: Conflicts, zone: Zone, step: Step, at: int) -> bool:
+    """Whether an arm that picks or places at one of a mover's places is in a zone, taken as straight from its base."""
+    robot, pose = step.hold.robot or "", table.movers[step.mover].places[at].pose
+    if robot not in zone.robots:
+        return False
+    mount, area = table.setup.lab.robots[robot].mount, polygon(zone.corners)
+    hand = disc(pose.x, pose.y, max(HAND, table.movers[step.mover].geometry.footprint.radius))
+    along = [n / 8 for n in range(8)]
+    links = (disc(mount.x + t * (pose.x - mount.x), mount.y + t * (pose.y - mount.y), ARM_RADIUS) for t in along)
+    return any(separation(shape, area) <= 0.0 for shape in (hand, *links))

@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 
 from pico.model.observation import Observation
 from pico.motion.types import Joints, Motion
+from pico.planning.arms import least, timed
 from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Place
 from pico.planning.order import arranged, precedence
 from pico.planning.search import Step
 from pico.planning.sequencing import Effort, best_order
 from pico.planning.shorten import valid
-from pico.planning.together import staggered
+from pico.planning.together import handed, shared_out, work_of
 
 SPEED = 300.0
 """What the hand travels at where no motion is asked for [mm/s]."""
@@ -41,18 +42,25 @@ class Tour:
 
 
 def toured(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: Motion | None) -> Tour:
-    """Return the steps in the order that takes least time, as far as it is found, staged where that is near. Where
-    several robots or people take turns, each goes on as long as it can, to the nearest."""
+    """Return the steps in the order that takes least time, as far as it is found, staged where that is near. Several
+    arms work at the same time. Where people take turns with them, or nobody tells how long an arm takes, each goes on
+    as long as it can, to the nearest."""
     clock = Clock(table, seen, motion)
     robots = {s.hold.robot for s in steps}
+    several = None not in robots and len(table.setup.lab.robots) > 1 and clock.told
+    if several:
+        steps = shared_out(clock, arranged(table.setup, table, steps, precedence(table, steps, {})))
+        robots = {s.hold.robot for s in steps}
+    if several and len(robots) > 1:
+        return Tour(tuple(steps), timed(work_of(clock, steps), range(len(steps)))[0], _least(clock, steps))
     if len(robots) > 1 or None in robots or len(steps) < 2:
         order = arranged(table.setup, table, steps, precedence(table, steps, {}))
-        order = staggered(table.setup, table, order) if motion else order
         loaded = {r: sum(clock.loaded(s) for s in order if s.hold.robot == r) for r in robots}
         return Tour(order, sum(loaded.values()), max(loaded.values()) if clock.told else None)
     first = _sequenced(clock, steps)
     moved = nearer(clock, first.steps)
-    return _sequenced(clock, moved) if moved != first.steps else first
+    best = _sequenced(clock, moved) if moved != first.steps else first
+    return replace(best, bound=_least(clock, best.steps)) if several else best
 
 
 def _sequenced(clock: Clock, steps: Sequence[Step]) -> Tour:
@@ -62,6 +70,23 @@ def _sequenced(clock: Clock, steps: Sequence[Step]) -> Tour:
     loaded = sum(clock.loaded(s) for s in steps)
     bound = loaded + best.lower_bound if clock.told else None
     return Tour(tuple(steps[k] for k in best.order), loaded + best.cost, bound)
+
+
+def _least(clock: Clock, steps: Sequence[Step]) -> float:
+    """Return a time before which several arms can't be done, whichever of them makes each move, in any order [s]."""
+    work = work_of(clock, steps)
+    free = {
+        k: min(clock.loaded(s) for s in (step, *others))
+        for k, step in enumerate(steps) if (others := tuple(handed(clock, step)))
+    }  # fmt: skip
+    tours = []
+    for own in ([k for k in work.of(arm) if k not in free] for arm in range(work.arms)):
+        between = [[min(work.between[i][j], work.end[i] + work.again[j]) for j in own] for i in own]
+        start, end = [min(work.start[k], work.again[k]) for k in own], [work.end[k] for k in own]
+        before = [{n for n, e in enumerate(own) if e in work.before[k]} for k in own]
+        travel = best_order(start, between, end, before, limit=MANY).lower_bound if own else 0.0
+        tours.append(travel + sum(work.loaded[k] for k in own))
+    return least(work, tours, free)
 
 
 def nearer(clock: Clock, steps: tuple[Step, ...]) -> tuple[Step, ...]:
@@ -121,6 +146,10 @@ class Clock:
             return self._travel(robot, joints or None, place, 0.0, step.hold.yaw)
         mount = self.table.setup.lab.robots[robot].mount
         return math.hypot(place.pose.x - mount.x, place.pose.y - mount.y) / SPEED
+
+    def again(self, step: Step) -> float:
+        """Return the way from the park pose to where a step begins."""
+        return self._travel(step.hold.robot or "", None, self._places(step)[0], 0.0, step.hold.yaw)
 
     def between(self, first: Step, then: Step) -> float:
         """Return the way from where a step ends to where another begins."""
