@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.model.record import as_json
@@ -51,16 +52,27 @@ class Screen:
         self.session.say(line)
 
 
-def execute(session: Session, bench: Bench, plan: Plan) -> int:
-    """Run a plan, show how it goes and what became of it; return the exit code."""
-    run = bench.run(plan)
+def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = None) -> int:
+    """Run a plan, show how it goes and what became of it; return the exit code. `record`: where a film of it goes."""
+    recording = None
+    if record:
+        from pico.twin.snapshot import Recording
+
+        recording = Recording()
+    run = bench.run(plan, recording=recording)
     screen = Screen(session, Progress(plan))
+    events = []
     with interrupts(run):
         for event in run:
             screen.show(event)
+            events += [event] if record else []
     session.show(report_view, run.report)
     if not session.json:
         session.report(run.report.diagnostics)
+    if record and recording and recording.snapshots:
+        from .filming import film
+
+        film(session, bench, plan, recording, events, record)
     return int(run.report.exit_code)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from pico.backends.sim.table import SimulatedTable
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
+    from pico.twin.film import Caption
     from pico.twin.picture import Image, View
+    from pico.twin.snapshot import Recording
 
 CommitMode = Literal["strict", "capture", "planned"]
 
@@ -202,10 +204,29 @@ class AsyncBench(Reader):
         assert goal is not None
         return planning.move_one(self.setup, seen, name, goal, motion=DeferredMotion(self.setup), base=base, **options)
 
-    def run(self, plan: Plan) -> AsyncRun:
-        """Return the run of a plan: iterate over it for its events, then read its `report`."""
+    def run(self, plan: Plan, *, recording: Recording | None = None) -> AsyncRun:
+        """Return the run of a plan: iterate over it for its events, then read its `report`.
+
+        `recording`: keeps what a film of the run shows, see `film`; raises PicoError where nothing is simulated.
+        """
         self._adopt(plan)
+        watch = getattr(self.backend, "watch", None)
+        if watch is not None:
+            watch(recording.look if recording else None)
+        elif recording is not None:
+            raise PicoError(error("not-simulated", "only what is simulated can be recorded"))
         return AsyncRun(self.setup, plan, self.backend)
+
+    def film(
+        self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
+    ) -> Iterator[tuple[int, int]]:
+        """Write a film of a run to `out`, .mp4 or .gif, in simulated time, `fps` pictures a second.
+
+        Yields (pictures done, of how many); ended early, the film is what was done until then. Raises PicoError.
+        """
+        from pico.twin.film import write_film
+
+        return write_film(self.setup, recording.snapshots, out, captions=captions, fps=fps)
 
     async def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it."""

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from pico.backends.sim.table import SimulatedTable
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
+    from pico.twin.film import Caption
     from pico.twin.picture import Image, View
+    from pico.twin.snapshot import Recording
 
 __all__ = ["AsyncBench", "Bench", "CommitMode", "new_lab"]
 
@@ -101,9 +103,15 @@ class Bench(Reader):
         """Return the plan that places a component `distance` mm after another along its beam."""
         return self._thread.wait(self._bench.place(component, after=after, distance=distance))
 
-    def run(self, plan: Plan) -> Run:
-        """Start a plan and return its run: iterate over it for its events."""
-        return Run(self._bench.run(plan), self._thread)
+    def run(self, plan: Plan, *, recording: Recording | None = None) -> Run:
+        """Start a plan and return its run: iterate over it for its events. `recording`: see `AsyncBench.run`."""
+        return Run(self._bench.run(plan, recording=recording), self._thread)
+
+    def film(
+        self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
+    ) -> Iterator[tuple[int, int]]:
+        """Write a film of a run to `out`; see `AsyncBench.film`."""
+        return self._bench.film(recording, out, captions=captions, fps=fps)
 
     def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
+from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
@@ -11,8 +12,11 @@ from pico.model.pose import Pose
 from pico.planning.blocking import moved_by, why_impossible
 from pico.planning.contacts import Contact, ends_of
 from pico.twin.beams import Place
+from pico.twin.film import Caption
 from pico.twin.marks import Mark
 from pico.twin.placement import Placement
+
+_CARRIES = ("move", "stow")
 
 
 def places(setup: Setup, seen: Observation, in_space: Mapping[str, Placement]) -> dict[str, Place]:
@@ -42,6 +46,28 @@ def marks(setup: Setup, plan: Plan) -> tuple[Mark, ...]:
         *(Mark(c.a, c.b, _amount(c.by), goals=True) for c in clashes),
         *(Mark(b.blocker, b.blocked, _amount(b.by)) for b in blocks),
     )
+
+
+def captions(events: Iterable[Event], titles: Mapping[str, str]) -> tuple[Caption, ...]:
+    """Return what a film of a run says when. `titles`: of operations, by id; of several at once that of an arm's move
+    is shown, and its component named where it is."""
+    found, going = [], {}
+    for event in events:
+        if event.kind == "operation_started":
+            going[event.operation] = event
+        elif event.kind in ("operation_done", "operation_failed", "operation_unknown"):
+            going.pop(event.operation, None)
+        elif event.kind != "operation_progress" or event.operation not in going:
+            continue
+        if not going:
+            found.append(Caption(event.time, ""))
+            continue
+        shown = max(going.values(), key=lambda e: (e.data.get("primitive") in _CARRIES, e.time))
+        phase = str(event.data.get("phase", "")) if event.operation == shown.operation else ""
+        title = titles.get(shown.operation or "", f"{shown.component} {shown.data.get('primitive')}")
+        carried = shown.component or "" if shown.data.get("primitive") in _CARRIES else ""
+        found.append(Caption(event.time, f"{title} · {phase}" if phase and phase not in title else title, carried))
+    return tuple(found)
 
 
 def _amount(by: Contact) -> str:

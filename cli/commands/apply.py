@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -17,6 +18,11 @@ if TYPE_CHECKING:
     from pico.bench import Bench
     from pico.model.plan import Plan
 
+Record = Annotated[
+    Path | None,
+    typer.Option("--record", metavar="FILE", help="Film it in the simulator, in simulated time: FILE.mp4 or FILE.gif."),
+]
+
 
 def apply(
     context: typer.Context,
@@ -27,6 +33,7 @@ def apply(
     target: Targets = None,
     exclude: Exclude = None,
     prefer: Prefer = "fewest-moves",
+    record: Record = None,
 ) -> int:
     """Move what the plan says.
 
@@ -34,12 +41,16 @@ def apply(
     error; ./NAME is the file. With --json: the plan, each event and the report, a line each.
     """
     session = Session.of(context)
+    if record:
+        from pico.twin.reel import require_kind
+
+        require_kind(session.folder / record)
     bench = session.bench(fidelity)
     options = {"exact": exact, "prefer": prefer, "targets": target or (), "exclude": exclude or ()}
-    return approve(session, bench, bench.plan_of(what, folder=session.folder, **options), auto_approve)
+    return approve(session, bench, bench.plan_of(what, folder=session.folder, **options), auto_approve, record)
 
 
-def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool) -> int:
+def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None) -> int:
     """Show a plan, ask, run it, and return the exit code."""
     if plan.operations and not auto_approve and session.json:
         raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
@@ -54,4 +65,4 @@ def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool) -> i
     if not auto_approve and not session.confirm(question(plan)):
         session.say("Nothing moved.")
         return ExitCode.ERROR
-    return execute(session, bench, plan)
+    return execute(session, bench, plan, record)

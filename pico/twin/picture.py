@@ -95,13 +95,13 @@ def _perspective(
     model, data = posed_model(setup, places, joints)
     points = scene_extent(setup, model, data)
     view = viewpoint(setup, points, width, height)
-    light = _glow(setup, poses) if beams else ()
-    stage = Stage(model, data, surfaces(setup, model, places), light, _middle(setup))
+    light = glow(setup, poses) if beams else ()
+    stage = Stage(model, data, surfaces(setup, model, places), light, center_of(setup))
     image = photograph(stage, view)
     if labels:
         from pico.twin.labels import Anchor, label
 
-        tops = {n: (p.position[0], p.position[1], _top(setup, n, p)) for n, p in places.items()}
+        tops = {n: (p.position[0], p.position[1], top_of(setup, n, p)) for n, p in places.items()}
         label(image, view, [Anchor(name, at) for name, at in sorted(tops.items())])
     return image
 
@@ -110,15 +110,38 @@ def posed_model(
     setup: Setup, places: Mapping[str, Placement], joints: Mapping[str, Joints]
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return the scene with everything where it is, ready to be looked at."""
-    import math
+    model, data = model_of(setup, places)
+    pose_model(setup, model, data, places, joints)
+    return model, data
 
+
+def model_of(setup: Setup, places: Mapping[str, Placement]) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return the scene with the components at `places`, arms stretched out."""
     import mujoco
 
     from pico.twin.scene import Thing, build_scene
 
     things = {name: Thing(setup.type_of(name).geometry, place) for name, place in places.items()}
     model = build_scene(setup, things).compile()
-    data = mujoco.MjData(model)
+    model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)  # else what is not free stays where it was at first
+    return model, mujoco.MjData(model)
+
+
+def pose_model(
+    setup: Setup,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    places: Mapping[str, Placement],
+    joints: Mapping[str, Joints],
+) -> None:
+    """Bring the components of a scene to `places`, and its arms to `joints`, parked where missing."""
+    import math
+
+    import mujoco
+
+    for name, place in places.items():
+        body = model.body(name)
+        body.pos, body.quat = place.position, place.quaternion
     for name, robot in setup.lab.robots.items():
         if robot.model != "xarm7":
             continue
@@ -131,7 +154,6 @@ def posed_model(
                 data.joint(f"{name}/{finger}_slide").qpos[0] = opening / 2000
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
-    return model, data
 
 
 def _opening(setup: Setup, robot: Robot, joints: Joints, places: Mapping[str, Placement]) -> float:
@@ -153,20 +175,22 @@ def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
     return framing(points, _AZIMUTH, _ELEVATION, _FIELD, width, height, margin=0.04)
 
 
-def _glow(setup: Setup, poses: Mapping[str, Place]) -> tuple[Beam, ...]:
-    """The light of each source, at the height of its exit."""
+def glow(setup: Setup, lit: Mapping[str, Place], poses: Mapping[str, Place] | None = None) -> tuple[Beam, ...]:
+    """Return the light of each source among `lit`, at the height of its exit, up to what stops it among `poses`."""
     import numpy as np
 
     from pico.twin.perspective import Beam
 
     found = []
-    for name, start, end in beam_paths(setup, poses):
-        z = setup.type_of(name).frames.optical[2]
-        found.append(Beam(np.array((*start, z)) / 1000, np.array((*end, z)) / 1000))
+    for name, start, end in beam_paths(setup, lit if poses is None else poses):
+        if name in lit:
+            z = setup.type_of(name).frames.optical[2]
+            found.append(Beam(np.array((*start, z)) / 1000, np.array((*end, z)) / 1000))
     return tuple(found)
 
 
-def _middle(setup: Setup) -> Any:
+def center_of(setup: Setup) -> Any:
+    """Return the middle of the table (3,) [m]."""
     import numpy as np
 
     return np.array((*(v / 2000 for v in setup.lab.table.size), 0.0))
@@ -184,6 +208,7 @@ def scene_extent(setup: Setup, model: mujoco.MjModel, data: mujoco.MjData) -> An
     return np.vstack([corners, *(centers + reach * np.array(step) for step in ((0, 0, 1), (1, 0, 0), (-1, 0, 0)))])
 
 
-def _top(setup: Setup, name: str, place: Placement) -> float:
+def top_of(setup: Setup, name: str, place: Placement) -> float:
+    """Return the height of a component's highest point [m]."""
     height = setup.type_of(name).geometry.height
     return place.position[2] + (height if place.tilt < 45 else setup.type_of(name).geometry.footprint.radius) / 1000

@@ -6,7 +6,7 @@ Pixel (0, 0) is the center of the upper left one; u runs right, v down. Metres, 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -18,19 +18,37 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Viewpoint:
-    """A camera at `eye`; the rows of `axes` (3, 3) are right, up and forward; `focal` in pixels."""
+    """A camera at `eye`; the rows of `axes` (3, 3) are right, up and forward; `focal` in pixels.
+
+    `offset`: where the upper left pixel of this picture is in the whole picture that it was cut out of, and `whole` how
+    wide and high that is; without them it is whole itself.
+    """
 
     eye: Array
     axes: Array
     focal: float
     width: int
     height: int
+    offset: tuple[int, int] = (0, 0)
+    whole: tuple[int, int] | None = None
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """The pixel (u, v) that the camera looks along."""
+        width, height = self.whole or (self.width, self.height)
+        return (width - 1) / 2 - self.offset[0], (height - 1) / 2 - self.offset[1]
+
+    def cut(self, left: int, top: int, right: int, bottom: int) -> Viewpoint:
+        """Return the camera that sees only the pixels from (left, top) up to before (right, bottom)."""
+        whole = self.whole or (self.width, self.height)
+        at = (self.offset[0] + left, self.offset[1] + top)
+        return replace(self, width=right - left, height=bottom - top, offset=at, whole=whole)
 
     def rays(self, u: Array, v: Array) -> Array:
         """Return the unit directions (n, 3) through the pixels `u`, `v` (n,)."""
         import numpy as np
 
-        x, y = (u - (self.width - 1) / 2) / self.focal, ((self.height - 1) / 2 - v) / self.focal
+        x, y = (u - self.middle[0]) / self.focal, (self.middle[1] - v) / self.focal
         directions: Array = x[:, None] * self.axes[0] + y[:, None] * self.axes[1] + self.axes[2]
         lengths: Array = np.sqrt(np.einsum("ij,ij->i", directions, directions))
         return directions / lengths[:, None]
@@ -40,8 +58,8 @@ class Viewpoint:
         import numpy as np
 
         right, up, depth = ((points - self.eye) @ self.axes.T).T
-        u = (self.width - 1) / 2 + self.focal * right / depth
-        return np.column_stack((u, (self.height - 1) / 2 - self.focal * up / depth, depth))
+        u = self.middle[0] + self.focal * right / depth
+        return np.column_stack((u, self.middle[1] - self.focal * up / depth, depth))
 
 
 def look(eye: Array, target: Array, field_of_view: float, width: int, height: int) -> Viewpoint:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from pico.backends.recovery import Settled
     from pico.backends.sim.session import Session
     from pico.journal import Journal
+    from pico.twin.snapshot import Snapshot
 
 PRIMITIVES: frozenset[Primitive] = frozenset({"move", "stow", "set", "home", "park"})
 
@@ -54,8 +55,13 @@ class SimBackend:
         self._halted = False
         self._journal: Journal | None = None
         self._listeners: list[asyncio.Queue[Event | None]] = []
+        self._look: Callable[[Snapshot], None] | None = None
 
     # looking
+
+    def watch(self, look: Callable[[Snapshot], None] | None) -> None:
+        """Let `look` see what moves, whoever takes the bench from now on: often enough for a film. None: no more."""
+        self._look = look
 
     @property
     def journal(self) -> Journal:
@@ -80,9 +86,21 @@ class SimBackend:
     async def observe(self) -> Observation:
         """Return the table exactly as it is; raises PicoError where its file can't be read."""
         if self._session is not None:
-            return observe(self._session.world(), "sim", self._clock())
+            return self._with_hands(observe(self._session.world(), "sim", self._clock()))
         world, self.diagnostics = load_world(self.setup, self.root)
-        return observe(world, "sim", self._clock())
+        return self._with_hands(observe(world, "sim", self._clock()))
+
+    def _with_hands(self, seen: Observation) -> Observation:
+        """Return the observation with what the journal knows of the parts in the hands: where they were picked."""
+        if not any(robot.holding for robot in seen.robots.values()):
+            return seen
+        from pico.backends.grip import with_picks
+
+        try:
+            return with_picks(self.setup, self.journal, seen)
+        except PicoError as exc:  # looking must not fail because of the journal
+            self.diagnostics = (*self.diagnostics, *exc.diagnostics)
+            return seen
 
     async def measure(self, component: str, measurable: str) -> Any:
         """Raises PicoError: light is not simulated yet."""
@@ -116,6 +134,8 @@ class SimBackend:
                 motion=self._motion, tell=self._tell,
             )  # fmt: skip
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
+            if self._look is not None:
+                self._session.watch(self._look)
         except BaseException:
             self._session = None
             self._lock.release()

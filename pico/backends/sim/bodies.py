@@ -6,6 +6,7 @@ from pico.backends.sim.world import World
 from pico.model.lab import Setup
 from pico.motion.kinematics import tool_pose
 from pico.twin.placement import Placement, upright
+from pico.twin.snapshot import Snapshot
 
 
 def body_placement(setup: Setup, world: World, name: str) -> Placement | None:
@@ -19,6 +20,25 @@ def body_placement(setup: Setup, world: World, name: str) -> Placement | None:
     if body.presence == "held":
         return upright(body.pose, _in_hand(setup, world, name))
     return upright(body.pose)
+
+
+def snapshot(setup: Setup, world: World) -> Snapshot:
+    """Return what a picture of the world shows at this moment."""
+    places = {name: body_placement(setup, world, name) for name in world.components}
+    sources = [n for n in places if n in setup.lab.inventory and setup.type_of(n).optics.element == "source"]
+    return Snapshot(
+        time=world.clock,
+        places={name: place for name, place in places.items() if place is not None},
+        joints={name: robot.joints for name, robot in world.robots.items()},
+        dark=frozenset(n for n in sources if _dark(world, n)),
+    )
+
+
+def _dark(world: World, source: str) -> bool:
+    values = world.components[source].values
+    return any(
+        name in values and values[name].value == off for name, off in (("emission", False), ("shutter", "closed"))
+    )
 
 
 def _in_hand(setup: Setup, world: World, name: str) -> float:

@@ -17,14 +17,18 @@ from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints, MovePath, Segment
 
 STEP = 0.5
-"""Seconds of a path that are walked in one go."""
+"""Seconds of a path that are walked in one go where nobody watches."""
 
 
 class KinematicWorld:
-    """Moves robots and components of `world` without dynamics: a component ends exactly at its goal."""
+    """Moves robots and components of `world` without dynamics: a component ends exactly at its goal.
+
+    `step`: seconds of a path that are walked in one go.
+    """
 
     def __init__(self, setup: Setup, world: World) -> None:
         self._setup = setup
+        self.step = STEP
         self._joints = {name: robot.joints for name, robot in world.robots.items()}
         self._held: dict[str, tuple[str, Pose]] = {}  # by robot: the component, and its pose seen from the tool
         for name, robot in world.robots.items():
@@ -85,7 +89,7 @@ class KinematicWorld:
     def _walk(self, robot: str, segment: Segment) -> Generator[float, None, None]:
         elapsed = 0.0
         while elapsed < segment.seconds:
-            step = min(STEP, segment.seconds - elapsed)
+            step = min(self.step, segment.seconds - elapsed)
             yield step
             elapsed += step
             self._joints[robot] = joints_at(segment, elapsed)

@@ -10,6 +10,7 @@ from typing import Any
 
 from pico.backends.attempt import Attempts
 from pico.backends.sim import judge
+from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import InProgress, MoveFailed, Mover
 from pico.backends.sim.store import save_world
@@ -21,13 +22,18 @@ from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent, ObservedValue
 from pico.model.operation import Operation, OperationResult
+from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.motion.types import Blocked, Joints, Motion, MovePath
+from pico.twin.snapshot import Snapshot
 
 PROGRESS = 0.25
 """Simulated seconds between two reports of an operation's progress, at least."""
+
+WATCHED = 0.05
+"""Simulated seconds between two looks at a run that is recorded, at most."""
 
 
 class Session:
@@ -53,6 +59,13 @@ class Session:
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
         self._attempts = Attempts(journal, self, token, self._began)
         self._told = 0
+
+    def watch(self, look: Callable[[Snapshot], None]) -> None:
+        """Let `look` see the table now, and at least every WATCHED simulated seconds while something moves."""
+        if isinstance(self._mover, KinematicWorld):
+            self._mover.step = WATCHED
+        self._time.look = lambda: look(snapshot(self._setup, self.world()))
+        self._time.look()
 
     def world(self) -> World:
         """Return the table as it is at this moment."""
@@ -114,19 +127,30 @@ class Session:
 
     def _move(self, operation: Operation, key: str) -> InProgress:
         """Pick and place on the table as it is now: the path is found anew, from where arm and component really are."""
-        name, robot = operation.component, operation.robot or ""
+        name = operation.component
         planned, goal, slot = judge.places(operation)
-        start = judge.require_ready(self._setup, self.world(), operation, planned)
-        path = self._motion.move(
-            robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)),
-            judge.standing(self._setup, self.world()), self.world().robots[robot].joints, self._elsewhere(robot),
-        )  # fmt: skip
+        start, path = self._way(operation, planned, goal)
         if isinstance(path, Blocked):
             raise judge.blocked(name, path)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
         data = yield from self._reported(operation, key, path, self._mover.move(actual, path))
         judge.require_placed(self._setup, self.world(), name, goal, slot)
         return data
+
+    def _way(self, operation: Operation, planned: Pose, goal: Pose) -> tuple[Pose, MovePath | Blocked]:
+        """Return where a part stands, or is in the hand, and the path that takes it from there to its goal."""
+        world, name, robot = self.world(), operation.component, operation.robot or ""
+        standing, joints = judge.standing(self._setup, world), world.robots
+        if judge.in_hand(operation):
+            held = judge.require_held(self._setup, world, operation)
+            now = joints[robot].joints
+            return held, self._motion.set_down(robot, name, held, goal, standing, now, self._elsewhere(robot))
+        start = judge.require_ready(self._setup, world, operation, planned)
+        path = self._motion.move(
+            robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)), standing, joints[robot].joints,
+            self._elsewhere(robot),
+        )  # fmt: skip
+        return start, path
 
     def _park(self, operation: Operation, key: str) -> InProgress:
         robot = operation.robot or operation.component

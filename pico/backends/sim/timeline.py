@@ -28,6 +28,7 @@ class Timeline(Generic[T]):
         self._futures: dict[str, asyncio.Future[T]] = {}
         self._task: asyncio.Task[None] | None = None
         self._news = False
+        self.look: Callable[[], None] | None = None  # called whenever time has passed
 
     def start(self, id: str, work: Generator[float, None, T]) -> asyncio.Future[T]:
         """Begin `work` now, and return the future of its result."""
@@ -70,6 +71,8 @@ class Timeline(Generic[T]):
             self.now = moment
         for id in sorted((i for i, due in self._due.items() if due <= self.now), key=natural):
             self._resume(id)
+        if self.look is not None:
+            self.look()
 
     def _resume(self, id: str, exc: Exception | None = None) -> None:
         work = self._works[id]

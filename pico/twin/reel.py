@@ -1,0 +1,61 @@
+"""Where pictures of a film go: an MP4, by OpenCV, or a GIF. Playable however early it ends."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from pico.diagnostics import PicoError, error
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Image = NDArray[np.uint8]
+
+KINDS = (".mp4", ".gif")
+
+
+class Reel(Protocol):
+    """A film that is being written: pictures (height, width, 3), sRGB, all of one size."""
+
+    def add(self, picture: Image) -> None: ...
+
+    def close(self) -> None: ...
+
+
+def require_kind(path: Path) -> None:
+    """Raise PicoError where a film can't be written to `path`."""
+    if path.suffix.lower() not in KINDS:
+        text = f"{path.name} is no film: its name ends neither in .mp4 nor in .gif"
+        raise PicoError(error("film-kind", text, hint=f"`--record {path.stem or 'film'}.mp4`"))
+    if not path.parent.is_dir():
+        raise PicoError(error("unwritable", f"cannot write the film {path}: there is no folder {path.parent}"))
+
+
+def open_reel(path: Path, fps: float, size: tuple[int, int]) -> Reel:
+    """Return a new film of `fps` pictures a second, `size` (width, height) [pixels]; raises PicoError."""
+    require_kind(path)
+    from pico.twin.gif import GifReel
+
+    return GifReel(path, fps) if path.suffix.lower() == ".gif" else Mp4Reel(path, fps, size)
+
+
+class Mp4Reel:
+    """An MPEG-4 film, written picture by picture."""
+
+    def __init__(self, path: Path, fps: float, size: tuple[int, int]) -> None:
+        import cv2
+
+        self._writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"mp4v"), fps, size)
+        if not self._writer.isOpened():
+            hint = "is the folder writable? A film as .gif needs no codec"
+            raise PicoError(error("unwritable", f"cannot write the film {path}", hint=hint))
+
+    def add(self, picture: Image) -> None:
+        import numpy as np
+
+        self._writer.write(np.ascontiguousarray(picture[:, :, ::-1]))
+
+    def close(self) -> None:
+        self._writer.release()
