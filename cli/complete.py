@@ -13,7 +13,7 @@ SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
     "-n", "--number", "--explain", "--target",
-    "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dyaw",
+    "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
 _CHOICE = ("--target", "--exclude", "--prefer")
 _APPLY = ("--auto-approve", "--exact", "--fidelity", *_CHOICE)
@@ -40,10 +40,11 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "home": _ONE,
     "render": ("--out", "--view", "--plan"),
     "sim reset": (),
+    "sim bump": ("--dx", "--dy", "--dz", "--dyaw"),
     "sim nudge": ("--dx", "--dy", "--dyaw"),
     "sim remove": (),
 }
-GROUPS = {"sim": ("reset", "nudge", "remove"), "catalog": ("list", "show")}
+GROUPS = {"sim": ("reset", "nudge", "bump", "remove"), "catalog": ("list", "show")}
 FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),

@@ -37,7 +37,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "home": "Home the axis of a tunable.",
     },
     "The simulator, and the rest": {
-        "sim": "Act on the simulated world: reset it, nudge or remove a component.",
+        "sim": "Act on the simulated world: reset it, nudge or remove a component, bump a camera.",
         "render": "Draw the bench as a PNG.",
         "completion": "Print the completion script of a shell; its first line says how to install it.",
         "version": "Show the versions of PICO and what it stands on.",

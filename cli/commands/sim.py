@@ -13,7 +13,7 @@ from ..views import simulated as view
 app = typer.Typer(
     rich_markup_mode=None,
     no_args_is_help=True,
-    help="Act on the simulated world: reset it, nudge or remove a component.",
+    help="Act on the simulated world: reset it, nudge or remove a component, bump a camera.",
 )
 
 
@@ -38,6 +38,25 @@ def nudge(
     session = Session.of(context)
     pose = session.bench().sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
     session.show(view, f"{name} now stands at {pose}", pose=pose)
+    return 0
+
+
+@app.command()
+def bump(
+    context: typer.Context,
+    camera: Annotated[
+        str | None, typer.Argument(help="The camera; where none is named, all at the table move as one.")
+    ] = None,
+    dx: Annotated[float, typer.Option("--dx", help="Millimetres to the right.")] = 0.0,
+    dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
+    dz: Annotated[float, typer.Option("--dz", help="Millimetres up.")] = 0.0,
+    dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
+) -> int:
+    """Push a camera, as somebody bumping its post would: it keeps looking from there until a reset."""
+    session = Session.of(context)
+    session.bench().sim.bump(camera, shift=(dx, dy, dz), turn=(0.0, 0.0, dyaw))
+    moved = f"({dx:g}, {dy:g}, {dz:g}) mm, {dyaw:g} deg"
+    session.show(view, f"{camera or 'every camera at the table'} moved by {moved}; its calibration is as before")
     return 0
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Setup, SimErrors
+from pico.model.record import record
 from pico.vision.camera import CameraModel
 from pico.vision.nominal import camera_models
 
@@ -19,10 +20,32 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
-def true_cameras(setup: Setup, errors: SimErrors, seed: int) -> dict[str, CameraModel]:
+@record
+class CameraShift:
+    """How far somebody has bumped a camera: `shift` [mm], and `turn` about itself, a rotation vector [deg], both along
+    the axes of the frame that it is fixed to (the table, or the tool)."""
+
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def then(self, other: CameraShift) -> CameraShift:
+        """Return this shift followed by `other`; turns are small, so that they add."""
+        (a, b, c), (d, e, f) = self.shift, self.turn
+        (u, v, w), (x, y, z) = other.shift, other.turn
+        return CameraShift(shift=(a + u, b + v, c + w), turn=(d + x, e + y, f + z))
+
+
+def true_cameras(
+    setup: Setup, errors: SimErrors, seed: int, shifts: Mapping[str, CameraShift] | None = None
+) -> dict[str, CameraModel]:
     """Return the cameras of a lab as they really are: the nominal ones, displaced, turned and with another focal
-    length by what `errors` says. Same seed, same cameras; one camera does not depend on which others there are."""
-    return {name: _wrong(camera, errors, seed) for name, camera in camera_models(setup).items()}
+    length by what `errors` says, then bumped by `shifts`.
+
+    Same seed, same cameras; one camera does not depend on which others there are.
+    """
+    nominal = camera_models(setup)
+    wrong = {name: _wrong(camera, errors, seed) for name, camera in nominal.items()}
+    return {name: bumped(camera, (shifts or {}).get(name, CameraShift())) for name, camera in wrong.items()}
 
 
 def _wrong(camera: CameraModel, errors: SimErrors, seed: int) -> CameraModel:
@@ -36,23 +59,23 @@ def _wrong(camera: CameraModel, errors: SimErrors, seed: int) -> CameraModel:
     return replace(camera, pose=pose, matrix=matrix)
 
 
-def bumped(camera: CameraModel, shift: Array, turn: Array) -> CameraModel:
-    """Return the camera displaced by `shift` (3,) [mm] and turned about itself by `turn` (3,) [deg], a rotation vector,
-    both along the axes of its parent's frame."""
+def bumped(camera: CameraModel, by: CameraShift) -> CameraModel:
+    """Return the camera after a bump."""
     pose = camera.pose.copy()
-    pose[:3, 3] += shift
-    pose[:3, :3] = turned(turn) @ pose[:3, :3]
+    pose[:3, 3] += by.shift
+    pose[:3, :3] = turned(by.turn) @ pose[:3, :3]
     return replace(camera, pose=pose)
 
 
-def drifted(cameras: Mapping[str, CameraModel], shift: Array, turn: Array) -> dict[str, CameraModel]:
-    """Return the cameras with all that stand at the table moved as one: turned about the table's origin by `turn` (3,)
-    [deg], then displaced by `shift` (3,) [mm]. Those on hands stay."""
-    import numpy as np
-
-    motion = np.eye(4)
-    motion[:3, :3], motion[:3, 3] = turned(turn), shift
-    return {n: c if c.robot else replace(c, pose=motion @ c.pose) for n, c in cameras.items()}
+def common_shifts(cameras: Mapping[str, CameraModel], drift: CameraShift) -> dict[str, CameraShift]:
+    """Return the shift of each camera at the table when all of them move as one: turned about the table's origin, then
+    displaced. Those on hands stay."""
+    found = {}
+    for name, camera in cameras.items():
+        if camera.robot is None:
+            way = turned(drift.turn) @ camera.pose[:3, 3] - camera.pose[:3, 3] + drift.shift
+            found[name] = CameraShift(shift=(float(way[0]), float(way[1]), float(way[2])), turn=drift.turn)
+    return found
 
 
 def turned(vector: Any) -> Array:

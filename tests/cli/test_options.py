@@ -140,7 +140,7 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["checkout"], "missing argument"),
         (["commit"], "--message"),
         (["sim", "kick"], "kick"),
-        (["sim"], "reset, nudge, remove"),
+        (["sim"], "reset, nudge, bump, remove"),
         (["plan", "e1", "e2"], "extra argument"),
         (["plan", "e9"], "there is no revision `e9`"),
         (["plan", "--backend", "hardware"], "no driver for the arm arm1 (xarm7)"),

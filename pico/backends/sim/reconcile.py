@@ -25,7 +25,8 @@ def reconcile(setup: Setup, world: World) -> tuple[World, tuple[Diagnostic, ...]
     world = _with_new(setup, world, found)
     components = {name: _retyped(setup, name, world.components[name]) for name in setup.lab.inventory}
     robots = {name: world.robots.get(name) or parked(setup, name) for name in setup.lab.robots}
-    return replace(world, components=components, robots=robots), tuple(found)
+    cameras = {name: shift for name, shift in world.cameras.items() if name in setup.lab.cameras}
+    return replace(world, components=components, robots=robots, cameras=cameras), tuple(found)
 
 
 def stranger(name: str, marker: int | None) -> str:

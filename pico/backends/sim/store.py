@@ -18,6 +18,7 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.twin.camera_errors import CameraShift
 
 
 def world_path(root: Path) -> Path:
@@ -104,6 +105,7 @@ def world_from_json(data: Any) -> World:
         robots={k: _robot(v) for k, v in data["robots"].items()},
         unknown={k: _unknown(v) for k, v in data["unknown"].items()},
         shapes=shapes,
+        cameras={k: _shift(v) for k, v in data.get("cameras", {}).items()},
     )
 
 
@@ -141,6 +143,11 @@ def _free(data: Mapping[str, Any]) -> FreePose:
     x, y, z = _numbers(data["position"])
     a, b, c, d = _numbers(data["quaternion"])
     return FreePose(position=(x, y, z), quaternion=(a, b, c, d))
+
+
+def _shift(data: Mapping[str, Any]) -> CameraShift:
+    (x, y, z), (a, b, c) = _numbers(data["shift"]), _numbers(data["turn"])
+    return CameraShift(shift=(x, y, z), turn=(a, b, c))
 
 
 def _value(data: Mapping[str, Any]) -> ObservedValue:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from pico.backends.sim.bodies import body_placement
+from pico.backends.sim.eyes import bump
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import change_world, load_world, reset_world
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.request import require_component
+from pico.twin.camera_errors import CameraShift
 from pico.twin.placement import Placement
 
 
@@ -40,6 +42,18 @@ class SimulatedTable:
         pose = load_world(self._setup, self._root)[0].components[name].pose
         assert pose is not None  # it was just put there
         return pose
+
+    def bump(
+        self, camera: str | None = None, *, shift: tuple[float, float, float], turn: tuple[float, float, float]
+    ) -> None:
+        """Bump a camera, so that it looks from elsewhere from now on; all at the table, as one, where none is named.
+
+        `shift` [mm] and the rotation vector `turn` [deg] are along the axes of the table, or of the tool that the
+        camera rides on. Raises PicoError for a camera that the lab does not have.
+        """
+        by = CameraShift(shift=shift, turn=turn)
+        who = f"sim bump {camera or 'all cameras'}"
+        change_world(self._setup, self._root, who, lambda world: bump(self._setup, world, camera, by))
 
     def remove(self, name: str) -> None:
         """Take a component off the table: it is then missing."""

@@ -18,6 +18,7 @@ from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.state import home_state, place_of
 from pico.motion import gantry
+from pico.twin.camera_errors import CameraShift
 
 SCHEMA = "pico.world/v1"
 
@@ -58,7 +59,10 @@ class Body:
 
 @record
 class World:
-    """The simulated table. `clock`: simulated seconds since it was new. `robots`: joints [rad] and what each holds."""
+    """The simulated table. `clock`: simulated seconds since it was new. `robots`: joints [rad] and what each holds.
+
+    `cameras`: how far those were bumped that are not where they were when the world was new.
+    """
 
     schema: str = SCHEMA
     lab: str
@@ -68,6 +72,7 @@ class World:
     robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
     shapes: Mapping[str, Shape] = field(default_factory=dict)
+    cameras: Mapping[str, CameraShift] = field(default_factory=dict)
 
     def with_body(self, name: str, **changes: Any) -> World:
         """Return the world with fields of component `name` replaced."""

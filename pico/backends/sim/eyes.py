@@ -1,0 +1,42 @@
+"""The cameras of a simulated world: wrong by the lab's errors, bumped as the world remembers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from pico.backends.sim.world import World
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.model.lab import Setup
+from pico.twin.camera_errors import CameraShift, common_shifts, true_cameras
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from pico.twin.cameras import Eyes
+
+
+def eyes_of(setup: Setup, world: World, model: mujoco.MjModel, data: mujoco.MjData) -> Eyes:
+    """Return the cameras of `world`, looking at its scene `model`: each part carries the marker that it has there."""
+    from pico.twin.cameras import Eyes
+
+    cameras = true_cameras(setup, setup.lab.sim.errors, world.seed, world.cameras)
+    markers = {name: body.marker for name, body in world.components.items()}
+    return Eyes(setup, model, data, cameras, seed=world.seed, markers=markers)
+
+
+def bump(setup: Setup, world: World, name: str | None, by: CameraShift) -> World:
+    """Return the world with camera `name` bumped, or with all cameras at the table moved as one where it is None.
+
+    Raises PicoError for a camera that the lab does not have.
+    """
+    if name is not None and name not in setup.lab.cameras:
+        hint = did_you_mean(name[:40], setup.lab.cameras) or "this lab has no cameras"
+        raise PicoError(error("unknown-camera", f"no camera `{name[:40]}`", hint=hint))
+    if name is not None:
+        shifts = {name: by}
+    else:
+        true = true_cameras(setup, setup.lab.sim.errors, world.seed, world.cameras)
+        shifts = common_shifts(true, by)
+    moved = {n: world.cameras.get(n, CameraShift()).then(shift) for n, shift in shifts.items()}
+    return replace(world, cameras={**world.cameras, **moved})
