@@ -1,0 +1,168 @@
+"""The corners of a marker to a few hundredths of a pixel: its whole picture is fitted, not only its corners.
+
+Once its number is known, everything about how a marker should look is known but eight numbers of the homography that
+its plane is seen through, two gray levels, and the blur. They are fitted to all pixels of the marker at once
+(Gauss-Newton), so that every edge between black and white counts, inner ones too. Corner refinement by gradients
+(OpenCV's SUBPIX) pulls corners inward by some tenths of a pixel where cells are few pixels wide.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Picture = NDArray[np.uint8]
+
+_FINE = 16  # samples across a cell of the drawn marker
+_CELLS, _AROUND = 6, 2  # cells across a marker, and of plate that are drawn around it
+_REACH = 0.45  # cells beyond the border that are fitted: less than the plate has
+_ROUNDS = 12
+_MOST = 12_000  # pixels of one marker that are fitted
+_FLOOR = 0.01  # pixels: what no fit of one picture is better than
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Corners (4, 2) [pixels] with the covariance (8, 8) of u0, v0, u1, ... [pixels^2].
+
+    `misfit`: root mean square of what is left, as a share of the contrast; `blur`: sigma of the picture [pixels].
+    """
+
+    corners: Array
+    covariance: Array
+    misfit: float
+    blur: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Patch:
+    """The pixels of a marker: gray levels (n,), and where they are from its middle, scaled, (n, 2)."""
+
+    gray: Array
+    at: Array
+    center: Array
+    scale: float
+
+
+def refine(picture: Picture, corners: Array, cells: Array, blur: float = 0.8) -> Fit | None:
+    """Return the corners of the marker that looks like `cells` (8, 8), near `corners` (4, 2); None where none fits.
+
+    `cells`: 0 black, 1 white, with one cell of the plate around; see `pico.vision.markers.cells`.
+    """
+    import numpy as np
+
+    patch = _patch(picture, corners)
+    if patch is None:
+        return None
+    start = _homography((corners - patch.center) / patch.scale)
+    side = float(np.linalg.norm(corners[0] - corners[2])) / 2**0.5 / _CELLS
+    parameters = np.append(start.ravel()[:8], blur / side)
+    drawn = np.kron(np.pad(cells, 1, constant_values=1.0), np.ones((_FINE, _FINE)))
+    for _ in range(_ROUNDS):
+        design, left, contrast = _linear(patch, drawn, parameters)
+        normal = design.T @ design
+        try:
+            change = np.linalg.solve(normal, design.T @ left)
+        except np.linalg.LinAlgError:
+            return None
+        parameters = parameters + change[:9]
+        parameters[8] = min(max(parameters[8], 0.02), 0.6)
+        if np.max(np.abs(change[:8])) < 1e-5:
+            break
+    if not np.all(np.isfinite(parameters)) or contrast < 1:
+        return None
+    return _result(patch, parameters, np.asarray(np.linalg.pinv(normal), np.float64), left, contrast, side)
+
+
+def _result(patch: _Patch, parameters: Array, spread: Array, left: Array, contrast: float, side: float) -> Fit | None:
+    import numpy as np
+
+    corners = _corners(parameters[:8])
+    noise = max(float(left @ left) / max(len(left) - 11, 1), 0.3)  # never less than rounding to gray levels
+    steps = np.diag(np.full(8, 1e-6))
+    jacobian = np.column_stack([(_corners(parameters[:8] + step) - corners).ravel() / 1e-6 for step in steps])
+    covariance = jacobian @ spread[:8, :8] @ jacobian.T * noise * patch.scale**2 + np.eye(8) * _FLOOR**2
+    misfit = float(np.sqrt(np.mean(left**2))) / contrast
+    return Fit(corners * patch.scale + patch.center, covariance, misfit, float(parameters[8]) * side)
+
+
+def _patch(picture: Picture, corners: Array) -> _Patch | None:
+    import cv2
+    import numpy as np
+
+    center = np.asarray(corners.mean(axis=0), np.float64)
+    scale = float(np.abs(corners - center).max())
+    grown = center + (corners - center) * (1 + 2 * _REACH / _CELLS)
+    height, width = picture.shape
+    low = np.maximum(np.floor(grown.min(axis=0)).astype(int), 0)
+    high = np.minimum(np.ceil(grown.max(axis=0)).astype(int) + 1, (width, height))
+    if np.any(high - low < 8):
+        return None
+    mask = np.zeros((high[1] - low[1], high[0] - low[0]), np.uint8)
+    cv2.fillConvexPoly(mask, np.round((grown - low) * 16).astype(np.int32), 1, cv2.LINE_8, 4)
+    v, u = np.nonzero(mask)
+    every = -(-len(u) // _MOST)
+    u, v = u[::every] + low[0], v[::every] + low[1]
+    at = (np.column_stack((u, v)) - center) / scale
+    return _Patch(picture[v, u].astype(np.float64), at, center, scale)
+
+
+def _linear(patch: _Patch, drawn: Array, parameters: Array) -> tuple[Array, Array, float]:
+    """Return the derivatives (n, 11) of the picture by homography, blur and levels, what is left (n,), the contrast."""
+    import cv2
+    import numpy as np
+
+    x, y = patch.at.T
+    g = parameters
+    depth = g[6] * x + g[7] * y + 1
+    u, v = (g[0] * x + g[1] * y + g[2]) / depth, (g[3] * x + g[4] * y + g[5]) / depth  # cells from the corner
+    image = np.asarray(cv2.GaussianBlur(drawn, (0, 0), g[8] * _FINE, borderType=cv2.BORDER_REPLICATE), np.float64)
+    layers = np.dstack((image, *_gradient(image), g[8] * cv2.Laplacian(image, cv2.CV_64F) * _FINE**2))
+    across = ((u + _AROUND) * _FINE - 0.5).astype(np.float32).reshape(-1, 1)
+    down = ((v + _AROUND) * _FINE - 0.5).astype(np.float32).reshape(-1, 1)
+    value, du, dv, ds = cv2.remap(layers, across, down, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0].T
+    levels = np.column_stack((value, np.ones(len(value))))
+    (contrast, black), *_ = np.linalg.lstsq(levels, patch.gray, rcond=None)
+    du, dv = du * contrast / depth, dv * contrast / depth
+    bent = -(u * du + v * dv)
+    design = np.column_stack(
+        (du * x, du * y, du, dv * x, dv * y, dv, bent * x, bent * y, ds * contrast, value, np.ones(len(value)))
+    )
+    return design, patch.gray - contrast * value - black, float(contrast)
+
+
+def _gradient(image: Array) -> tuple[Array, Array]:
+    """Return the derivatives of the drawn marker along u and v, by cell."""
+    import numpy as np
+
+    down, across = (np.asarray(d, np.float64) * _FINE for d in np.gradient(image))
+    return across, down
+
+
+def _homography(corners: Array) -> Array:
+    """Return the homography (3, 3) from the picture to cells, 0 to 6 from corner to corner."""
+    import cv2
+    import numpy as np
+
+    matrix = cv2.getPerspectiveTransform(corners.astype(np.float32), _cell_corners().astype(np.float32))
+    homography: Array = np.asarray(matrix, np.float64) / matrix[2, 2]
+    return homography
+
+
+def _corners(parameters: Array) -> Array:
+    import numpy as np
+
+    inverse = np.linalg.inv(np.append(parameters, 1.0).reshape(3, 3))
+    points = np.column_stack((_cell_corners(), np.ones(4))) @ inverse.T
+    return np.asarray(points[:, :2] / points[:, 2:], np.float64)
+
+
+def _cell_corners() -> Array:
+    import numpy as np
+
+    return np.array([(0, 0), (_CELLS, 0), (_CELLS, _CELLS), (0, _CELLS)], np.float64)
