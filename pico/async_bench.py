@@ -285,7 +285,7 @@ class AsyncBench(Reader):
         manifest, drawn dashed; where it is impossible, what is in whose way, in red. `out`: write it there, too, as
         PNG. Raises PicoError.
         """
-        from pico.pictures import goals, marks, places
+        from pico.pictures import goals, marks, places, steps
         from pico.twin.picture import render, write_png
 
         seen = await self.observe()
@@ -305,6 +305,7 @@ class AsyncBench(Reader):
             view=view,
             ghosts=goals(self.setup, drawn) if drawn else None,
             marks=marks(self.setup, drawn) if drawn else (),
+            steps=steps(drawn) if drawn else (),
         )
         if out is not None:
             write_png(image, out)

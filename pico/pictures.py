@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
+from pico.model.diff import Change, show_value
 from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.observation import Observation
+from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.state import LabState, place_of
 from pico.planning.blocking import moved_by, why_impossible
 from pico.planning.contacts import Contact, ends_of
 from pico.twin.beams import Place
 from pico.twin.film import Caption
 from pico.twin.marks import Mark
 from pico.twin.placement import Placement
+from pico.twin.steps import Step
 
 _CARRIES = ("move", "stow")
 
@@ -37,6 +42,41 @@ def goals(setup: Setup, plan: Plan) -> dict[str, Pose]:
     """Return where the components are to stand that a plan moves, or would have to."""
     ends = ends_of(setup, plan)
     return {name: ends[name].pose for name in moved_by(plan) if name in ends}
+
+
+def steps(plan: Plan) -> tuple[Step, ...]:
+    """Return the operations of a plan, numbered as `pico apply` counts them."""
+    return tuple(_step(number, op, plan) for number, op in enumerate(plan.operations, 1))
+
+
+def _step(number: int, op: Operation, plan: Plan) -> Step:
+    before, after, tunable = (op.arguments.get(word) for word in ("from", "to", "tunable"))
+    if op.primitive in ("move", "stow") and isinstance(before, Mapping) and isinstance(after, Mapping):
+        words = f"{_place(before)} → {_place(after)}"
+        return Step(number, op.component, words, op.component, Pose(**before["pose"]), Pose(**after["pose"]))
+    if tunable is None:
+        return Step(number, op.component, op.primitive)
+    change = next((c for c in plan.changes if (c.component, c.tunable) == (op.component, tunable)), None)
+    said = change.text if change and op.reason.kind != "interlock" else f"{show_value(before)} → {show_value(after)}"
+    return Step(number, f"{op.component}.{tunable}", said if op.primitive == "set" else op.primitive)
+
+
+def differences(setup: Setup, a: LabState, b: LabState, changes: Sequence[Change]) -> tuple[Step, ...]:
+    """Return what differs from state `a` to `b`, numbered in the order of `changes`."""
+    found = []
+    for number, change in enumerate(changes, 1):
+        name = change.component
+        if change.tunable == "pose" and name in setup.lab.inventory:
+            start, goal = place_of(setup, a, name)[1], place_of(setup, b, name)[1]
+            found.append(Step(number, name, change.text, name, start, goal))
+        else:
+            title = name if change.tunable == "pose" else f"{name}.{change.tunable}"
+            found.append(Step(number, title, change.text))
+    return tuple(found)
+
+
+def _place(where: Mapping[str, Any]) -> str:
+    return str(where.get("slot") or Pose(**where["pose"]))
 
 
 def marks(setup: Setup, plan: Plan) -> tuple[Mark, ...]:

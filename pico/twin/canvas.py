@@ -29,6 +29,7 @@ class Canvas:
         self._size = (width, height)
         self._image = np.full((height * _FINE, width * _FINE, 3), paper, np.uint8)
         self._texts: list[tuple[str, Point, float, Color, Align, int, Color | None]] = []
+        self._badges: list[tuple[str, Point, float, Color, Color]] = []
 
     def pixel(self, point: Point) -> Point:
         """Return where a point on the table [mm] is in the finished picture."""
@@ -100,6 +101,10 @@ class Canvas:
         """Write `text` with the middle of its base line at `pixel`, given in the finished picture."""
         self._texts.append((text, pixel, size, color, "center", weight, halo))
 
+    def badge(self, text: str, pixel: Point, radius: float, color: Color, ink: Color) -> None:
+        """Draw a disc with `text` in it at `pixel`, `radius` [pixels], both in the finished picture."""
+        self._badges.append((text, pixel, radius, color, ink))
+
     def finished(self) -> NDArray[np.uint8]:
         """Return the picture (height, width, 3)."""
         import cv2
@@ -110,6 +115,12 @@ class Canvas:
             if halo is not None:
                 _set_off(image, text, (u, v), size, align, weight, halo)
             write(image, text, (u, v), size, color, align=align, weight=weight)
+        for text, pixel, radius, color, ink in self._badges:
+            _disc(image, pixel, radius + 1.5, ink)
+            _disc(image, pixel, radius, color)
+            size = (1.35 if len(text) < 3 else 1.0) * radius
+            _, rise, _ = extent("0", size, 600)
+            write(image, text, (pixel[0], pixel[1] + rise / 2), size, ink, align="center", weight=600)
         return image
 
     def _fixed(self, points: Sequence[Point]) -> NDArray[np.int32]:
@@ -117,6 +128,13 @@ class Canvas:
 
         pixels = np.array([self.pixel(p) for p in points], dtype=float).reshape(-1, 2)
         return np.round((pixels * _FINE + (_FINE - 1) / 2) * (1 << _BITS)).astype(np.int32)
+
+
+def _disc(image: NDArray[np.uint8], at: Point, radius: float, color: Color) -> None:
+    import cv2
+
+    one = 1 << _BITS
+    cv2.circle(image, (round(at[0] * one), round(at[1] * one)), round(radius * one), color, -1, cv2.LINE_AA, _BITS)
 
 
 def _set_off(

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from pico.twin.marks import Mark
     from pico.twin.perspective import Beam
+    from pico.twin.steps import Step
     from pico.twin.viewpoint import Viewpoint
 
     Image = NDArray[np.uint8]
@@ -44,20 +45,21 @@ def render(
     labels: bool = True,
     beams: bool = True,
     marks: Sequence[Mark] = (),
+    steps: Sequence[Step] = (),
 ) -> Image:
     """Return a picture (height, width, 3) of the bench, sRGB.
 
     `poses`: where components stand, by name; a `Placement` where one does not stand on its base; names that are
     missing are not drawn. `joints`: of each robot [rad], parked where missing. `ghosts`: where components are to go,
-    drawn dashed in the view from above; `marks`: what is in whose way, drawn red there. `beams`: draw the light of
-    sources up to what stops it.
+    drawn dashed in the view from above; `marks`: what is in whose way, drawn red there; `steps`: what is moved where,
+    numbered, with a list below that makes the picture higher. `beams`: draw the light of sources up to what stops it.
     """
     if view == "top":
         from pico.twin.topview import draw
 
         return draw(
             setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams,
-            marks=marks,
+            marks=marks, steps=steps,
         )  # fmt: skip
     return _perspective(setup, poses, joints, width, height, labels, beams)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pico.model.catalog import Footprint
 from pico.model.lab import Box2, Robot, Setup
-from pico.model.pose import Pose, angle_between
+from pico.model.pose import Pose
 from pico.motion.kinematics import span, tool_pose
 from pico.motion.types import Joints
 from pico.twin.beams import Place, beam_paths, flat
@@ -17,6 +17,7 @@ from pico.twin.lettering import Color
 from pico.twin.marks import LEGEND, Mark, draw_marks
 from pico.twin.names import Named, write_names
 from pico.twin.outlines import circle, outline
+from pico.twin.steps import MOVE, Step, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 _PAPER, _TABLE, _EDGE = (252, 252, 253), (240, 242, 245), (120, 128, 138)
 _HOLES, _INK, _FAINT = (212, 216, 222), (34, 40, 49), (126, 134, 146)
 _REGION, _SLOT, _REACH = (226, 235, 246), (168, 176, 187), (122, 152, 190)
-_BEAM, _MOVE, _FORBIDDEN = (224, 36, 36), (224, 112, 0), (196, 60, 60)
+_BEAM, _FORBIDDEN = (224, 36, 36), (196, 60, 60)
 _ARM = (150, 164, 184)
 _COLORS: dict[str, Color] = {
     "source": (42, 74, 128),
@@ -53,6 +54,7 @@ def draw(
     labels: bool,
     beams: bool,
     marks: Sequence[Mark] = (),
+    steps: Sequence[Step] = (),
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.twin.picture.render`."""
     canvas = new_canvas(setup, width, height)
@@ -69,20 +71,37 @@ def draw(
     places = flat(poses)
     for name, pose in sorted(places.items()):
         _draw_component(canvas, setup, name, pose)
-    for name, goal in sorted(ghosts.items()):
-        _draw_ghost(canvas, setup, name, places.get(name), goal, size)
+    moves = [step for step in steps if step.goal is not None]
+    ghosts = {**ghosts, **goals_of(moves)}
+    _draw_goals(canvas, setup, places, ghosts, moves, size)
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model == "xarm7":
             _draw_arm(canvas, name, robot, joints.get(name), size)
     if labels:
-        gone = {name: goal for name, goal in ghosts.items() if not _stays(setup, name, places.get(name), goal)}
+        gone = {n: goal for n, goal in ghosts.items() if n not in places or not stays(setup, n, places[n], goal)}
         named = [(name, pose, _INK) for name, pose in places.items()]
-        named += [(name, goal, _MOVE) for name, goal in gone.items()]
+        named += [(name, goal, MOVE) for name, goal in gone.items()]
         things = [Named(n, outline(setup.type_of(n).geometry.footprint, pose), ink) for n, pose, ink in named]
         write_names(canvas, things, size)
     draw_marks(canvas, setup, marks, places, ghosts, size)
     _draw_legend(canvas, setup, size, LEGEND if marks else REACH_LEGEND)
-    return canvas.finished()
+    draw_numbers(canvas, setup, moves, size)
+    return with_list(canvas.finished(), steps, 0.95 * size)
+
+
+def _draw_goals(
+    canvas: Canvas, setup: Setup, places: Mapping[str, Pose], ghosts: Mapping[str, Pose], moves: Sequence[Step],
+    size: float,
+) -> None:  # fmt: skip
+    """Draw where components go and how: along the steps, and straight where there are none."""
+    ways = [(s.component, s.start, s.goal) for s in moves]
+    ways += [(n, places.get(n), goal) for n, goal in sorted(ghosts.items()) if n not in goals_of(moves)]
+    for name, _, goal in ways:
+        if goal is not None:
+            draw_ghost(canvas, setup, name, goal)
+    for name, start, goal in ways:
+        if start is not None and goal is not None:
+            draw_way(canvas, setup, name, start, goal, size)
 
 
 def new_canvas(setup: Setup, width: int, height: int) -> Canvas:
@@ -115,8 +134,8 @@ def _draw_areas(canvas: Canvas, setup: Setup, size: float) -> None:
     for name, region in sorted(setup.lab.regions.items()):
         canvas.fill(_corners(region.area), _REGION, 0.55)
         canvas.dashes(_closed(region.area), (160, 184, 214), 1.0, (6, 4))
-        at = (region.area.x[1], region.area.y[1])
-        canvas.text(name, at, 0.8 * size, (96, 124, 160), align="right", shift=(0, -3))
+        at = (region.area.x[1], region.area.y[0])
+        canvas.text(name, at, 0.8 * size, (96, 124, 160), align="right", shift=(-5, -5))
     for name, zone in sorted(setup.lab.keep_out.items()):
         canvas.fill(_corners(zone.area), (250, 226, 226), 0.7)
         canvas.dashes(_closed(zone.area), _FORBIDDEN, 1.2, (5, 4))
@@ -166,28 +185,6 @@ def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None
         canvas.line((pose.apply(0, 0), pose.apply(front, 0)), color, 1.6)
     tick = [pose.apply(front + 4.5, 0), pose.apply(front - 3.5, 4.5), pose.apply(front - 3.5, -4.5)]
     canvas.fill(tick, color)
-
-
-def _draw_ghost(canvas: Canvas, setup: Setup, name: str, now: Pose | None, goal: Pose, size: float) -> None:
-    """Where a component is to go: a dashed outline, a tick, and an arrow from where it is, or by how much it turns."""
-    footprint = setup.type_of(name).geometry.footprint
-    corners = outline(footprint, goal)
-    stays = _stays(setup, name, now, goal)
-    if not stays:
-        canvas.fill(corners, (255, 240, 222), 0.55)
-    canvas.dashes([*corners, corners[0]], _MOVE, 1.5, (6, 4))
-    front = _front(footprint)
-    canvas.line((goal.apply(0.45 * front, 0), goal.apply(front, 0)), _MOVE, 1.5)
-    if now is not None and now.distance(goal) > 1.0:
-        canvas.arrow((now.x, now.y), (goal.x, goal.y), _MOVE, 1.6, 10.0)
-    if now is not None and stays and abs(turn := angle_between(now.yaw, goal.yaw)) > 0.05:
-        top = max(y for _, y in corners)
-        canvas.text(f"{turn:+.3g}°", (goal.x, top), 0.85 * size, _MOVE, align="center", weight=600, shift=(0, -4))
-
-
-def _stays(setup: Setup, name: str, now: Pose | None, goal: Pose) -> bool:
-    """Whether a component moves so little that its goal overlaps it."""
-    return now is not None and now.distance(goal) <= setup.type_of(name).geometry.footprint.radius
 
 
 def _draw_arm(canvas: Canvas, name: str, robot: Robot, joints: Joints | None, size: float) -> None:
