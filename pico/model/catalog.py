@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Literal
 
+from pico.model.fixture import grooved
 from pico.model.quantities import Angle, Length, Mass, Milliseconds, Value
 from pico.model.record import record
 
@@ -153,11 +154,13 @@ class Grasp:
     `height`: of the tool centre point above the table [mm]. `width`: of the part between the pads [mm]. `yaws`:
     directions in which the jaws may close, in the component's frame [deg]; 0 closes along the component's x. Jaws
     are alike, so a yaw and its opposite are the same to the fingers but not to the wrist: list one of the two.
+    `fixture`: `flat` faces, or grooves that are cut into the body `grip` and bring the part to the middle of the hand.
     """
 
     height: Length
     width: Length
     yaws: tuple[Angle, ...] = (0.0, 90.0)
+    fixture: Literal["flat", "v_groove"] = "flat"
 
 
 @record
@@ -208,6 +211,12 @@ class Geometry:
     grasp: Grasp | None = None
     clear_aperture: ClearAperture | None = None
     marker: MarkerPlate | None = None
+
+    def __post_init__(self) -> None:
+        if self.grasp is None or self.grasp.fixture == "flat":
+            return
+        cut = [grooved(b, self.grasp.width) if b.name == "grip" else (b,) for b in self.bodies]
+        object.__setattr__(self, "bodies", tuple(body for bodies in cut for body in bodies))
 
 
 @record

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Literal
 
 from pico.model.catalog import Catalog, ComponentType, SeatingKind
@@ -88,11 +88,15 @@ class Fingers:
 
 @record
 class Gripper:
-    """What holds a component. `fingers: none` is a vacuum gripper: it needs no room beside the part."""
+    """What holds a component. `fingers: none` is a vacuum gripper: it needs no room beside the part.
+
+    `eyes`: where cameras sit beside the gripper, in the tool's frame [mm]: those of the lab that ride on the robot.
+    """
 
     fingers: Fingers | Literal["none"] = Fingers()
     stroke: Length = 84.0
     tool: Length = 172.0
+    eyes: tuple[tuple[Length, Length, Length], ...] = ()
 
 
 @record
@@ -268,10 +272,22 @@ class Lab:
     sim: SimSettings = SimSettings()
     inventory: Mapping[str, Part]
 
+    def __post_init__(self) -> None:
+        riding = {
+            robot: tuple(c.position for _, c in sorted(self.cameras.items()) if c.robot == robot)
+            for robot in self.robots
+        }
+        robots = {name: _with_eyes(robot, riding[name]) for name, robot in self.robots.items()}
+        object.__setattr__(self, "robots", robots)  # what rides on a hand is part of its outline
+
     def beside_table(self, slot: str | None) -> bool:
         """Return whether a part in `slot` need not stand on the table: where every robot is a gantry, which reaches
         beyond its edge, storage may lie beside it."""
         return slot is not None and all(robot.model == "gantry" for robot in self.robots.values())
+
+
+def _with_eyes(robot: Robot, eyes: tuple[tuple[Length, Length, Length], ...]) -> Robot:
+    return replace(robot, gripper=replace(robot.gripper, eyes=eyes)) if robot.gripper.eyes != eyes else robot
 
 
 @record

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Fingers, Robot
 from pico.motion.engine import require_mujoco
-from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM, PALM_MASS, Shape, cup, finger
+from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM_MASS, Shape, cup, finger, palm
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 
 if TYPE_CHECKING:
@@ -129,15 +129,15 @@ def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
     import mujoco
 
     gripper = robot.gripper
-    palm = flange.add_body(name="gripper", quat=[0, 0, 0, 1], gravcomp=1)
-    _add_shapes(palm, PALM, PALM_MASS)
-    palm.add_site(name="tcp", pos=[0, 0, gripper.tool / 1000], size=[0.003, 0, 0], group=SITE_GROUP)
+    body = flange.add_body(name="gripper", quat=[0, 0, 0, 1], gravcomp=1)
+    _add_shapes(body, palm(gripper), PALM_MASS)
+    body.add_site(name="tcp", pos=[0, 0, gripper.tool / 1000], size=[0.003, 0, 0], group=SITE_GROUP)
     if gripper.fingers == "none":
-        _geom(palm, cup(gripper.tool), "cup", FINGER_MASS)
+        _geom(body, cup(gripper.tool), "cup", FINGER_MASS)
         return
     travel = gripper.stroke / 2000
     for name, side in zip(FINGERS, (1, -1), strict=True):
-        _add_finger(palm, name, side, gripper.fingers, gripper.tool, travel)
+        _add_finger(body, name, side, gripper.fingers, gripper.tool, travel)
     spec.add_equality(
         type=mujoco.mjtEq.mjEQ_JOINT,
         objtype=mujoco.mjtObj.mjOBJ_JOINT,

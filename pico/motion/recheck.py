@@ -25,7 +25,7 @@ from pico.motion.explain import Errand, blocked
 from pico.motion.hulls import Hull, of_geometry, of_shapes
 from pico.motion.reach import grasp_height
 from pico.motion.scene import Hit
-from pico.motion.shapes import LINKS, PALM, cup, finger
+from pico.motion.shapes import LINKS, cup, finger, palm
 from pico.motion.sweep import ROUNDING, Leg, Thing, march, moving, still
 from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, Standing
 
@@ -59,7 +59,7 @@ class Recheck:
     def __init__(self, setup: Setup, robot: str) -> None:
         self.setup, self.name, self.robot = setup, robot, setup.lab.robots[robot]
         self._links = [(i, h) for i, part in enumerate(LINKS) for h in of_shapes(_BODIES[i], part, INSET)]
-        self._links += [(frames.GRIPPER, h) for h in of_shapes("gripper", PALM, INSET)]
+        self._links += [(frames.GRIPPER, h) for h in of_shapes("gripper", palm(self.robot.gripper), INSET)]
         if self.robot.gripper.fingers == "none":
             self._links += [(frames.GRIPPER, h) for h in of_shapes("gripper", [cup(self.robot.gripper.tool)], INSET)]
         self._fixed = [Thing(n, "keep_out", (_zone(z),), np.eye(3), np.zeros(3)) for n, z in setup.lab.keep_out.items()]
@@ -221,7 +221,7 @@ class Recheck:
 
 def _arm(name: str, robot: Robot, joints: Joints) -> Thing:
     links = [(i, h) for i, part in enumerate(LINKS) for h in of_shapes(_BODIES[i], part, 0.0)]
-    links += [(frames.GRIPPER, h) for h in of_shapes("gripper", PALM, 0.0)]
+    links += [(frames.GRIPPER, h) for h in of_shapes("gripper", palm(robot.gripper), 0.0)]
     gripper = robot.gripper
     ends = [cup(gripper.tool)] if gripper.fingers == "none" else [
         shape for side in (1, -1) for shape in finger(side, gripper.fingers, gripper.tool)

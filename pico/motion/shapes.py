@@ -6,10 +6,11 @@ mass is spread over its colliding shapes.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
-from pico.model.lab import Fingers
+from pico.model.lab import Fingers, Gripper
 
 Point = tuple[float, float, float]
 Color = tuple[float, float, float, float]
@@ -107,6 +108,27 @@ PALM: tuple[Shape, ...] = (
     Shape("box", (0, 0, 62), (26.5, 24, 11), 0, BLUE),
 )
 """Shapes of the gripper's body, z out of the flange; the fingers hang below z = 100."""
+
+_EYE = 10.0  # mm, half of a small camera
+_BEHIND = 16.0  # mm, from its lens to its middle
+
+
+def palm(gripper: Gripper) -> tuple[Shape, ...]:
+    """Return the shapes of the gripper's body with the cameras beside it, each on an arm that keeps out of their
+    sight."""
+    return PALM + tuple(shape for eye in gripper.eyes for shape in _camera(eye, gripper.tool))
+
+
+def _camera(eye: Point, tool: float) -> tuple[Shape, ...]:
+    x, y, z = eye[0], eye[1], eye[2] + tool
+    out = math.hypot(x, y)
+    if out < _BEHIND:  # within the gripper's body
+        return ()
+    far = (out + _BEHIND) / out
+    head = Shape("box", (x * far, y * far, z), (_EYE, _EYE, _EYE), 0, DARK, True)
+    top = z - _EYE - 4
+    return head, Shape("capsule", (0, 0, top), (x * far, y * far, top), 4, GREY, True)
+
 
 PALM_LENGTH = 100.0
 """How far the gripper's body reaches from the flange [mm]; the fingers hang below it."""

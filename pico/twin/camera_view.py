@@ -55,7 +55,7 @@ class View:
         import numpy as np
 
         camera = self.camera
-        if not camera.distortion.any():
+        if not camera.distortion.any() or not len(u):
             x, y = (u - camera.matrix[0, 2]) / camera.matrix[0, 0], (v - camera.matrix[1, 2]) / camera.matrix[1, 1]
             return np.column_stack((x, y, np.ones(len(u))))
         pixels = np.column_stack((u, v)).reshape(-1, 1, 2)

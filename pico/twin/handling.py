@@ -64,6 +64,8 @@ class Handling:
         """
         legs = {segment.name: segment for segment in self.path.segments}
         self.twin.handles[self.path.robot] = self.component
+        if self.sight and "grip" in legs:
+            self.sight.survey(self.component, self._start(legs))
         yield from self._pick(legs)
         yield from self._follow(legs["lift"])
         yield from self._follow(legs["transit"])
@@ -93,6 +95,9 @@ class Handling:
 
     def _pick(self, legs: dict[SegmentName, Segment]) -> Steps:
         robot = self.path.robot
+        if "grip" not in legs:  # the hand holds it already, since a move that was cut short
+            self._carrying = True
+            return
         for leg in ("approach", "descend"):
             self.twin.grip(robot, legs[leg].opening)
             yield from self._follow(legs[leg])
@@ -122,8 +127,12 @@ class Handling:
 
     def _meant(self, legs: dict[SegmentName, Segment]) -> _Held:
         """The part in the hand as the path means it: over the goal where the path ends, on the table where it grips."""
-        base = -tool_pose(self.robot, legs["grip"].joints[-1])[2]
+        base = -tool_pose(self.robot, legs["lower"].joints[-1])[2]
         return _Held(self._tool(legs["release"].joints[-1]).inverse().compose(self.goal), base)
+
+    def _start(self, legs: dict[SegmentName, Segment]) -> Pose:
+        """Where the path means the part to stand before it is picked."""
+        return self._tool(legs["grip"].joints[-1]).compose(self._meant(legs).pose)
 
     def _look(self, legs: dict[SegmentName, Segment]) -> Generator[float, None, _Held]:
         """Return where the part is in the hand."""
@@ -131,6 +140,8 @@ class Handling:
         if self.sight is None:
             return meant
         seen = self.sight.pose_in_hand(robot, self.component)
+        if seen is None and "grip" not in legs:  # there is nowhere better to put it
+            return meant
         if seen is None:
             yield from self._return(legs, meant)
             yield from self._lose("unseen", f"no camera sees {self.component} in the hand of {robot}: it was put back")
@@ -138,7 +149,7 @@ class Handling:
         joints = self.twin.joints(robot)
         held = _Held(self._tool(joints).inverse().compose(seen.pose), seen.height - tool_pose(self.robot, joints)[2])
         slid, turned = held.pose.distance(meant.pose), abs(angle_between(meant.pose.yaw, held.pose.yaw))
-        if max(slid / SLID_MM, turned / SLID_DEG) > 1:
+        if max(slid / SLID_MM, turned / SLID_DEG) > 1 and "grip" in legs:
             yield from self._return(legs, held)
             text = f"{self.component} slipped by {slid:.1f} mm and {turned:.1f}° in the fingers of {robot}"
             yield from self._lose("slipped", f"{text}: it was put back")
@@ -173,7 +184,7 @@ class Handling:
         yield from nudge(self.twin, robot, top)
         yield from self._follow(backward(legs["transit"]))
         yield from settle(self.twin, robot)
-        column = yield from self._aim(held, self._tool(legs["grip"].joints[-1]).compose(self._meant(legs).pose))
+        column = yield from self._aim(held, self._start(legs))
         yield from self._follow(self._shifted(backward(legs["lift"]), column, CLEARANCE - held.base))
         yield from settle(self.twin, robot)
         yield from self._let_go(legs["release"])

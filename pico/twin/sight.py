@@ -25,6 +25,10 @@ class InHand:
 class Sight(Protocol):
     """Sees parts in hands. An arm is at rest when it is asked."""
 
+    def survey(self, component: str, near: Pose) -> None:
+        """Look at a part that stands near a pose, before an arm reaches for it."""
+        ...
+
     def refer(self, robot: str, component: str) -> bool:
         """Look at a part that still stands, the open hand around it; return whether it is seen.
 
@@ -42,6 +46,9 @@ class Exact:
 
     def __init__(self, twin: Twin) -> None:
         self._twin = twin
+
+    def survey(self, component: str, near: Pose) -> None:
+        """Learn nothing: there is nothing to put right."""
 
     def refer(self, robot: str, component: str) -> bool:
         """See it, always."""

@@ -1,0 +1,40 @@
+"""A grip with V-grooves: the pads slide along their flanks until the part is in the middle of the hand. Millimetres."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pico.model.catalog import Body
+
+BREADTH = 22.0
+"""Breadth of the fingers that the grooves are cut for [mm]: the default of `Fingers`."""
+
+
+def grooved(grip: Body, width: float) -> tuple[Body, ...]:
+    """Return a square block with a groove in each of its four upright faces: a core and four posts at the corners.
+
+    `width` is what is left between two pads whose edges lie on the flanks, which stand at 45 deg to the face. Pads that
+    are off the middle by less than the block's edge less `width`, by half, still find the groove. Raises ValueError for
+    a grip that is no upright square block, or has no room for a groove.
+    """
+    if grip.shape != "box" or grip.size[0] != grip.size[1] or grip.yaw % 90:
+        raise ValueError("a `v_groove` is cut into a body `grip` that is a box, as wide as it is deep, at yaw 0")
+    half, height = grip.size[0] / 2, grip.size[2]
+    reach = (width - BREADTH) / 2  # of a post, from its middle to its edge
+    middle = half - reach
+    if reach <= 0 or middle <= BREADTH / 2:
+        raise ValueError(
+            f"no V-groove for fingers of {BREADTH:g} mm fits a grip of {2 * half:g} mm held at {width:g} mm: "
+            f"`width` is above {BREADTH:g} and below {2 * half:g} mm"
+        )
+    floor = 2 * (middle - reach / 2)  # the pads' faces do not touch it
+    core = replace(grip, name="grip_core", size=(min(floor, width - 1), min(floor, width - 1), height))
+    x, y, z = grip.at
+    posts = [
+        replace(grip, name=f"grip_{n}", size=(reach * 2**0.5, reach * 2**0.5, height), yaw=45.0,
+                at=(x + a * middle, y + b * middle, z))
+        for n, (a, b) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1)), 1)
+    ]  # fmt: skip
+    return core, *posts

@@ -1,0 +1,170 @@
+"""A sight from pictures: the eye in the hand sees the plate of a held part, and overhead cameras say how wrong it is.
+
+The eye rides on the hand, so it sees the plate at every carry yaw, past the fingers and under the palm, where cameras
+over the table see the palm only. Its calibration to the hand is not perfect, and that error would be in every
+placement. So before the fingers close, the eye looks at the part while it still stands, where the overhead cameras,
+put right by the datum markers in their pictures, have seen it too. What the eye has wrong is the difference; it is the
+same for every part and every yaw, hence averaged over all picks. What remains comes from the overhead cameras, the
+same that judge later where the part stands. Millimetres, radians; matrices (4, 4) are poses.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from pico.model.catalog import MarkerPlate
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.motion.kinematics import fk
+from pico.twin.cameras import Eyes
+from pico.twin.physics import Twin
+from pico.twin.sight import InHand
+from pico.vision.anchor import anchored
+from pico.vision.camera import CameraModel
+from pico.vision.markers import detect
+from pico.vision.poses import Estimate, View, free, from_rays, on_plane
+from pico.vision.rigid import best_motion, motion, moved, planar, rotation, rotation_vector, square, upright
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_ROOM = 1.5
+"""The region of a picture in which a plate is looked for is as large as the plate and so many times it around."""
+_MEMORY = 30
+"""Picks over which what an eye has wrong is averaged."""
+
+
+class EyeInHand:
+    """Sees parts in hands through `eyes`; implements `Sight`.
+
+    `cameras`: as they are calibrated, which is not quite as they are; those over the table are put right by datums.
+    """
+
+    def __init__(self, setup: Setup, twin: Twin, eyes: Eyes, cameras: Mapping[str, CameraModel]) -> None:
+        self._setup, self._twin, self._eyes = setup, twin, eyes
+        self._hands = {n: c for n, c in cameras.items() if c.robot is not None}
+        self._over = {n: c for n, c in cameras.items() if c.robot is None}
+        self._anchored = False
+        self._standing: dict[str, Estimate] = {}
+        self._wrong: dict[str, deque[Array]] = {}
+
+    def survey(self, component: str, near: Pose) -> None:
+        """Look from above at a part that stands near a pose, before an arm comes in between."""
+        self._standing.pop(component, None)
+        marked = self._marked(component)
+        if marked is None:
+            return
+        number, plate = marked
+        self._anchor()
+        at = upright(near, 0.0) @ _plate_pose(plate)
+        views = [v for camera in self._over.values() if (v := self._view(camera, at, number, plate.size))]
+        if len(views) > 1:
+            self._standing[component] = from_rays(views, plate.size)
+        elif views:
+            self._standing[component] = on_plane(views, plate.size, plate.at[2], 0.2, 0.05)
+
+    def refer(self, robot: str, component: str) -> bool:
+        """Look at a part that stands, the open hand around it: what the eye has wrong is learned from it."""
+        import numpy as np
+
+        seen, marked = self._in_tool(robot, component), self._marked(component)
+        if seen is None or marked is None:
+            return False
+        stands = self._standing.pop(component, None)
+        if stands is not None:
+            plate = stands.pose.copy()
+            plate[:3, :3] = rotation(np.array((0.0, 0.0, np.arctan2(plate[1, 0], plate[0, 0]))))  # it stands upright
+            plate[2, 3] = marked[1].at[2]
+            there = np.linalg.inv(self._tool(robot)) @ plate
+            turn = rotation_vector(there[:3, :3] @ seen.pose[:3, :3].T)
+            wrong = np.concatenate((there[:3, 3] - seen.pose[:3, 3], turn))
+            self._wrong.setdefault(robot, deque(maxlen=_MEMORY)).append(wrong)
+        return True
+
+    def pose_in_hand(self, robot: str, component: str) -> InHand | None:
+        """Return where a held part is, or None where its eye does not see it."""
+        import numpy as np
+
+        seen, marked = self._in_tool(robot, component), self._marked(component)
+        if seen is None or marked is None:
+            return None
+        learned = self._wrong.get(robot)
+        plate = moved(seen.pose, np.mean(learned, axis=0)) if learned else seen.pose
+        base = self._tool(robot) @ plate @ np.linalg.inv(_plate_pose(marked[1]))
+        return InHand(planar(base), float(base[2, 3]), seen.uncertainty)
+
+    def _in_tool(self, robot: str, component: str) -> Estimate | None:
+        """The plate of the part in or around which a hand is, in the tool's frame, as an eye on that hand sees it."""
+        import numpy as np
+
+        marked, grasp = self._marked(component), self._setup.type_of(component).geometry.grasp
+        if marked is None or grasp is None:
+            return None
+        number, plate = marked
+        at = motion(np.diag((1.0, -1.0, -1.0)), np.array((0.0, 0.0, grasp.height - plate.at[2])))
+        for camera in self._hands.values():
+            view = self._view(camera, at, number, plate.size) if camera.robot == robot else None
+            if view is not None:
+                return free(view, plate.size, _facing(at, view, plate.size))
+        return None
+
+    def _view(self, camera: CameraModel, at: Array, number: int, size: float) -> View | None:
+        """The marker `number` as a camera sees it around where a plate at `at` (4, 4) should be, in its parent's
+        frame."""
+        import numpy as np
+
+        corners = camera.project(square(size) @ at[:3, :3].T + at[:3, 3])
+        if not np.isfinite(corners).all():
+            return None
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        room = _ROOM * (high - low).max() / 2
+        first, last = np.floor(low - room).astype(int), np.ceil(high + room).astype(int)
+        width, height = camera.pixels
+        if last.min() < 8 or first[0] > width - 8 or first[1] > height - 8:
+            return None
+        frame = self._eyes.frame(camera.name, (*first.tolist(), *(last - first).tolist()))
+        found = [] if frame.black else [m for m in detect(frame).markers if m.number == number]
+        return View(replace(camera, robot=None), found[0]) if len(found) == 1 else None
+
+    def _anchor(self) -> None:
+        """Put the cameras over the table right by the datums in their pictures, once."""
+        if not self._anchored:
+            self._anchored = True
+            for name, camera in self._over.items():
+                self._over[name] = anchored(self._setup, camera, detect(self._eyes.frame(name)))
+
+    def _tool(self, robot: str) -> Array:
+        """The pose of the tool as the joints say it is."""
+        import numpy as np
+
+        settings = self._setup.lab.robots[robot]
+        point, turn = fk(self._twin.joints(robot), settings.gripper.tool)
+        mount = upright(Pose(settings.mount.x, settings.mount.y, settings.mount.yaw), settings.mount.z)
+        return mount @ motion(np.array(turn), np.array(point))
+
+    def _marked(self, component: str) -> tuple[int, MarkerPlate] | None:
+        """The number and the plate of a part's marker."""
+        number, plate = self._setup.lab.inventory[component].marker, self._setup.type_of(component).geometry.marker
+        return (number, plate) if number is not None and plate is not None else None
+
+
+def _plate_pose(plate: MarkerPlate) -> Array:
+    import numpy as np
+
+    return motion(np.eye(3), np.array(plate.at))
+
+
+def _facing(at: Array, view: View, size: float) -> Array:
+    """The pose near which a held plate is: as high as `at` in the tool's frame, level, turned as its corners say."""
+    import numpy as np
+
+    origin, along = view.camera.rays(view.marker.corners)
+    points = origin + along * ((at[2, 3] - origin[2]) / along[:, 2])[:, None]
+    found: Array = best_motion(square(size), points)
+    return motion(rotation(rotation_vector(found[:3, :3])), np.append(found[:2, 3], at[2, 3]))
