@@ -9,7 +9,7 @@ from pico.model.plan import Plan
 from pico.model.record import as_json
 from pico.planning.graph import Edge, Node, PlanGraph
 
-from .plan import address, change_of, header, what
+from .plan import address, arms, change_of, header, what
 from .style import columns, count, paint, seconds
 
 _RED = "#c62828"
@@ -33,10 +33,11 @@ def text(plan: Plan, graph: PlanGraph, *, head: str = "", goal: str = "", next_s
 
 
 def _table(plan: Plan, nodes: list[Node], spare: bool) -> list[str]:
-    rows = []
+    rows, several = [], len(arms(plan)) > 1
     for n in nodes:
         op = n.operation
         cells = [paint("red" if n.critical else "dim", op.id), address(op), what(op, change_of(plan, op))]
+        cells += [op.robot or ""] if several else []
         cells += [f"at {seconds(op.start)}", f"{seconds(op.seconds):>6}"]
         rows.append([*cells, f"may be {seconds(n.spare)} late"] if spare else cells)
     return columns(rows, indent="  ")

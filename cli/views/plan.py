@@ -16,6 +16,8 @@ from pico.model.record import as_json
 from .style import WIDTH, ago, columns, count, listed, paint, place, seconds, width, wrap
 
 SHOWN_TOLERATED = 5
+BAR = 60
+"""Columns for the time of a plan, where several arms are drawn in it."""
 
 
 def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "", single: bool = False) -> str:
@@ -24,6 +26,7 @@ def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "", sin
     blocks = [header(plan, head, goal, single)]
     if plan.operations:
         blocks.append("\n".join(operations(plan)))
+        blocks.append("\n".join(timelines(plan)))
     blocks.append("\n".join([*_tolerated(plan), *(part for line in _summary(plan) for part in wrap(line, "  "))]))
     if plan.errored:
         blocks.append("This plan can't be applied; what is wrong stands below.")
@@ -53,8 +56,8 @@ def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, 
 def operations(plan: Plan) -> list[str]:
     """Return one line an operation, two where the reason is long."""
     changes = {op.id: change_of(plan, op) for op in plan.operations}
-    moving = any(op.robot for op in plan.operations)
-    rows = [[*_cells(op, changes[op.id]), _why(op, changes[op.id], moving)] for op in plan.operations]
+    moving, several = any(op.robot for op in plan.operations), len(arms(plan)) > 1
+    rows = [[*_cells(op, changes[op.id], several), _why(op, changes[op.id], moving, several)] for op in plan.operations]
     lines = columns([row[:-1] for row in rows], indent="  ")
     whole = []
     room = max((width(line) for line in lines), default=0)
@@ -118,17 +121,37 @@ def what(op: Operation, change: Change | None) -> str:
     return change.text if change and op.primitive == "set" else step(op)
 
 
-def _cells(op: Operation, change: Change | None) -> list[str]:
+def _cells(op: Operation, change: Change | None, several: bool) -> list[str]:
     took = seconds(op.seconds) if op.seconds >= 0.05 else ""
-    return [f"{symbol(op)} {address(op)}", what(op, change), f"{took:>6}"]
+    robot = "" if op.primitive == "park" else op.robot or ""
+    when = [robot, f"at {seconds(op.start):>6}"] if several else []
+    return [f"{symbol(op)} {address(op)}", what(op, change), *when, f"{took:>6}"]
 
 
-def _why(op: Operation, change: Change | None, moving: bool) -> str:
+def arms(plan: Plan) -> tuple[str, ...]:
+    """Return the robots that a plan moves, by name."""
+    return tuple(sorted({op.robot for op in plan.operations if op.robot}))
+
+
+def timelines(plan: Plan) -> list[str]:
+    """Return a line for each of several arms: when it works, when it waits, and how long it works in all."""
+    rows = []
+    for robot in arms(plan) if len(arms(plan)) > 1 else ():
+        own = [op for op in plan.operations if op.robot == robot]
+        line = list("·" * BAR)
+        for op in own:
+            first, end = (round(BAR * t / plan.makespan) for t in (op.start, op.start + op.seconds))
+            line[first:end] = "━" * (end - first)
+        rows.append([robot, "".join(line), f"{seconds(sum(op.seconds for op in own)):>6}"])
+    return columns(rows, indent="  ")
+
+
+def _why(op: Operation, change: Change | None, moving: bool, several: bool) -> str:
     said = reason(op.reason, change)
     if change and op.primitive == "set" and said == change.text:
         said = ""  # it stands beside it already
     beside = "beside the arm" if moving and not op.robot and op.reason.kind != "interlock" else ""
-    beside = beside if op.primitive in ("set", "home") else ""
+    beside = beside if op.primitive in ("set", "home") and not several else ""
     return ", ".join(part for part in (said, beside) if part)
 
 
@@ -196,8 +219,8 @@ def _summary(plan: Plan) -> list[str]:
     parts = [tally(plan.operations)]
     if any(op.primitive in ("move", "stow") for op in plan.operations):
         parts.append(_staging(plan))
-    arms = sum(op.seconds for op in plan.operations if op.robot)
-    parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arms)}" if arms else ""))
+    arm = sum(op.seconds for op in plan.operations if op.robot) if len(arms(plan)) == 1 else 0.0
+    parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arm)}" if arm else ""))
     line = " · ".join(part for part in parts if part)
     changed = [op for op in plan.operations if op.reason.kind != "interlock"]
     touched = {op.component for op in changed if op.component in plan.base.state}
