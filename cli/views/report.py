@@ -42,19 +42,15 @@ def _bench(report: RunReport) -> list[str]:
     away = [name for name in report.absent if name not in report.held.values()]
     if away:
         lines.append(f"Not seen where it should stand: {listed(away)}.")
-    lines += [_in_hand(robot, part, report.clock) for robot, part in report.held.items()]
-    first = "Then continue" if report.held else "Continue"
-    return [*lines, f"{first} with the same command: it plans from what is observed now."]
+    lines += [_in_hand(robot, part) for robot, part in report.held.items()]
+    if report.outcome == "interrupted":
+        return [*lines, "Continue with `pico resume`; go back with `pico undo`."]
+    return [*lines, "Continue with the same command: it plans from what is observed now. `pico undo` goes back."]
 
 
-def _in_hand(robot: str, part: str, clock: str) -> str:
-    """Return what to do about a component that a run left in a gripper."""
-    what = (
-        f"{robot} still holds {part} and can't pick anything else. Take it out of the gripper and set it down upright"
-    )
-    if clock == "simulated":
-        return f"{what}: here `pico sim nudge {part}` sets it down where it is, `pico sim remove {part}` takes it away."
-    return f"{what}, by hand, on the table where a camera sees it."
+def _in_hand(robot: str, part: str) -> str:
+    """Return what becomes of a component that a run left in a gripper."""
+    return f"{robot} still holds {part}: the next plan sets it down first; `pico recover` does only that."
 
 
 def _partial(report: RunReport) -> str:

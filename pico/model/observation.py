@@ -55,10 +55,16 @@ class UnknownObject:
 
 @record
 class ObservedRobot:
-    """A robot as it was seen: joint angles from the base outward [rad], and the component in its gripper."""
+    """A robot as it was seen: joint angles from the base outward [rad], and the component in its gripper.
+
+    `picked`: where that component stood before, as the journal knows; `opening`: the distance between the pads [mm],
+    where the gripper tells.
+    """
 
     joints: tuple[float, ...]
     holding: str | None = None
+    picked: Pose | None = None
+    opening: float | None = None
 
 
 @record

@@ -12,7 +12,7 @@ from pico.model.record import record
 
 Primitive = Literal["move", "stow", "set", "home", "measure", "park", "operator"]
 Outcome = Literal["done", "failed", "unknown"]
-ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked", "interlock"]
+ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked", "interlock", "held"]
 
 
 @record
@@ -24,7 +24,8 @@ class Reason:
     in a ring of components that block one another (`of`), and is put down in storage on its way. `operator`: only a
     person can do it. `asked`: somebody asked for this one operation (`pico do`).
     `parked`: a robot leaves the beam when the last of its work is done. `interlock`: a laser's shutter is closed while
-    somebody works in its beam, and set as wanted afterwards.
+    somebody works in its beam, and set as wanted afterwards. `held`: a hand that was stopped still holds it, and sets
+    it down before anything else.
     """
 
     kind: ReasonKind
@@ -38,7 +39,8 @@ class Operation:
     """One node of a plan's graph.
 
     Arguments of `move` and `stow`: `from` and `to`, each `{"pose": {x, y, yaw}, "slot": name or absent}`, and
-    `grasp_yaw` [deg], the direction in which the jaws close in the component's frame. Of `set`: `tunable`, `from`,
+    `grasp_yaw` [deg], the direction in which the jaws close in the component's frame; where the robot holds it already,
+    `from` says `"held": true` and where it then is, seen from above. Of `set`: `tunable`, `from`,
     `to`. Of `home`: `tunable`. Of `park`: none; its `component` is the robot's name. Of `operator`: `text`, and `to`
     where a component is to be moved. `resources` are what it holds while it runs (a robot, `motor/p1.angle`, the
     component itself): each does one thing at a time. `after`: ids of the operations that must be done first.

@@ -92,8 +92,10 @@ class Plan:
 
     @property
     def absent(self) -> tuple[str, ...]:
-        """Components that the target names and nobody saw standing: the bench can't equal the target without them."""
-        return tuple(sorted(self.target.state.keys() - self.base.state.keys()))
+        """Components that the target names and nobody saw standing: the bench can't equal the target without them.
+        One that a hand sets down first counts as standing."""
+        held = {op.component for op in self.operations if op.reason.kind == "held"}
+        return tuple(sorted(self.target.state.keys() - self.base.state.keys() - held))
 
     def sealed(self) -> Plan:
         """Return the plan with its digest set. The digest leaves out itself and the time of the observation."""

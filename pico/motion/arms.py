@@ -90,6 +90,34 @@ class ArmMotion:
         path = Move(scene, component, geometry, start, goal, grasp_yaw, near, now).find()
         return self._twice(path, Task(component, geometry, start, goal, grasp_yaw), near, elsewhere)
 
+    def set_down(
+        self,
+        robot: str,
+        component: str,
+        held: Pose,
+        goal: Pose,
+        standing: Mapping[str, Standing],
+        joints: Joints,
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:
+        """See `Motion.set_down`."""
+        from pico.motion.setdown import SetDown, gantry_set_down, tool_of
+
+        arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
+        found = check_grip(robot, arm, component, geometry) or self.reach(robot, component, goal, 0.0)
+        if found:
+            return found
+        if arm.model == "gantry":
+            return gantry_set_down(robot, arm, component, geometry, held, goal, standing, joints)
+        from pico.motion.recheck import Task
+
+        near = {n: t for n, t in self._near(robot, standing, geometry).items() if n != component}
+        elsewhere, jaws = self._others(robot, others), tool_of(arm, joints).yaw - held.yaw
+        scene = self._scene(robot, near | {component: Standing(goal, geometry)})
+        scene.place_robots(elsewhere)
+        path = SetDown(scene, component, geometry, held, goal, jaws, near, joints).find()
+        return self._twice(path, Task(component, geometry, held, goal, jaws), near, elsewhere)
+
     def park(
         self,
         robot: str,

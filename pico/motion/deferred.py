@@ -40,6 +40,19 @@ class DeferredMotion:
         """See `Motion.move`."""
         return self._arms.move(robot, component, start, goal, grasp_yaw, standing, joints, others)
 
+    def set_down(
+        self,
+        robot: str,
+        component: str,
+        held: Pose,
+        goal: Pose,
+        standing: Mapping[str, Standing],
+        joints: Joints,
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:
+        """See `Motion.set_down`."""
+        return self._arms.set_down(robot, component, held, goal, standing, joints, others)
+
     def park(
         self,
         robot: str,

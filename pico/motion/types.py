@@ -97,6 +97,20 @@ class Motion(Protocol):
         `others` among the arms, which stand at these joints, or are parked where they are not named."""
         ...
 
+    def set_down(
+        self,
+        robot: str,
+        component: str,
+        held: Pose,
+        goal: Pose,
+        standing: Mapping[str, Standing],
+        joints: Joints,
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:
+        """Return the path that takes `component`, which `robot` holds at `held` (seen from above) with its arm at
+        `joints`, to `goal`, and the hand up from there; `others` as for `move`."""
+        ...
+
     def park(
         self,
         robot: str,

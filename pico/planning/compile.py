@@ -81,7 +81,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     if not any(d.severity == "error" for d in diagnostics):
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        ordered = after_set_downs(emptied.operations, (*moves.operations, *shifted))
+        ordered = after_set_downs(setup, emptied, (*moves.operations, *shifted), request.motion)
         guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))

@@ -27,7 +27,7 @@ def read_situation(setup: Setup, seen: Observation, wanted: LabState, *, exact: 
     changes = diff_observed(setup, seen, wanted, exact=exact)
     moving = tuple(c.component for c in changes if c.tunable == "pose" and not c.tolerated)
     robots = tuple(n for n in sorted(setup.lab.robots) if not _holding(seen, n))
-    found = [*_absences(setup, seen, wanted), *_hands(seen), *_doubts(setup, seen)]
+    found = [*_absences(setup, seen, wanted), *_doubts(setup, seen)]
     return Situation(changes, moving, robots, tuple(found))
 
 
@@ -50,15 +50,6 @@ def _absences(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Dia
             yield warning(
                 "missing", f"nobody sees {name}, which belongs {f'in {slot}' if slot else f'at {pose}'}",
                 hint="put it where a camera sees it, then plan again; the rest is planned without it", address=name,
-            )  # fmt: skip
-
-
-def _hands(seen: Observation) -> Iterator[Diagnostic]:
-    for robot, state in sorted(seen.robots.items()):
-        if state.holding:
-            yield warning(
-                "held", f"{robot} holds {state.holding}, so it can't pick anything else",
-                hint=f"take {state.holding} out of the gripper, then plan again", address=state.holding,
             )  # fmt: skip
 
 

@@ -150,7 +150,10 @@ def test_where_the_lab_allows_open_beam_work_the_shutter_stays() -> None:
 def test_no_shutter_opens_while_a_robot_holds_something() -> None:
     setup, seen, wanted = case(shutter="closed", goal="open", moves=False)
     hand = {"arm1": ObservedRobot(joints=(), holding="a")}
-    made = planned(setup, replace(seen, robots=hand), wanted)
+    first = planned(setup, replace(seen, robots=hand), wanted)
+    assert steps(first)[0] == "stow" and steps(first)[-1] == "open"  # it is set down before the shutter opens
+    hidden = {**seen.components, "a": replace(seen.components["a"], presence="held", pose=None)}
+    made = planned(setup, replace(seen, robots=hand, components=hidden), wanted)
     assert made.errored
     assert [d.summary for d in made.diagnostics if d.code == "hand-full"]
     assert not planned(setup, seen, wanted).errored

@@ -46,11 +46,30 @@ def require_ready(setup: Setup, world: World, operation: Operation, start: Pose)
     return pose
 
 
+def in_hand(operation: Operation) -> bool:
+    """Return whether an operation sets down what its robot holds already."""
+    start = operation.arguments.get("from")
+    return isinstance(start, dict) and bool(start.get("held"))
+
+
+def require_held(setup: Setup, world: World, operation: Operation) -> Pose:
+    """Return where the part is that a robot holds, seen from above; raises MoveFailed where it holds another or none.
+    A hand that holds something never opens for anything else."""
+    name, robot = operation.component, operation.robot or "(none)"
+    if robot not in setup.lab.robots:
+        raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}", address=name))
+    holding, pose = world.robots[robot].holding, world.components[name].pose
+    if holding != name or pose is None:
+        text = f"{robot} holds {holding or 'nothing'}, not {name}"
+        raise MoveFailed(error("not-held", text, hint=_AGAIN, address=name))
+    return pose
+
+
 def require_empty(world: World, robot: str) -> None:
     """Raise MoveFailed where a robot has something in its gripper."""
     holding = world.robots[robot].holding
     if holding:
-        hint = f"a hand takes it out with `pico sim nudge {holding}`"
+        hint = "`pico recover` sets it down; so does the next plan, before anything else"
         raise MoveFailed(error("hand-full", f"{robot} still holds {holding}", hint=hint, address=holding))
 
 

@@ -54,7 +54,7 @@ class Session:
         self.token = token
         self._setup, self._root, self._world = setup, root, world
         self._motion, self._tell_all = motion, tell
-        self._mover = new_mover(setup, world, fidelity)
+        self._mover, self._began_at = new_mover(setup, world, fidelity), world.clock
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
         self._attempts = Attempts(journal, self, token, self._began)
@@ -69,6 +69,8 @@ class Session:
 
     def world(self) -> World:
         """Return the table as it is at this moment."""
+        if self._time.now == self._began_at:  # a mover may find what a hand holds only once time passes
+            return self._world
         return replace(self._mover.world(self._world), clock=self._time.now)
 
     async def execute(self, operation: Operation, key: str) -> OperationResult:

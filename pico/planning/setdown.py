@@ -1,0 +1,148 @@
+"""What a hand still holds, after a run was stopped or killed, is set down before anything else: where it was picked, or
+in a free storage slot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pico.diagnostics import Diagnostic, warning
+from pico.geometry import Grid, fits, placed
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedRobot, slot_at
+from pico.model.operation import Operation, Reason
+from pico.model.record import as_json
+from pico.motion.types import Blocked, Motion, MovePath, Standing
+from pico.planning.movers import Obstacle, Place, standing_obstacles, turned
+
+SET_DOWN_SECONDS = 6.0
+"""What setting a part down takes where no motion is asked for [s]."""
+PARK_SECONDS = 3.0
+"""What a park takes where no motion is asked for [s]."""
+TRIES = 12
+"""How many places are tried for a part that is held."""
+
+
+@dataclass(frozen=True, slots=True)
+class Settled:
+    """The bench as it will be once every hand is empty: what leads there, and what can't be set down."""
+
+    seen: Observation
+    operations: tuple[Operation, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def set_downs(setup: Setup, seen: Observation, motion: Motion | None) -> Settled:
+    """Return the operations that empty the hands, one after the other, and the bench as it then is.
+
+    `after` holds indices as text. A part for which there is no place stays in the hand, with a warning that says why.
+    """
+    settled = Settled(seen)
+    for robot, state in sorted(seen.robots.items()):
+        if state.holding is not None and robot in setup.lab.robots:
+            settled = _emptied(setup, settled, robot, state, motion)
+    return settled
+
+
+def _emptied(setup: Setup, settled: Settled, robot: str, hand: ObservedRobot, motion: Motion | None) -> Settled:
+    seen, name = settled.seen, hand.holding or ""
+    part = seen.components.get(name)
+    if part is None or part.pose is None or name not in setup.lab.inventory:
+        return replace(settled, diagnostics=(*settled.diagnostics, _stuck(robot, name, "nobody knows how it is held")))
+    obstacles = standing_obstacles(setup, seen, {})
+    why = "no storage slot is free"
+    for place in _places(setup, name, hand, obstacles)[:TRIES]:
+        path = _path(setup, seen, robot, name, place, obstacles, motion)
+        if isinstance(path, Blocked):
+            why = path.text
+            continue
+        after = tuple(str(n) for n in range(len(settled.operations)))
+        operation = _operation(name, robot, as_json(part.pose), place, path, after)
+        joints = path.end if path else hand.joints
+        components = {**seen.components, name: replace(part, presence="seen", pose=place.pose)}
+        robots = {**seen.robots, robot: replace(hand, joints=joints, holding=None)}
+        now = replace(seen, components=components, robots=robots)
+        return replace(settled, seen=now, operations=(*settled.operations, operation))
+    return replace(settled, diagnostics=(*settled.diagnostics, _stuck(robot, name, why)))
+
+
+def _operation(
+    name: str, robot: str, held: Any, place: Place, path: MovePath | None, after: tuple[str, ...]
+) -> Operation:
+    to = {"pose": as_json(place.pose)} | ({"slot": place.slot} if place.slot else {})
+    return Operation(
+        id="", primitive="stow" if place.slot else "move", component=name, robot=robot, resources=(robot, name),
+        arguments={"from": {"pose": held, "held": True}, "to": to}, after=after,
+        reason=Reason(kind="held", text=f"{robot} still holds it"),
+        seconds=path.seconds if path else SET_DOWN_SECONDS,
+    )  # fmt: skip
+
+
+def _places(setup: Setup, name: str, hand: ObservedRobot, obstacles: Sequence[Obstacle]) -> list[Place]:
+    """Where a part may be set down: where it was picked, its home, then the slots nearest to where it was picked."""
+    grid = Grid.of({o.name: o.shape for o in obstacles})
+    geometry, margin = setup.type_of(name).geometry, setup.lab.margins.body
+    free = (
+        place for place in _wished(setup, name, hand)
+        if not grid.conflicts(placed(geometry.footprint, place.pose), margin)
+    )  # fmt: skip
+    return list(dict.fromkeys(free))
+
+
+def _wished(setup: Setup, name: str, hand: ObservedRobot) -> Iterator[Place]:
+    footprint, home = setup.type_of(name).geometry.footprint, setup.lab.inventory[name].home
+    if hand.picked is not None:
+        yield Place(hand.picked, slot_at(setup, hand.picked))
+    if home is not None:
+        yield from turned(setup, home, footprint)
+    near = hand.picked or (setup.lab.slots[home].pose if home else None)
+    slots = [s for s, slot in setup.lab.slots.items() if fits(slot, footprint)]
+    for slot in sorted(slots, key=lambda s: (setup.lab.slots[s].pose.distance(near) if near else 0.0, s)):
+        yield from turned(setup, slot, footprint)
+
+
+def _path(
+    setup: Setup, seen: Observation, robot: str, name: str, place: Place, obstacles: Sequence[Obstacle],
+    motion: Motion | None,
+) -> MovePath | Blocked | None:  # fmt: skip
+    if motion is None:
+        return None
+    standing: dict[str, Standing] = {o.name: o.standing for o in obstacles}
+    others = {n: r.joints for n, r in seen.robots.items() if n != robot}
+    held, joints = seen.components[name].pose, seen.robots[robot].joints
+    assert held is not None  # `_emptied` looked
+    return motion.set_down(robot, name, held, place.pose, standing, joints, others)
+
+
+def _stuck(robot: str, name: str, why: str) -> Diagnostic:
+    return warning(
+        "held", f"{robot} holds {name} and can't set it down: {why}",
+        hint=f"take {name} out of the gripper by hand, then plan again", address=name,
+    )  # fmt: skip
+
+
+def after_set_downs(
+    setup: Setup, settled: Settled, rest: Sequence[Operation], motion: Motion | None
+) -> list[Operation]:
+    """Return the operations with the set-downs before all others, and with a park of each robot that does nothing
+    else; `after` holds indices as text."""
+    first = settled.operations
+    if not first:
+        return list(rest)
+    count, last = len(first), str(len(first) - 1)
+    shifted = [replace(o, after=tuple(str(int(e) + count) for e in o.after) or (last,)) for o in rest]
+    idle = sorted({o.robot or "" for o in first} - {o.robot for o in rest})
+    return [*first, *shifted, *(_park(setup, settled.seen, robot, last, motion) for robot in idle)]
+
+
+def _park(setup: Setup, seen: Observation, robot: str, after: str, motion: Motion | None) -> Operation:
+    obstacles = standing_obstacles(setup, seen, {})
+    others = {n: r.joints for n, r in seen.robots.items() if n != robot}
+    standing: dict[str, Standing] = {o.name: o.standing for o in obstacles}
+    path = motion.park(robot, seen.robots[robot].joints, standing, others) if motion else None
+    return Operation(
+        id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=(after,),
+        reason=Reason(kind="parked", text="out of the beam"),
+        seconds=path.seconds if isinstance(path, MovePath) else PARK_SECONDS,
+    )  # fmt: skip
