@@ -17,11 +17,23 @@ from pathlib import Path
 
 from pico.backends.protocol import Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.model.record import record
 
 
 def utc_now() -> str:
     """Return the time as ISO 8601, UTC, to the second."""
     return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+@record
+class Holder:
+    """Who has the bench: the lease's token, the user, the process, since when, and what for."""
+
+    token: int
+    user: str
+    pid: int
+    since: str
+    what: str
 
 
 class BenchLock:
@@ -82,6 +94,30 @@ class BenchLock:
         fresh = self._folder / f"holder.{os.getpid()}.tmp"
         fresh.write_text(json.dumps(who), encoding="utf-8")
         fresh.replace(self._folder / "holder.json")
+
+    def holder(self) -> Holder | None:
+        """Return who has the lock, or None where nobody has it; takes it for no longer than the question needs."""
+        try:
+            file = os.open(self._folder / "lock", os.O_RDWR | os.O_CLOEXEC)
+        except OSError:
+            return None
+        try:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return self._read_holder()
+        finally:
+            os.close(file)
+        return None
+
+    def _read_holder(self) -> Holder:
+        try:
+            who = json.loads((self._folder / "holder.json").read_text(encoding="utf-8"))
+            return Holder(
+                token=int(who["token"]), user=str(who["user"]), pid=int(who["pid"]), since=str(who["since"]),
+                what=str(who["what"]),
+            )  # fmt: skip
+        except (OSError, ValueError, KeyError, TypeError):
+            return Holder(token=0, user="somebody", pid=0, since="", what="another process")
 
     def _taken(self) -> Diagnostic:
         try:

@@ -71,7 +71,7 @@ def _moved(setup: Setup, plan: Plan, seen: Observation) -> Iterator[Diagnostic]:
         if part is None or part.pose is None or op.component not in setup.lab.inventory:
             yield error("stale", f"the plan is stale: {op.component} is not on the table", hint="plan again")
             continue
-        hand = seen.robots[op.robot].holding if op.robot in seen.robots else None
+        hand = seen.robots[op.robot].holding if op.robot and op.robot in seen.robots else None
         if bool(op.arguments["from"].get("held")) != (hand == op.component):
             text = f"the plan is stale: {op.robot} holds {hand or 'nothing'}"
             yield error("stale", text, hint="plan again", address=op.component)

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 PRIMITIVES: frozenset[Primitive] = frozenset({"move", "stow", "set", "home", "park"})
 
+OBEYS = 0.02
+"""Seconds of wall time between two looks at whether somebody asked to stop."""
+
 
 class SimBackend:
     """Executes operations on the simulated table of the lab in folder `root`.
@@ -53,6 +56,7 @@ class SimBackend:
         self._motion = motion or DeferredMotion(setup)
         self._session: Session | None = None
         self._halted = False
+        self._obeying: asyncio.Task[None] | None = None
         self._journal: Journal | None = None
         self._listeners: list[asyncio.Queue[Event | None]] = []
         self._look: Callable[[Snapshot], None] | None = None
@@ -141,6 +145,7 @@ class SimBackend:
             self._lock.release()
             raise
         self._halted = False
+        self._obeying = asyncio.create_task(self._obey(lease))
         return lease
 
     async def release(self, lease: Lease) -> None:
@@ -148,8 +153,22 @@ class SimBackend:
         if self._session is not None and lease.token == self._session.token:
             await self._leave(self._session)
 
+    async def _obey(self, lease: Lease) -> None:
+        """Look all the time whether somebody asks at another terminal to stop, and do so."""
+        from pico.backends.stopping import Asking, asked_to_stop
+
+        last: Asking | None = None
+        while True:
+            asked = asked_to_stop(self.root, lease.token)
+            if asked is not None and asked != last:
+                last = asked
+                await (self.stop() if asked == "now" else self.halt())
+            await asyncio.sleep(OBEYS)
+
     async def _leave(self, session: Session) -> None:
         await session.idle()
+        if self._obeying is not None:
+            self._obeying.cancel()
         self._session = None
         self._lock.release()
 
@@ -181,11 +200,11 @@ class SimBackend:
         return await session.execute(operation, key)
 
     async def halt(self) -> None:
-        """Start nothing more, and wait until what is under way has reached its end: an arm then stands above the place
-        where it put its component down, which is a safe waypoint."""
+        """Start nothing more, and wait until what is under way has reached a safe end: an arm then stands above the
+        place where it put its component down, or is parked."""
         self._halted = True
         if self._session is not None:
-            await self._session.idle()
+            await self._session.halt()
 
     async def stop(self) -> None:
         """Stop everything where it is; grippers hold what they hold. Nothing starts until the bench is taken anew."""

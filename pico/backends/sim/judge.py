@@ -9,7 +9,7 @@ from pico.backends.sim.world import Body, World
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Geometry, Tunable
 from pico.model.lab import Setup
-from pico.model.observation import slot_at
+from pico.model.observation import ObservedValue, slot_at
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -139,6 +139,29 @@ def not_simulated(component: str, what: str) -> Diagnostic:
     """Return why nothing can be measured."""
     text = f"{what} of {component} is not simulated yet: light is not traced"
     return error("not-simulated", text, hint="poses and set-points are simulated", address=component)
+
+
+def put_back(name: str, where: str) -> Diagnostic:
+    """Return what is said of a part that was brought back, because that was nearer than its goal."""
+    return Diagnostic("note", "put-back", f"{name} was put back to {where}, which was nearer", address=name)
+
+
+def left(name: str) -> Diagnostic:
+    """Return what is said of a part that was not gripped any more."""
+    return Diagnostic("note", "put-back", f"{name} was left where it stands", address=name)
+
+
+def shut(setup: Setup, world: World) -> World:
+    """Return the world with the shutter of every laser closed, as the interlock of a bench closes them; the same world
+    where they are."""
+    for name, body in world.components.items():
+        source = name in setup.lab.inventory and setup.type_of(name).optics.element == "source"
+        shutter = setup.type_of(name).tunables.get("shutter") if source else None
+        if shutter is None or "closed" not in shutter.choices or "shutter" not in body.values:
+            continue
+        if body.values["shutter"].value != "closed":
+            world = world.with_value(name, "shutter", ObservedValue(value="closed"))
+    return world
 
 
 STOPPED = error("stopped", "it was stopped on the way; the gripper holds what it held", hint=_AGAIN)

@@ -7,7 +7,7 @@ from bisect import bisect_right
 from collections.abc import Generator
 from dataclasses import replace
 
-from pico.backends.sim.mover import InProgress
+from pico.backends.sim.mover import InProgress, MoveFailed
 from pico.backends.sim.world import World
 from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot
@@ -18,6 +18,9 @@ from pico.motion.types import Joints, MovePath, Segment
 
 STEP = 0.5
 """Seconds of a path that are walked in one go where nobody watches."""
+
+BRAKE = 0.2
+"""Seconds in which an arm that is stopped comes to rest."""
 
 
 class KinematicWorld:
@@ -86,11 +89,22 @@ class KinematicWorld:
         x, y, _, yaw = tool_pose(mounted, joints)
         return Pose(x, y, yaw)
 
+    def _brake(self, robot: str, segment: Segment, elapsed: float) -> Generator[float, None, None]:
+        """Come to rest evenly: on the way by half of what the arm would have gone on."""
+        if segment.name in ("grip", "release"):
+            return
+        yield BRAKE
+        self._joints[robot] = joints_at(segment, min(segment.seconds, elapsed + BRAKE / 2))
+
     def _walk(self, robot: str, segment: Segment) -> Generator[float, None, None]:
         elapsed = 0.0
         while elapsed < segment.seconds:
             step = min(self.step, segment.seconds - elapsed)
-            yield step
+            try:
+                yield step
+            except MoveFailed:
+                yield from self._brake(robot, segment, elapsed)
+                raise
             elapsed += step
             self._joints[robot] = joints_at(segment, elapsed)
         self._joints[robot] = segment.joints[-1]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Callable, Generator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,7 @@ from typing import Any
 from pico.backends.attempt import Attempts
 from pico.backends.sim import judge
 from pico.backends.sim.bodies import snapshot
+from pico.backends.sim.halting import phase_at, sooner, way_out
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import InProgress, MoveFailed, Mover
 from pico.backends.sim.store import save_world
@@ -20,7 +23,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.journal import Journal, run_of
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
-from pico.model.observation import ObservedComponent, ObservedValue
+from pico.model.observation import ObservedComponent, ObservedValue, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.quantities import Value
@@ -34,6 +37,11 @@ PROGRESS = 0.25
 
 WATCHED = 0.05
 """Simulated seconds between two looks at a run that is recorded, at most."""
+
+REST = 0.3
+"""Seconds until an arm that is told to hold is at rest."""
+KEPT = 0.05
+"""Seconds of wall time after which the world is stored again while something moves."""
 
 
 class Session:
@@ -58,7 +66,7 @@ class Session:
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
         self._attempts = Attempts(journal, self, token, self._began)
-        self._told = 0
+        self._told, self._halting, self._kept = 0, False, 0.0
 
     def watch(self, look: Callable[[Snapshot], None]) -> None:
         """Let `look` see the table now, and at least every WATCHED simulated seconds while something moves."""
@@ -93,10 +101,21 @@ class Session:
         """Wait until nothing is under way."""
         await self._time.idle()
 
+    async def halt(self) -> None:
+        """Bring everything under way to its safe end: a part in a hand goes to its goal or back, whichever is sooner;
+        an arm that has not gripped yet leaves its part and parks."""
+        self._halting = True
+        await self._time.idle()
+
     async def stop(self) -> None:
-        """Stop everything under way where it is."""
+        """Stop everything under way: arms come to rest, hands hold what they hold, shutters close."""
+        self._halting = True
         self._time.interrupt(MoveFailed(judge.STOPPED))
         await self._time.idle()
+        dark = judge.shut(self._setup, self._world)
+        if dark is not self._world:
+            self._world = dark
+            self.store()
 
     # the table that attempts act on
 
@@ -135,7 +154,7 @@ class Session:
         if isinstance(path, Blocked):
             raise judge.blocked(name, path)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
-        data = yield from self._reported(operation, key, path, self._mover.move(actual, path))
+        data = yield from self._reported(actual, key, path, self._mover.move(actual, path))
         judge.require_placed(self._setup, self.world(), name, goal, slot)
         return data
 
@@ -182,19 +201,26 @@ class Session:
             goal = judge.require_value(name, tunable, kind, operation.arguments.get("to"))
             seconds = set_seconds(kind, before, goal)
         self._world = self._world.with_value(name, tunable, ObservedValue(value=None, status="unknown"))
+        self._keep()
         yield seconds
         self._world = self._world.with_value(name, tunable, ObservedValue(value=goal))
         return {"value": goal}
 
     def _reported(self, operation: Operation, key: str, path: MovePath, work: InProgress) -> InProgress:
         """Pass an operation on, and say how far it is at most every PROGRESS seconds."""
-        begun, told = self._time.now, self._time.now
+        begun, told, decided, phase = self._time.now, self._time.now, False, ""
         try:
             wait = next(work)
             while True:
+                elapsed = self._time.now - begun
                 if self._time.now - told >= PROGRESS:
                     told = self._time.now
-                    self._tell("operation_progress", operation, key, self._progress(path, told - begun))
+                    self._tell("operation_progress", operation, key, self._progress(path, elapsed))
+                if self._halting and not decided:
+                    decided = yield from self._way_out(operation, path, elapsed, work)
+                phase, before = phase_at(path, elapsed), phase
+                if (before in ("grip", "release") and phase != before) or time.monotonic() - self._kept > KEPT:
+                    self._keep()
                 try:
                     yield wait
                 except MoveFailed as exc:
@@ -205,13 +231,69 @@ class Session:
             data: dict[str, Any] = stop.value
             return data
 
+    def _way_out(
+        self, operation: Operation, path: MovePath, elapsed: float, work: InProgress
+    ) -> Generator[float, None, bool]:
+        """End a move that is halted sooner than at its goal where that can be; return whether it is decided.
+
+        Raises MoveFailed once the part is back, or left where it stands, and the arm at a safe waypoint.
+        """
+        way = way_out(path, elapsed)
+        if way in ("goes_on", "undecided"):
+            return way == "goes_on"
+        if way == "leaves_it":
+            self._drop_work(work)
+            yield REST
+            yield from self._withdraw(path.robot)
+            raise MoveFailed(judge.left(operation.component))
+        start, _, _ = judge.places(operation)
+        back = self._back(operation, start)
+        if back is None or not sooner(path, elapsed, back):
+            return True
+        self._drop_work(work)
+        yield REST
+        back = self._back(operation, start) or back  # the arm went on a little until it came to rest
+        there = {**operation.arguments, "to": {"pose": as_json(start)}}
+        yield from self._mover.move(replace(operation, arguments=there), back)
+        where = slot_at(self._setup, start) or str(start)
+        raise MoveFailed(judge.put_back(operation.component, where))
+
+    def _back(self, operation: Operation, start: Pose) -> MovePath | None:
+        """Return the way back to where a part was picked, or None where there is none or the hand holds nothing."""
+        robot, world = operation.robot or "", self.world()
+        held, joints = self._mover.carried(robot), world.robots[robot].joints
+        if held is None:
+            return None
+        back = self._motion.set_down(
+            robot, operation.component, held, start, judge.standing(self._setup, world), joints, self._elsewhere(robot)
+        )
+        return None if isinstance(back, Blocked) else back
+
+    def _drop_work(self, work: InProgress) -> None:
+        """Let an arm stop where it is, in the middle of what it does."""
+        try:
+            while True:
+                work.throw(MoveFailed(judge.STOPPED))
+        except (MoveFailed, StopIteration):
+            pass
+
+    def _withdraw(self, robot: str) -> Generator[float, None, None]:
+        """Bring an arm with an empty hand to its park pose, where there is a way."""
+        world = self.world()
+        path = self._motion.park(
+            robot, world.robots[robot].joints, judge.standing(self._setup, world), self._elsewhere(robot)
+        )
+        if not isinstance(path, Blocked):
+            yield from self._mover.park(path)
+
+    def _keep(self) -> None:
+        """Store the world as it is in the middle of a motion: what a killed process leaves behind is then true."""
+        self._kept = time.monotonic()
+        with suppress(PicoError):  # the end of the operation will say so
+            save_world(self._root, self.world(), durable=False)
+
     def _progress(self, path: MovePath, elapsed: float) -> dict[str, Any]:
-        phase, ends = path.segments[-1].name, 0.0
-        for segment in path.segments:
-            ends += segment.seconds
-            if elapsed < ends:
-                phase = segment.name
-                break
+        phase = phase_at(path, elapsed)
         pose = self._mover.carried(path.robot)
         found = {"phase": phase, "fraction": min(1.0, elapsed / path.seconds) if path.seconds else 1.0}
         return found | ({"pose": as_json(pose)} if pose else {})

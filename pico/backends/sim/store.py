@@ -46,8 +46,11 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
     return reconcile(setup, world)
 
 
-def save_world(root: Path, world: World) -> None:
-    """Store the world durably: a reader sees the old one or the new one. Raises PicoError where it can't."""
+def save_world(root: Path, world: World, *, durable: bool = True) -> None:
+    """Store the world: a reader sees the old one or the new one. Raises PicoError where it can't.
+
+    `durable`: on the disk when this returns, so that it outlives a power failure and not only this process.
+    """
     path = world_path(root)
     fresh = path.with_name(f"world.{os.getpid()}.tmp")
     try:
@@ -55,8 +58,11 @@ def save_world(root: Path, world: World) -> None:
         with fresh.open("w", encoding="utf-8") as file:
             json.dump(as_json(world), file, separators=(",", ":"), sort_keys=True)
             file.flush()
-            os.fsync(file.fileno())
+            if durable:
+                os.fsync(file.fileno())
         fresh.replace(path)
+        if not durable:
+            return
         folder = os.open(path.parent, os.O_RDONLY)
         try:
             os.fsync(folder)

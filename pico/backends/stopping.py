@@ -1,0 +1,40 @@
+"""Stopping a run from another terminal: a note beside the lock, for the holder of one lease. It needs no lock."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Literal
+
+from pico.diagnostics import PicoError, error
+
+Asking = Literal["safely", "now"]
+"""`safely`: as the first Ctrl-C; `now`: as the second."""
+
+
+def ask_to_stop(root: Path, token: int, how: Asking) -> None:
+    """Ask the holder of the lease `token` of the lab in `root` to stop; raises PicoError where it can't be asked."""
+    path = _note(root)
+    fresh = path.with_name(f"stop.{os.getpid()}.tmp")
+    try:
+        fresh.write_text(json.dumps({"token": token, "how": how}), encoding="utf-8")
+        fresh.replace(path)
+    except OSError as exc:
+        text = f"the request to stop cannot be written to {path}: {(exc.strerror or str(exc)).lower()}"
+        raise PicoError(error("stop", text, hint="press Ctrl-C in the terminal of the run")) from exc
+
+
+def asked_to_stop(root: Path, token: int) -> Asking | None:
+    """Return how the holder of the lease `token` was asked to stop, or None where it was not."""
+    try:
+        note = json.loads(_note(root).read_text(encoding="utf-8"))
+        if note["token"] != token:
+            return None
+        return "now" if note["how"] == "now" else "safely"
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _note(root: Path) -> Path:
+    return root / ".pico" / "stop.json"
