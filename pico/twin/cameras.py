@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from pico.twin.egl import OpenGL
+
     Array = NDArray[np.float64]
     Gray = NDArray[np.float32]
 
@@ -31,8 +33,9 @@ _DARK = 3.0
 class Eyes:
     """Cameras that look at a scene. `cameras`: as they really are; with the lab's errors by `seed` where None.
 
-    `markers`: what bodies carry instead of what the inventory says (None: nothing); `extra`: markers besides. Pictures
-    are drawn with ray casting; the same seed and the same calls give the same pictures.
+    `markers`: what bodies carry instead of what the inventory says (None: nothing); `extra`: markers besides.
+    `renderer`: what draws, the lab's where None; raises PicoError for `egl` where there is none. The same seed and the
+    same calls give the same pictures.
     """
 
     def __init__(
@@ -46,6 +49,7 @@ class Eyes:
         seed: int | None = None,
         markers: Mapping[str, int | None] | None = None,
         extra: Sequence[Sticker] = (),
+        renderer: str | None = None,
     ) -> None:
         import numpy as np
 
@@ -58,6 +62,12 @@ class Eyes:
         plain = (*stickers(setup, model, markers), *extra)
         sigma = self.errors.marker_height
         self.stickers = tuple(s.raised(float(heights.normal(0.0, sigma))) if sigma else s for s in plain)
+        self._opengl: OpenGL | None = None
+        if (renderer or setup.lab.sim.renderer) == "egl":
+            from pico.twin.egl import OpenGL
+
+            largest = max(n for camera in self.cameras.values() for n in camera.pixels)
+            self._opengl = OpenGL(model, self.stickers, largest)
 
     def placed(self, name: str) -> CameraModel:
         """Return a camera as it really is and stands now, in the table's frame. Raises KeyError."""
@@ -79,8 +89,7 @@ class Eyes:
         if self._random.random() < self.errors.lost_frames:
             picture = np.full((height, width), _DARK, np.float32)
         else:
-            picture = photograph(view, table_paint(self.setup))
-            draw_markers(view, picture, self.stickers)
+            picture = self._exposed(view)
             if settings.blur > 0:
                 picture = cv2.GaussianBlur(picture, (0, 0), settings.blur)
         noise = self._noise(picture.shape, settings.noise * self.errors.noise)
@@ -99,6 +108,14 @@ class Eyes:
             raise ValueError(f"{name} measures no depth")
         exact = measure(self._view(name, region), sensor.range)
         return exact * (1 + self._noise(exact.shape, sensor.noise * self.errors.noise))
+
+    def _exposed(self, view: View) -> Gray:
+        """What light brings to the sensor, before lens and noise."""
+        if self._opengl is not None:
+            return self._opengl.photograph(view)
+        picture = photograph(view, table_paint(self.setup))
+        draw_markers(view, picture, self.stickers)
+        return picture
 
     def _view(self, name: str, region: Region | None) -> View:
         camera = self.placed(name)

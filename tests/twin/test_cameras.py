@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import replace
 from functools import cache
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from physical import bench
 
+from pico.diagnostics import PicoError
 from pico.model.catalog import Footprint, Geometry
 from pico.model.lab import Setup, SimErrors
 from pico.model.pose import Pose
@@ -249,3 +251,23 @@ def test_depth_is_along_the_axis_with_noise_and_within_the_range() -> None:
 def test_a_camera_without_depth_says_so() -> None:
     with pytest.raises(ValueError, match="left measures no depth"):
         look(bench(), {}).depth("left")
+
+
+@pytest.mark.slow
+def test_opengl_draws_the_same_markers_at_the_same_places() -> None:
+    places = {"p1": upright(Pose(300, 400, 20)), "p2": upright(Pose(500, 300, 130))}
+    try:
+        eyes = look(quiet(), places, renderer="egl")
+    except PicoError as missing:
+        pytest.skip(missing.diagnostics[0].summary)
+    for number in (P1, 3):
+        one = sticker(eyes, number)
+        seen = read(eyes.frame("left", around(eyes, "left", one)))[number]
+        assert np.linalg.norm((seen - corners(eyes, "left", one)).mean(axis=0)) < 0.1
+        assert np.abs(seen - corners(eyes, "left", one)).max() < 0.4
+
+
+def test_opengl_that_is_not_there_is_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco.egl", None)
+    with pytest.raises(PicoError, match="this machine has no EGL"):
+        look(quiet(), {}, renderer="egl")
