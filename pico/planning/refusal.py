@@ -10,6 +10,7 @@ from pico.motion.types import Blocked
 from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Hold, Mover
 from pico.planning.paths import NoPath
+from pico.planning.phrases import listed
 from pico.planning.reasons import body_overlap
 from pico.planning.solve import Refusal, Solution
 from pico.planning.target import Source, located
@@ -71,8 +72,8 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
     if reach and (free or not hits):
         return error(
-            "unreachable", f"{where}: {reach[0].text}", detail=_depth(reach[0]),
-            hint="bring it nearer to the arm, or turn it", address=address, source=blame,
+            "unreachable", f"{where}: {reach[0].text}",
+            hint=reach[0].help or "bring it nearer to the arm, or turn it", address=address, source=blame,
         )  # fmt: skip
     if not hits:
         return error("blocked", f"{where}: a keep-out leaves no room for the fingers", address=address, source=blame)
@@ -80,8 +81,8 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     deepest = min(gap for _, (_, gap) in hits)
     touch = f"by {-deepest:.3g} mm" if deepest < 0 else f"(only {deepest:.3g} mm apart)"
     return error(
-        "blocked", f"{where}: a finger of the gripper would touch {_list(names)} {touch}, every grasp yaw tried",
-        hint=f"move {_list(names, 'or')} away first, or leave more room there", address=address, source=blame,
+        "blocked", f"{where}: a finger of the gripper would touch {listed(names)} {touch}, every grasp yaw tried",
+        hint=f"move {listed(names, 'or')} away first, or leave more room there", address=address, source=blame,
     )  # fmt: skip
 
 
@@ -99,8 +100,11 @@ def finger_hits(table: Conflicts, i: int, place: int, hold: Hold) -> Iterator[tu
                 yield name, separation(zone, table.obstacles[name].shape)
 
 
-def _depth(blocked: Blocked) -> str:
-    return f"by {blocked.by:.3g} mm" if blocked.by is not None else ""
+def _struck(blocked: Blocked) -> str:
+    """What is in the way and by how much; a depth alone says nothing."""
+    if not blocked.obstacle:
+        return ""
+    return f"in the way: {blocked.obstacle}" + (f" by {blocked.by:.3g} mm" if blocked.by is not None else "")
 
 
 def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
@@ -112,8 +116,8 @@ def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
     hint = f"move {blocked.obstacle} away first" if blocked.obstacle in table.obstacles else "choose another place"
     return error(
         code, f"{primitive} of {mover.name} to {goal} has no free path{during}: {blocked.text}",
-        detail=f"in the way: {blocked.obstacle} {_depth(blocked)}".strip() if blocked.obstacle else _depth(blocked),
-        hint=hint, address=f"{mover.name}.pose", source=located(source, mover),
+        detail=_struck(blocked),
+        hint=blocked.help or hint, address=f"{mover.name}.pose", source=located(source, mover),
     )  # fmt: skip
 
 
@@ -124,17 +128,17 @@ def _ring(table: Conflicts, stuck: Sequence[int], refused: Refusal, source: Sour
     lines = [arcs[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)] or sorted(arcs.values())
     lines += [_storage_line(table, i) for i in (ring or stuck)]
     if ring:
-        summary = f"{_list(names)} block one another in a ring that no storage slot breaks"
+        summary = f"{listed(names)} block one another in a ring that no storage slot breaks"
     elif refused.proven:
-        summary = f"{_list(names)} can't all reach their places in any order"
+        summary = f"{listed(names)} can't all reach their places in any order"
     else:
-        summary = f"found no order in which {_list(names)} reach their places, within the limit of the search"
+        summary = f"found no order in which {listed(names)} reach their places, within the limit of the search"
     inventory = table.setup.lab.inventory
     allowed = [name for name in names if inventory[name].stage == "never"]
     enough = f"{refused.slots} slots within reach that take them" if refused.slots > 1 else "one slot within reach"
     hint = f"free {enough}, or leave more room between them"
     if allowed and len(allowed) < 6:
-        hint = f"free {enough}, or allow staging of {_list(allowed, 'or')}"
+        hint = f"free {enough}, or allow staging of {listed(allowed, 'or')}"
     first = names[0] if names else ""
     return error(
         "impossible", summary, detail="\n".join(lines), hint=hint, address=f"{first}.pose",
@@ -194,16 +198,10 @@ def _storage_line(table: Conflicts, i: int) -> str:
     slots = sorted({mover.places[p].slot or "" for p in held or free})
     if not held:
         why = _first_reach(table, i, free, mover)
-        return f"{mover.name}: the free slots {_list(slots)} are {why}"
-    return f"{mover.name}: {_list(slots)} would take it, but others need {'it' if len(slots) == 1 else 'them'} too"
+        return f"{mover.name}: the free slots {listed(slots)} are {why}"
+    return f"{mover.name}: {listed(slots)} would take it, but others need {'it' if len(slots) == 1 else 'them'} too"
 
 
 def _first_reach(table: Conflicts, i: int, places: Sequence[int], mover: Mover) -> str:
     reach = any(table.unreachable(i, p, h) for p in places for h in mover.holds)
     return "out of reach" if reach else "without room for the fingers"
-
-
-def _list(names: Sequence[str], word: str = "and") -> str:
-    if len(names) > 6:
-        return f"{', '.join(names[:4])} {word} {len(names) - 4} more"
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}" if names else "nothing"

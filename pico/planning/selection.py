@@ -9,6 +9,7 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.operation import Operation
+from pico.planning.phrases import listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +47,9 @@ def selection(setup: Setup, targets: Collection[str], exclude: Collection[str]) 
 
 
 def done_by(operations: Sequence[Operation]) -> set[tuple[str, str]]:
-    """Return the components and tunables that operations change."""
-    return {(o.component, str(o.arguments.get("tunable", "pose"))) for o in operations if o.primitive != "park"}
+    """Return the components and tunables that operations change; what an interlock sets is set back."""
+    own = [o for o in operations if o.primitive != "park" and o.reason.kind != "interlock"]
+    return {(o.component, str(o.arguments.get("tunable", "pose"))) for o in own}
 
 
 def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Operation]) -> Iterator[Diagnostic]:
@@ -56,7 +58,7 @@ def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Oper
     for name in sorted({o.component for o in own if not chosen.chosen(o.component)}):
         waiting = sorted({o.component for o in operations if name in o.reason.of} - {name})
         waiting = waiting or sorted({n for o in operations if o.component == name for n in o.reason.of})
-        whom = " and ".join(waiting) or "what was asked for"
+        whom = listed(waiting) or "what was asked for"
         yield Diagnostic(
             severity="note",
             code="pulled-in",

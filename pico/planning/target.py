@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from pico.diagnostics import Diagnostic, SourceRange, error
 from pico.geometry import Grid, Shape, conflict, fits, moved, outline, overhang, placed, reaches, separation
 from pico.model.lab import Setup
+from pico.model.pose import Pose
 from pico.planning.movers import Mover, Obstacle, Place
 
 Source = Callable[[str], SourceRange | None]
+
+WAYS = (
+    (-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0),
+    *((math.cos(math.radians(15 * n)), math.sin(math.radians(15 * n))) for n in range(24) if n % 6),
+)  # fmt: skip
+"""Directions in which a free place is looked for: along x and y first, then every 15 degrees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +119,7 @@ def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str]) -> 
     if mover.goal.slot:
         ways.append("choose a free slot")
     elif free := nearest_free(setup, mover, grid):
-        ways.append(f"nearest free place along {free[0]} is {free[0]} = {free[1]:g}")
+        ways.append(f"nearest free place {_place_text(mover.goal.pose, free)}")
     if other.moves:
         ways.append(f"move {other.name} elsewhere")
     elif other.name not in setup.lab.inventory:
@@ -121,16 +129,24 @@ def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str]) -> 
     return "; or ".join(ways)
 
 
-def nearest_free(setup: Setup, mover: Mover, grid: Grid[str]) -> tuple[str, float] | None:
-    """Return the axis and the coordinate [mm] of the nearest free place for a mover along x or y, in whole mm; x wins
-    a tie. None where there is none on the table."""
+def _place_text(pose: Pose, free: tuple[float, float]) -> str:
+    if free[1] == pose.y:
+        return f"along x is x = {free[0]:g}"
+    if free[0] == pose.x:
+        return f"along y is y = {free[1]:g}"
+    return f"is x = {free[0]:g}, y = {free[1]:g}"
+
+
+def nearest_free(setup: Setup, mover: Mover, grid: Grid[str]) -> tuple[float, float] | None:
+    """Return the nearest free place (x, y) for a mover [mm], looked for in every direction of `WAYS` in steps of 1 mm,
+    in whole mm where it is not beside the goal; along x wins a tie. None where there is none on the table."""
     pose, shape = mover.goal.pose, goal_shape(mover, mover.goal)
     for step in range(1, int(max(setup.lab.table.size)) + 1):
-        for axis, sign in (("x", -1), ("x", 1), ("y", -1), ("y", 1)):
-            value = round((pose.x if axis == "x" else pose.y) + sign * step)
-            dx, dy = (value - pose.x, 0.0) if axis == "x" else (0.0, value - pose.y)
-            if _free(setup, mover, moved(shape, dx, dy), grid):
-                return axis, float(value)
+        for east, north in WAYS:
+            x = round(pose.x + step * east) if east else pose.x
+            y = round(pose.y + step * north) if north else pose.y
+            if _free(setup, mover, moved(shape, x - pose.x, y - pose.y), grid):
+                return float(x), float(y)
     return None
 
 

@@ -55,12 +55,14 @@ def test_a_grasp_that_is_out_of_reach_is_not_taken() -> None:
 
 
 def test_a_goal_out_of_reach_is_refused_in_the_arms_words() -> None:
-    arm = Arm(reach=lambda pose, _: Blocked("reach", "arm1 ends 80 mm short of it") if pose.x == 700 else None)
+    far = Blocked("reach", "arm1 ends 80 mm short of it", by=80.0, help="use another arm")
+    arm = Arm(reach=lambda pose, _: far if pose.x == 700 else None)
     setup = bench({"a": "block"})
     made = planned(setup, see(setup, {"a": (300, 300)}), want({"a": (700, 300)}), arm)
     (found,) = made.diagnostics
     assert found.code == "unreachable"
     assert found.summary == "a can't be put down at (700, 300, 0°): arm1 ends 80 mm short of it"
+    assert (found.detail, found.hint) == ("", "use another arm")
 
 
 def test_a_path_that_a_part_blocks_waits_until_it_has_left() -> None:

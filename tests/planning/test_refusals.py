@@ -27,6 +27,15 @@ def test_an_overlap_names_both_the_depth_and_the_nearest_free_place() -> None:
     assert found.source is line and set(asked) == {"lx.pose.x"}
 
 
+def test_the_nearest_free_place_may_lie_across() -> None:
+    parts = {"a": (400, 200), "left": (300, 300), "right": (420, 300), "back": (352, 420), "front": (300, 200)}
+    setup = bench(dict.fromkeys(parts, "block"))
+    (found,) = planned(setup, see(setup, parts), want({**parts, "a": (332, 300)})).diagnostics
+    x, y = (float(word.rsplit(" ", 1)[1]) for word in found.hint.split(";")[0].split(", "))
+    assert (x, y) != (332.0, 300.0) and found.hint.startswith("nearest free place is x = ")
+    assert not planned(setup, see(setup, parts), want({**parts, "a": (int(x), int(y))})).errored
+
+
 def test_two_goals_that_overlap_are_told_once() -> None:
     setup = bench({"a": "block", "b": "block"})
     seen = see(setup, {"a": (200, 420), "b": (300, 420)})

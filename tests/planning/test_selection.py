@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from planning_benches import bench, moves, part, planned, see, want
+from planning_benches import TYPES, bench, moves, part, planned, see, want
 
 from pico.diagnostics import PicoError
+from pico.model.catalog import ComponentType, OpticalElement, Tunable
+from pico.model.lab import Setup
 
 
 def test_only_the_targets_move() -> None:
@@ -28,6 +30,32 @@ def test_a_target_pulls_in_what_must_leave_first() -> None:
     pulled, left = made.diagnostics
     assert (pulled.severity, pulled.summary) == ("note", "b is moved as well: it is in the way of a")
     assert left.summary.startswith("c differs")
+
+
+def test_those_that_wait_are_told_as_in_a_sentence() -> None:
+    setup = bench(dict.fromkeys("abcd", "block"))
+    seen = see(setup, {"a": (100, 400), "b": (200, 400), "c": (300, 400), "d": (500, 300)})
+    wanted = want({"a": (455, 280), "b": (545, 280), "c": (500, 355), "d": (700, 300)})
+    made = planned(setup, seen, wanted, targets=("a", "b", "c"))
+    pulled = next(d for d in made.diagnostics if d.code == "pulled-in")
+    assert pulled.summary == "d is moved as well: it is in the way of a, b and c"
+
+
+def test_what_an_interlock_sets_is_not_told_as_changed() -> None:
+    setup = bench({"a": "block", "laser": "laser"})
+    laser = ComponentType(
+        name="laser", title="Laser", geometry=TYPES["block"].geometry, optics=OpticalElement(element="source"),
+        tunables={"shutter": Tunable(datatype="choice", choices=("open", "closed"))},
+    )  # fmt: skip
+    setup = Setup(lab=setup.lab, catalog={**TYPES, "laser": laser})
+    seen = see(setup, {"a": (300, 300), "laser": (100, 300)}, {"laser": {"shutter": "open"}})
+    wanted = want({"a": (300, 400), "laser": (100, 300)}, {"laser": {"shutter": "closed"}})
+    made = planned(setup, seen, wanted, targets=["a"])
+    assert [o.arguments["to"] for o in made.operations if o.component == "laser"] == ["closed", "open"]
+    assert {(c.component, c.tunable) for c in made.changes} == {("a", "pose")}
+    assert [d.summary for d in made.diagnostics if d.code == "left"] == [
+        "laser differs from the state wanted, and stays so"
+    ]
 
 
 def test_a_target_pulls_in_what_leaves_no_room_for_the_fingers() -> None:
