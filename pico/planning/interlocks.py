@@ -1,4 +1,4 @@
-"""Lasers are shut while an arm works in the beam, or an axis that steers it is homed; they open when all is done."""
+"""Lasers are shut while somebody works in the beam, or an axis that steers it is homed; they open when all is done."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
+from pico.planning.beams import shutter_of
+from pico.planning.phrases import listed
 
 STEERING = ("beam_splitter", "lens", "mirror", "waveplate")
 """Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter
@@ -22,9 +24,11 @@ OPEN, CLOSED = "open", "closed"
 
 @dataclass(frozen=True, slots=True)
 class Shutter:
-    """The shutter of a laser: what it was seen at (None where nobody knows), and what it is to be at in the end."""
+    """What closes the beam of a laser, its own shutter or one on the table (`component`): what it was seen at (None
+    where nobody knows), and what it is to be at in the end."""
 
     laser: str
+    component: str
     kind: Tunable
     live: Value | None
     goal: Value | None
@@ -50,8 +54,13 @@ def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operat
 
 
 def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[int]:
-    """Return which operations want the beam blocked: those of arms, and homing what steers it."""
-    return [n for n, o in enumerate(operations) if o.robot or (o.primitive == "home" and _steers(setup, o))]
+    """Return which operations want the beam blocked: those of arms and people, and homing what steers it."""
+    return [n for n, o in enumerate(operations) if _works(o) or (o.primitive == "home" and _steers(setup, o))]
+
+
+def _works(operation: Operation) -> bool:
+    """Whether somebody reaches over the table."""
+    return operation.robot is not None or operation.primitive == "operator"
 
 
 def _steers(setup: Setup, operation: Operation) -> bool:
@@ -67,23 +76,36 @@ def _ends(operations: Sequence[Operation], guarded: Sequence[int]) -> tuple[list
 
 
 def _why(operations: Sequence[Operation], guarded: Sequence[int]) -> str:
-    arms = sorted({operations[n].robot or "" for n in guarded} - {""})
-    if arms:
-        return f"{' and '.join(arms)} {'works' if len(arms) == 1 else 'work'} in the beam"
+    who = sorted({operations[n].robot or "" for n in guarded} - {""})
+    who += ["a person"] if any(operations[n].primitive == "operator" for n in guarded) else []
+    if who:
+        return f"{listed(who)} {'works' if len(who) == 1 else 'work'} in the beam"
     names = [f"{operations[n].component}.{operations[n].arguments['tunable']}" for n in guarded]
     return f"homing {', '.join(names)} steers the beam"
 
 
 def _shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Shutter]:
-    """Yield the shutters of lasers that a plan can set, by name."""
+    """Yield what closes each laser that a plan can close, by name: its own shutter, else one in its beam."""
+    taken = set[str]()
     for laser in _lasers(setup):
-        kind, part = setup.type_of(laser).tunables.get("shutter"), seen.components.get(laser)
-        if kind is None or part is None or "shutter" not in part.values or not _closes(kind):
-            continue
-        known = part.values["shutter"]
-        live = known.value if known.status == "known" else None
-        ends = [o.arguments.get("to") for o in operations if _sets(o, laser)]
-        yield Shutter(laser, kind, live, ends[-1] if ends else known.value)
+        found = _shutter(setup, seen, operations, laser, laser)
+        if found is None and (other := shutter_of(setup, seen, operations, laser)):
+            found = _shutter(setup, seen, operations, laser, other)
+        if found and found.component not in taken:
+            taken.add(found.component)
+            yield found
+
+
+def _shutter(
+    setup: Setup, seen: Observation, operations: Sequence[Operation], laser: str, name: str
+) -> Shutter | None:  # fmt: skip
+    kind, part = setup.type_of(name).tunables.get("shutter"), seen.components.get(name)
+    if kind is None or part is None or "shutter" not in part.values or not _closes(kind):
+        return None
+    known = part.values["shutter"]
+    live = known.value if known.status == "known" else None
+    ends = [o.arguments.get("to") for o in operations if _sets(o, name)]
+    return Shutter(laser, name, kind, live, ends[-1] if ends else known.value)
 
 
 def _lasers(setup: Setup) -> list[str]:
@@ -94,16 +116,16 @@ def _closes(kind: Tunable) -> bool:
     return kind.mover in ("motor", "electronics") and {OPEN, CLOSED} <= set(kind.choices)
 
 
-def _sets(operation: Operation, laser: str) -> bool:
+def _sets(operation: Operation, name: str) -> bool:
     tunable = operation.arguments.get("tunable")
-    return operation.primitive == "set" and operation.component == laser and tunable == "shutter"
+    return operation.primitive == "set" and operation.component == name and tunable == "shutter"
 
 
 def _close(out: list[Operation], shutter: Shutter, first: Sequence[int], why: str) -> None:
     """Let the first of the guarded operations come after the shutter is closed, by what the plan holds or by more."""
     if shutter.live == CLOSED:
         return
-    n = next((n for n, o in enumerate(out) if _sets(o, shutter.laser) and o.arguments["to"] == CLOSED), len(out))
+    n = next((n for n, o in enumerate(out) if _sets(o, shutter.component) and o.arguments["to"] == CLOSED), len(out))
     if n == len(out):
         out.append(_set(shutter, shutter.live, CLOSED, why))
     for k in first:
@@ -115,7 +137,9 @@ def _set_back(out: list[Operation], shutter: Shutter, last: Sequence[int], why: 
     if shutter.goal in (CLOSED, None):
         return
     after = tuple(str(k) for k in last)
-    n = next((n for n, o in enumerate(out) if _sets(o, shutter.laser) and o.arguments["to"] == shutter.goal), len(out))
+    n = next(
+        (n for n, o in enumerate(out) if _sets(o, shutter.component) and o.arguments["to"] == shutter.goal), len(out)
+    )
     if n == len(out):
         out.append(replace(_set(shutter, CLOSED, shutter.goal, f"closed while {why}"), after=after))
     else:
@@ -125,9 +149,9 @@ def _set_back(out: list[Operation], shutter: Shutter, last: Sequence[int], why: 
 
 def _set(shutter: Shutter, before: Value | None, after: Value, why: str) -> Operation:
     return Operation(
-        id="", primitive="set", component=shutter.laser, reason=Reason(kind="interlock", text=why),
+        id="", primitive="set", component=shutter.component, reason=Reason(kind="interlock", text=why),
         arguments={"tunable": "shutter", "from": before, "to": after},
-        resources=(f"{shutter.laser}.shutter", shutter.laser), seconds=set_seconds(shutter.kind, before, after),
+        resources=(f"{shutter.component}.shutter", shutter.component), seconds=set_seconds(shutter.kind, before, after),
     )  # fmt: skip
 
 
@@ -152,8 +176,9 @@ def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
 
 
 def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Diagnostic]:
+    closing = {*_lasers(setup), *(s.component for s in _shutters(setup, seen, operations))}
     for robot, hand in sorted(seen.robots.items()):
-        for laser in _lasers(setup):
+        for laser in sorted(closing):
             if hand.holding and any(_sets(o, laser) and o.arguments["to"] == OPEN for o in operations):
                 text = f"the shutter of {laser} stays closed while {robot} holds {hand.holding}"
                 hint = f"take {hand.holding} out of the gripper and set it down, on the simulated bench with "
@@ -164,11 +189,11 @@ def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Op
 def policy_rules(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> tuple[Mapping[str, Any], ...]:
     """Return what `Plan.policy` says of a plan's lasers: each rule with whether it holds, and in words."""
     count = sum(operations[n].primitive != "park" for n in _guarded(setup, operations))
-    lasers = [s.laser for s in _shutters(setup, seen, operations)]
+    lasers = [s.component for s in _shutters(setup, seen, operations)]
     if not count or not lasers:
         return ()
     when = f"during {count} move{'' if count == 1 else 's'}"
-    names = f"{' and '.join(lasers)} shutter{'' if len(lasers) == 1 else 's'}"
+    names = f"{listed(lasers)} shutter{'' if len(lasers) == 1 else 's'}"
     if setup.lab.policy.open_beam:
         return ({"rule": "open_beam", "holds": True, "text": f"open beam allowed {when}"},)
     return ({"rule": "closed_beam", "holds": True, "text": f"{names} closed {when}"},)

@@ -168,6 +168,66 @@ def test_a_laser_that_nothing_can_close_is_told() -> None:
     assert steps(made) == ["move", "park"]
 
 
+def test_the_shutter_is_closed_while_a_person_works_at_the_table() -> None:
+    setup = lit()
+    seen = see(setup, at(HERE), {"laser0": {"shutter": "open"}, "a": {"filter": "red"}})
+    close, by_hand, back = set_one(setup, seen, "a", "filter", "blue").operations
+    assert (close.arguments["to"], by_hand.primitive, back.arguments["to"]) == ("closed", "operator", "open")
+    assert close.reason.text == "a person works in the beam"
+    assert close.id in by_hand.after and by_hand.id in back.after
+
+
+def gated(gate: tuple[float, ...], *more: tuple[float, float]) -> tuple[Setup, Observation]:
+    """A laser without a shutter at (100, 420) that shines along x, and a shutter on the table."""
+    setup = lit()
+    optics = OpticalElement(element="shutter", properties={"clear_diameter": 12.7})
+    kinds = {
+        "laser": replace(LASER, tunables={}),
+        "gate": replace(TYPES["block"], name="gate", optics=optics, tunables={"shutter": SHUTTER}),
+    }
+    others = {f"m{n}": where for n, where in enumerate(more)}
+    parts = {"gate": part("gate", home="s1")} | {name: part(home="s2") for name in others}
+    lab = replace(setup.lab, inventory={**setup.lab.inventory, **parts})
+    setup = Setup(lab=lab, catalog={**setup.catalog, **kinds})
+    places = {"laser0": (100, 420), "a": HERE, "gate": gate, **others}
+    return setup, see(setup, places, {"gate": {"shutter": "open"}})
+
+
+def moved_beside(setup: Setup, seen: Observation, to: Pose = Pose(*THERE)) -> Plan:  # noqa: B008
+    return move_one(setup, seen, "a", to, motion=None)
+
+
+def test_a_shutter_that_stands_in_the_beam_closes_it() -> None:
+    made = moved_beside(*gated((300, 421, 180)))
+    assert [(o.component, o.arguments.get("to")) for o in made.operations if o.primitive == "set"] == [
+        ("gate", "closed"), ("gate", "open"),
+    ]  # fmt: skip
+    assert not made.diagnostics
+    assert [rule["text"] for rule in made.policy] == ["gate shutter closed during 1 move"]
+
+
+@pytest.mark.parametrize(
+    ("gate", "more", "to"),
+    [
+        ((300, 440, 0), [], THERE),  # beside the beam
+        ((300, 420, 90), [], THERE),  # along it
+        ((50, 420, 0), [], THERE),  # behind the laser
+        ((300, 420, 0), [(200, 420)], THERE),  # something before it sends the beam elsewhere
+        ((300, 420, 0), [], (200, 420)),  # something is put down before it
+    ],
+)
+def test_a_shutter_elsewhere_does_not_count(gate: Any, more: Any, to: Any) -> None:
+    made = moved_beside(*gated(gate, *more), to=Pose(*to))
+    assert [o.primitive for o in made.operations] == ["move", "park"]
+    assert [d.code for d in made.diagnostics] == ["open-beam"]
+
+
+def test_a_shutter_that_is_moved_does_not_count() -> None:
+    setup, seen = gated((300, 420, 0))
+    made = move_one(setup, seen, "gate", Pose(400, 420), motion=None)
+    assert [d.code for d in made.diagnostics] == ["open-beam"]
+
+
 def run(made: Plan, fails: str) -> dict[str, str]:
     """What becomes of each operation where one fails, as the walk has it."""
     graph = Graph(made.operations)
