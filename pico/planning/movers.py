@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from heapq import nsmallest
@@ -114,12 +115,15 @@ def with_storage(setup: Setup, mover: Mover, free: Sequence[str], wanted: Set[st
     that are not `wanted` by others before the rest, the nearest to its goal first."""
     if not mover.stages:
         return mover
-    footprint, goal = mover.geometry.footprint, mover.goal
-    slots = [s for s in free if s != goal.slot and fits(setup.lab.slots[s], footprint)]
-    slots = nsmallest(most, slots, key=lambda s: (s in wanted, setup.lab.slots[s].pose.distance(goal.pose), s))
+    footprint, goal, known = mover.geometry.footprint, mover.goal, setup.lab.slots
+    slots = [s for s in free if s != goal.slot and fits(known[s], footprint)]
+
+    def rank(s: str) -> tuple[bool, float, str]:
+        return s in wanted, math.hypot(known[s].x - goal.pose.x, known[s].y - goal.pose.y), s
+
+    slots = nsmallest(most, slots, key=rank)
     spots = [place for slot in slots for place in turned(setup, slot, footprint)]
-    known = len(mover.places)
-    staging = tuple(range(known, known + len(spots)))
+    staging = tuple(range(len(mover.places), len(mover.places) + len(spots)))
     return replace(mover, places=(*mover.places, *spots), staging=staging)
 
 
