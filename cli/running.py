@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
@@ -24,8 +25,10 @@ if TYPE_CHECKING:
     from pico.model.event import Event
     from pico.model.plan import Plan
 
-STOPPING = "Stopping: finishing what is under way up to a safe waypoint (press again to stop at once)"
-AT_ONCE = "Stopping at once: arms decelerate, grippers hold what they hold"
+STOPPING = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"
+AT_ONCE = "Stopping at once: arms brake, shutters close, grippers hold what they hold"
+DEADLINE = 10.0
+"""Seconds after SIGTERM in which a run may come to its safe end."""
 
 
 class Screen:
@@ -52,14 +55,17 @@ class Screen:
         self.session.say(line)
 
 
-def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = None) -> int:
-    """Run a plan, show how it goes and what became of it; return the exit code. `record`: where a film of it goes."""
+def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = None, **options: Any) -> int:
+    """Run a plan, show how it goes and what became of it; return the exit code.
+
+    `record`: where a film of it goes; `options` are those of `AsyncBench.run`.
+    """
     recording = None
     if record:
         from pico.twin.snapshot import Recording
 
         recording = Recording()
-    run = bench.run(plan, recording=recording)
+    run = bench.run(plan, **{**options, **({"recording": recording} if recording else {})})
     screen = Screen(session, Progress(plan))
     events = []
     with interrupts(run):
@@ -78,7 +84,10 @@ def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = No
 
 @contextmanager
 def interrupts(run: Run) -> Iterator[None]:
-    """While a run goes on, let Ctrl-C end it in order: nothing is raised, the events come to their end."""
+    """While a run goes on, let Ctrl-C and SIGTERM end it in order: nothing is raised, the events come to their end.
+
+    After SIGTERM nobody can press again: what has not ended within DEADLINE stops at once.
+    """
     presses = 0
 
     def pressed(*_: object) -> None:
@@ -88,11 +97,19 @@ def interrupts(run: Run) -> Iterator[None]:
         os.write(2, f"\n{STOPPING if first else AT_ONCE}\n".encode())  # print is not safe here
         run.halt() if first else run.stop()
 
-    before = signal.signal(signal.SIGINT, pressed)
+    def terminated(*_: object) -> None:
+        pressed()
+        late = threading.Timer(DEADLINE, run.stop)
+        late.daemon = True
+        late.start()
+
+    before = {signal.SIGINT: signal.signal(signal.SIGINT, pressed), signal.SIGTERM: signal.getsignal(signal.SIGTERM)}
+    signal.signal(signal.SIGTERM, terminated)
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def question(plan: Plan) -> str:

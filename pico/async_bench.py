@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
-from pico.history.reader import Reader
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
-from pico.model.state import place_of
 from pico.model.status import Status, compare, refuse_unapplied
 from pico.motion.deferred import DeferredMotion
 
@@ -26,7 +24,7 @@ if TYPE_CHECKING:
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
-    from pico.twin.picture import Image, View
+    from pico.twin.placement import Placement
     from pico.twin.snapshot import Recording
 
 CommitMode = Literal["strict", "capture", "planned"]
@@ -115,7 +113,7 @@ class AsyncBench(Reader):
             motion=DeferredMotion(self.setup),
             backend=self.backend_name,
             fidelity=self.fidelity,
-            base=self._base(seen),
+            base=self.base(seen),
             target=Target(
                 revision=revision,
                 commit=commit,
@@ -130,7 +128,8 @@ class AsyncBench(Reader):
             exclude=exclude,
         )
 
-    def _base(self, seen: Observation) -> Base:
+    def base(self, seen: Observation) -> Base:
+        """Return what a plan from this observation starts from."""
         head = self.folder.head()
         state = live_state(self.setup, seen).as_json()
         return Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
@@ -193,7 +192,7 @@ class AsyncBench(Reader):
         from pico import planning
 
         name, options = request.component, {"backend": self.backend_name, "fidelity": self.fidelity}
-        base = self._base(seen)
+        base = self.base(seen)
         if request.primitive == "set":
             assert request.tunable is not None and request.value is not None
             return planning.set_one(self.setup, seen, name, request.tunable, request.value, base=base, **options)
@@ -204,18 +203,26 @@ class AsyncBench(Reader):
         assert goal is not None
         return planning.move_one(self.setup, seen, name, goal, motion=DeferredMotion(self.setup), base=base, **options)
 
-    def run(self, plan: Plan, *, recording: Recording | None = None) -> AsyncRun:
+    def run(
+        self,
+        plan: Plan,
+        *,
+        recording: Recording | None = None,
+        resumes: str | None = None,
+        stop_on_error: bool = False,
+    ) -> AsyncRun:
         """Return the run of a plan: iterate over it for its events, then read its `report`.
 
         `recording`: keeps what a film of the run shows, see `film`; raises PicoError where nothing is simulated.
         """
+        `resumes`: the run that goes on under its id. `stop_on_error`: the first failure lets nothing more start.
         self._adopt(plan)
         watch = getattr(self.backend, "watch", None)
         if watch is not None:
             watch(recording.look if recording else None)
         elif recording is not None:
             raise PicoError(error("not-simulated", "only what is simulated can be recorded"))
-        return AsyncRun(self.setup, plan, self.backend)
+        return AsyncRun(self.setup, plan, self.backend, resumes=resumes, stop_on_error=stop_on_error)
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0

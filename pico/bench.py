@@ -103,9 +103,39 @@ class Bench(Reader):
         """Return the plan that places a component `distance` mm after another along its beam."""
         return self._thread.wait(self._bench.place(component, after=after, distance=distance))
 
-    def run(self, plan: Plan, *, recording: Recording | None = None) -> Run:
-        """Start a plan and return its run: iterate over it for its events. `recording`: see `AsyncBench.run`."""
-        return Run(self._bench.run(plan, recording=recording), self._thread)
+    def run(self, plan: Plan, **options: Any) -> Run:
+        """Start a plan and return its run: iterate over it for its events. `options`: see `AsyncBench.run`."""
+        return Run(self._bench.run(plan, **options), self._thread)
+
+    def resume_plan(self) -> tuple[Plan, str]:
+        """Return the plan to the goal of the last run, and its id; see `pico.takeup`."""
+        from pico import takeup
+
+        return self._thread.wait(takeup.resume_plan(self._bench))
+
+    def undo_plan(self) -> Plan:
+        """Return the plan back to before the last run; see `pico.takeup`."""
+        from pico import takeup
+
+        return self._thread.wait(takeup.undo_plan(self._bench))
+
+    def recover_plan(self) -> Plan:
+        """Return the plan that sets down what hands still hold; see `pico.takeup`."""
+        from pico import takeup
+
+        return self._thread.wait(takeup.recover_plan(self._bench))
+
+    def open_questions(self) -> list[Diagnostic]:
+        """Return what only a person can tell of the last runs."""
+        from pico import takeup
+
+        return takeup.open_questions(self._bench)
+
+    def answer(self, key: str, *, done: bool) -> None:
+        """Record what a person says of an operation that only a person can tell the end of; raises PicoError."""
+        from pico import takeup
+
+        takeup.answer(self._bench, key, "done" if done else "failed")
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
@@ -146,8 +176,10 @@ class Bench(Reader):
         revision: str | None = None,
         *,
         view: View = "perspective",
+        manifest: bool = False,
         plan: bool | Plan = False,
         out: Path | None = None,
+        size: tuple[int, int] = (960, 720),
     ) -> Image:
         """Return a picture (height, width, 3) of the bench; see `AsyncBench.render`."""
         return self._thread.wait(self._bench.render(revision, view=view, plan=plan, out=out))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -23,6 +23,10 @@ Record = Annotated[
     typer.Option("--record", metavar="FILE", help="Film it in the simulator, in simulated time: FILE.mp4 or FILE.gif."),
 ]
 
+StopOnError = Annotated[
+    bool, typer.Option("--stop-on-error", help="Start nothing more once an operation fails, not even beside it.")
+]
+
 
 def apply(
     context: typer.Context,
@@ -34,6 +38,7 @@ def apply(
     exclude: Exclude = None,
     prefer: Prefer = "fewest-moves",
     record: Record = None,
+    stop_on_error: StopOnError = False,
 ) -> int:
     """Move what the plan says.
 
@@ -47,11 +52,14 @@ def apply(
         require_kind(session.folder / record)
     bench = session.bench(fidelity)
     options = {"exact": exact, "prefer": prefer, "targets": target or (), "exclude": exclude or ()}
-    return approve(session, bench, bench.plan_of(what, folder=session.folder, **options), auto_approve, record)
+    plan = bench.plan_of(what, folder=session.folder, **options)
+    return approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
 
 
-def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None) -> int:
-    """Show a plan, ask, run it, and return the exit code."""
+def approve(
+    session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
+) -> int:
+    """Show a plan, ask, run it, and return the exit code; `options` are those of `AsyncBench.run`."""
     if plan.operations and not auto_approve and session.json:
         raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
     session.show(view, plan, head=bench.head_name(), goal=bench.goal_name(plan))
@@ -65,4 +73,4 @@ def approve(session: Session, bench: Bench, plan: Plan, auto_approve: bool, reco
     if not auto_approve and not session.confirm(question(plan)):
         session.say("Nothing moved.")
         return ExitCode.ERROR
-    return execute(session, bench, plan, record)
+    return execute(session, bench, plan, record, **options)

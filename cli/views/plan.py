@@ -46,7 +46,7 @@ def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, 
     parts = [paint("bold", plan.lab.name), f"{plan.backend} ({plan.fidelity})"]
     if single:
         return " · ".join([*parts, "one operation"])
-    target = goal or plan.target.revision or "the manifest"
+    target = goal or plan.target.name
     parts.append(f"HEAD {head} → {target}" if head else f"→ {target}")
     parts += [plan.target.scope] if plan.target.scope else []
     parts += [f"seen {ago(plan.base.observed_at, now)}"] if plan.base.observed_at else []
@@ -260,4 +260,4 @@ def _staging(plan: Plan) -> str:
 
 def goal_name(plan: Plan) -> str:
     """Return what the plan leads to, as a person calls it."""
-    return plan.target.revision or "the manifest"
+    return plan.target.name

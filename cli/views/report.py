@@ -15,7 +15,9 @@ def text(report: RunReport) -> str:
     """Return the tally, and whether the bench now equals what was wanted."""
     total = report.done + report.failed + report.unknown + report.skipped
     parts = [f"{report.done} of {count(total, 'operation')} done"]
-    parts += [f"{report.failed} failed"] if report.failed else []
+    back = sum(d.code == "put-back" for d in report.diagnostics)
+    parts += [f"{back} put back or left"] if back else []
+    parts += [f"{report.failed - back} failed"] if report.failed > back else []
     parts += [f"{report.unknown} with unknown outcome"] if report.unknown else []
     parts += [f"{report.skipped} not started"] if report.skipped else []
     head = {

@@ -60,6 +60,8 @@ class Walk:
         if self._journal and not self._resumed:
             document = self._plan.to_json()
             self._journal.begin_run(self._run, self._plan.digest, self._lease.holder, document=document)
+        elif self._journal:
+            self._journal.resume_run(self._run)
         relay = asyncio.create_task(self._relay(self._backend.events()))
         try:
             self._emit("run_started", data={"plan": self._plan.digest, "operations": len(self._plan.operations)})

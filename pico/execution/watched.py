@@ -23,8 +23,19 @@ from pico.model.state import state_from_json
 class AsyncRun:
     """A plan under way: iterate over it for its events, then read its `report`."""
 
-    def __init__(self, setup: Setup, plan: Plan, backend: Backend, holder: str = "pico apply") -> None:
-        self.plan, self.id = plan, new_run_id()
+    def __init__(
+        self,
+        setup: Setup,
+        plan: Plan,
+        backend: Backend,
+        holder: str = "pico apply",
+        *,
+        resumes: str | None = None,
+        stop_on_error: bool = False,
+    ) -> None:
+        """`resumes`: the run that goes on under its id. `stop_on_error`: the first failure lets nothing more start."""
+        self.plan, self.id = plan, resumes or new_run_id()
+        self._resumed, self._stop_on_error = resumes is not None, stop_on_error
         self._setup, self._backend, self._holder = setup, backend, holder
         self._report: RunReport | None = None
         self._cancelled = False
@@ -52,7 +63,7 @@ class AsyncRun:
         events: list[Event] = []
         async for event in run(
             self.plan, self._backend, run_id=self.id, holder=self._holder, setup=self._setup,
-            cancelled=lambda: self._cancelled,
+            cancelled=lambda: self._cancelled, stop_on_error=self._stop_on_error, resumed=self._resumed,
         ):  # fmt: skip
             if event.kind != "operation_progress":
                 events.append(event)
@@ -72,11 +83,11 @@ def run_report(
     setup: Setup, plan: Plan, result: RunResult, seen: Observation, *, wall: float, evidence: str
 ) -> RunReport:
     """Return the report of a run that ended with `result`, and then was observed as `seen`."""
-    asked = all(op.reason.kind in ("asked", "parked", "interlock") for op in plan.operations)
+    asked = all(op.reason.kind in ("asked", "parked", "interlock", "held") for op in plan.operations)
     whole = not asked and not plan.target.scope
     return RunReport(
         run=result.run,
-        goal=plan.target.revision or ("what was asked" if asked else "the manifest"),
+        goal="what was asked" if asked and plan.target.name == "the manifest" else plan.target.name,
         outcome=result.outcome,
         done=result.done,
         failed=result.failed,

@@ -35,14 +35,21 @@ class Base:
 class Target:
     """What a plan leads to: a revision and its commit, or the manifest in the working tree (no revision).
 
-    `only`: the components that were asked for; `exclude`: those that were to be left alone. None for a whole plan.
+    `title`: what it is where it is neither (the bench before a run). `only`: the components that were asked for;
+    `exclude`: those that were to be left alone. None for a whole plan.
     """
 
     revision: str | None = None
+    title: str | None = None
     commit: str | None = None
     only: tuple[str, ...] | None = None
     exclude: tuple[str, ...] | None = None
     state: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """What a plan leads to, as a person calls it."""
+        return self.revision or self.title or "the manifest"
 
     @property
     def scope(self) -> str:

@@ -127,7 +127,7 @@ class SimBackend:
 
     async def acquire(self, holder: str) -> Lease:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
-        from pico.backends.recovery import settle
+        from pico.backends.recovery import open_questions, settle
         from pico.backends.sim.session import Session
 
         lease = self._lock.acquire(holder)
@@ -138,6 +138,9 @@ class SimBackend:
                 motion=self._motion, tell=self._tell,
             )  # fmt: skip
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
+            asked = open_questions(self.journal.unsettled())
+            if asked:
+                raise PicoError(asked)
             if self._look is not None:
                 self._session.watch(self._look)
         except BaseException:

@@ -1,0 +1,41 @@
+"""`pico recover`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode
+
+from ..arguments import Fidelity, Yes
+from ..session import Session
+from .apply import approve
+
+Keys = Annotated[
+    list[str] | None, typer.Option("--done", metavar="KEY", help="This step was done before the run ended: you looked.")
+]
+NotKeys = Annotated[
+    list[str] | None, typer.Option("--not-done", metavar="KEY", help="This step was not done: you looked.")
+]
+
+
+def recover(
+    context: typer.Context, done: Keys = None, not_done: NotKeys = None, auto_approve: Yes = False,
+    fidelity: Fidelity = None,
+) -> int:  # fmt: skip
+    """Set down what hands still hold, and settle what only you can know.
+
+    For after a run was stopped or killed. Changes nothing else. `pico resume` and the next `pico apply` do the same
+    before they go on.
+    """
+    session = Session.of(context)
+    bench = session.bench(fidelity)
+    for keys, was_done in ((done, True), (not_done, False)):
+        for key in keys or ():
+            bench.answer(key, done=was_done)
+    questions = bench.open_questions()
+    if questions:
+        session.report(questions)
+        return ExitCode.ERROR
+    return approve(session, bench, bench.recover_plan(), auto_approve)

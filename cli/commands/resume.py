@@ -1,0 +1,23 @@
+"""`pico resume`."""
+
+from __future__ import annotations
+
+import typer
+
+from ..arguments import Fidelity, Yes
+from ..session import Session
+from .apply import StopOnError, approve
+
+
+def resume(
+    context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None, stop_on_error: StopOnError = False
+) -> int:
+    """Take up the last run again, which was interrupted, failed or killed.
+
+    It plans anew, from what stands on the table now to the goal of that run: nothing that is done is done again. What a
+    hand still holds is set down first.
+    """
+    session = Session.of(context)
+    bench = session.bench(fidelity)
+    plan, run = bench.resume_plan()
+    return approve(session, bench, plan, auto_approve, resumes=run, stop_on_error=stop_on_error)

@@ -1,0 +1,19 @@
+"""`pico undo`."""
+
+from __future__ import annotations
+
+import typer
+
+from ..arguments import Fidelity, Yes
+from ..session import Session
+from .apply import approve
+
+
+def undo(context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None) -> int:
+    """Take everything that the last run moved or set back to where it was before.
+
+    Files stay as they are. Undone twice, it is as the run left it.
+    """
+    session = Session.of(context)
+    bench = session.bench(fidelity)
+    return approve(session, bench, bench.undo_plan(), auto_approve)

@@ -1,0 +1,26 @@
+"""What became of a run that was stopped from another terminal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.backends.lease import Holder
+from pico.journal import RunRecord
+from pico.model.record import as_json
+
+
+def text(holder: Holder | None, run: RunRecord | None) -> str:
+    """Return who was stopped, how far it came, and what next."""
+    if holder is None:
+        return "Nothing moves: nobody has the bench."
+    lines = [f"Stopped {holder.what} of {holder.user} (process {holder.pid})."]
+    if run is not None and run.tally is not None:
+        counts = {k: int(run.tally.get(k, 0)) for k in ("done", "failed", "unknown", "skipped")}
+        names = {"done": "done", "failed": "not completed", "unknown": "with unknown outcome", "skipped": "not started"}
+        lines.append(", ".join(f"{n} {names[k]}" for k, n in counts.items() if n or k == "done") + ".")
+    return "\n".join([*lines, "Continue with `pico resume`; go back with `pico undo`."])
+
+
+def data(holder: Holder | None, run: RunRecord | None) -> dict[str, Any]:
+    """Return schema `pico.stopped/v1`: the `holder` that was stopped, or none, and its `run`."""
+    return {"schema": "pico.stopped/v1", "holder": as_json(holder), "run": as_json(run)}
