@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from pico.model.observation import Uncertainty
 from pico.vision.camera import CameraModel
 from pico.vision.least_squares import solve
-from pico.vision.markers import Marker
+from pico.vision.markers import CELLS, Marker
 from pico.vision.rigid import best_motion, motion, moved, square, tilt
 
 if TYPE_CHECKING:
@@ -136,11 +136,35 @@ def free(view: View, size: float, start: Array) -> Estimate:
     return _fitted([view], size, start)
 
 
+def straightened(view: View, size: float, pose: Array) -> View:
+    """Return a view with its corners where the lens shows them.
+
+    They were found by laying a plane's picture (a homography) through the whole marker. A lens bends that picture, so
+    that the corners of the fit are off those of the marker: by 0.06 pixels for 150 pixels of marker and k1 = -0.05.
+    How far off follows from the camera; the marker's `size` and where it is, about `pose` (4, 4), are enough for that.
+    """
+    import cv2
+    import numpy as np
+
+    if not view.camera.distortion.any():
+        return view
+    lines = np.linspace(-0.5, 0.5, CELLS + 1) * size
+    grid = np.array([(x, y, 0.0) for y in lines[::-1] for x in lines])
+    seen = view.camera.project(grid @ pose[:3, :3].T + pose[:3, 3])
+    if not np.isfinite(seen).all():
+        return view
+    laid, _ = cv2.findHomography(grid[:, :2], seen)
+    fitted = cv2.perspectiveTransform(square(size)[:, None, :2], laid)[:, 0]
+    corners = view.camera.project(square(size) @ pose[:3, :3].T + pose[:3, 3])
+    return replace(view, marker=replace(view.marker, corners=view.marker.corners - (fitted - corners)))
+
+
 def _fitted(views: Sequence[View], size: float, start: Array, known: tuple[Array, Array] | None = None) -> Estimate:
     """Return the pose near `start` that fits all pictures; `known`: a pose whose height and tilt hold within sigmas."""
     import numpy as np
 
     corners = square(size)
+    views = [straightened(view, size, start) for view in views]
     whitening = [np.linalg.inv(np.linalg.cholesky(view.marker.covariance)) for view in views]
 
     def residuals(change: Array) -> Array:
