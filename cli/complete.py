@@ -12,7 +12,7 @@ from .summary import COMMANDS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
-    "-n", "--number", "--explain", "--target", "--record", "--size", "--done", "--not-done",
+    "-n", "--number", "--explain", "--target",
     "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
 _CHOICE = ("--target", "--exclude", "--prefer")
@@ -22,11 +22,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "init": ("--example",),
     "status": ("--all",),
     "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", "--picture", *_CHOICE),
-    "apply": (*_APPLY, "--record", "--stop-on-error"),
-    "stop": ("--now",),
-    "resume": ("--auto-approve", "--fidelity", "--stop-on-error"),
-    "undo": ("--auto-approve", "--fidelity"),
-    "recover": ("--done", "--not-done", "--auto-approve", "--fidelity"),
+    "apply": _APPLY,
     "checkout": ("--auto-approve", "--fidelity"),
     "explain": ("--fidelity",),
     "graph": ("--format", "--out", "--fidelity"),
@@ -48,8 +44,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "sim nudge": ("--dx", "--dy", "--dyaw"),
     "sim remove": (),
 }
-GROUPS = {"sim": ("reset", "nudge", "bump", "remove", "view"), "catalog": ("list", "show")}
-    "sim view": (),
+GROUPS = {"sim": ("reset", "nudge", "bump", "remove"), "catalog": ("list", "show")}
 FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
+from pico.history.reader import Reader
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
+from pico.model.state import place_of
 from pico.model.status import Status, compare, refuse_unapplied
 from pico.motion.deferred import DeferredMotion
 
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
-    from pico.twin.placement import Placement
+    from pico.twin.picture import Image, View
     from pico.twin.snapshot import Recording
 
 CommitMode = Literal["strict", "capture", "planned"]
@@ -214,8 +216,8 @@ class AsyncBench(Reader):
         """Return the run of a plan: iterate over it for its events, then read its `report`.
 
         `recording`: keeps what a film of the run shows, see `film`; raises PicoError where nothing is simulated.
-        """
         `resumes`: the run that goes on under its id. `stop_on_error`: the first failure lets nothing more start.
+        """
         self._adopt(plan)
         watch = getattr(self.backend, "watch", None)
         if watch is not None:
