@@ -41,8 +41,9 @@ GROUPS: dict[str, dict[str, str]] = {
         "home": "Home the axis of a tunable.",
     },
     "The simulator, and the rest": {
-        "sim": "Act on the simulated world: reset it, nudge or remove a component, bump a camera.",
-        "render": "Draw the bench as a PNG.",
+        "sim": "Act on the simulated world: reset it, nudge or remove a component, bump a camera, view it.",
+        "render": "Draw the bench: a picture as PNG, or a drawing with its parts list as SVG.",
+        "ruler": "Measure between two things on the bench.",
         "completion": "Print the completion script of a shell; its first line says how to install it.",
         "version": "Show the versions of PICO and what it stands on.",
     },

@@ -8,15 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.drawings import Drawings
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
-from pico.history.reader import Reader
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
-from pico.model.state import place_of
 from pico.model.status import Status, compare, refuse_unapplied
 from pico.motion.deferred import DeferredMotion
 
@@ -26,13 +25,13 @@ if TYPE_CHECKING:
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
-    from pico.twin.picture import Image, View
+    from pico.twin.placement import Placement
     from pico.twin.snapshot import Recording
 
 CommitMode = Literal["strict", "capture", "planned"]
 
 
-class AsyncBench(Reader):
+class AsyncBench(Drawings):
     """One bench: its lab's folder, and the backend that sees and moves it. Open it with `AsyncBench.open`."""
 
     def __init__(self, folder: LabFolder, fidelity: str | None = None) -> None:
@@ -280,45 +279,11 @@ class AsyncBench(Reader):
         captured = self.folder.capture(live_state(self.setup, seen))
         return self.folder.commit(message, captured.changes, self.fidelity)
 
-    async def render(
-        self,
-        revision: str | None = None,
-        *,
-        view: View = "perspective",
-        plan: bool | Plan = False,
-        out: Path | None = None,
-    ) -> Image:
-        """Return a picture (height, width, 3), sRGB, of the bench as it is, or as a revision wants it.
+    async def _planned(self, revision: str | None) -> Plan:
+        return await self.plan(revision)
 
-        `plan` (from above only): the bench as it is, with what this plan moves, or that to the revision or the
-        manifest, drawn dashed; where it is impossible, what is in whose way, in red. `out`: write it there, too, as
-        PNG. Raises PicoError.
-        """
-        from pico.pictures import goals, marks, places, steps
-        from pico.twin.picture import render, write_png
-
-        seen = await self.observe()
-        if plan is True:
-            plan = await self.plan(revision)
-        joints = {name: robot.joints for name, robot in seen.robots.items()}
-        if isinstance(plan, Plan) or not revision:
-            poses = places(self.setup, seen, self.sim.placements() if self.backend_name == "sim" else {})
-        else:
-            wanted = self.state_at(revision)
-            poses = {name: place_of(self.setup, wanted, name)[1] for name in self.setup.lab.inventory}
-        drawn = plan if isinstance(plan, Plan) else None
-        image = render(
-            self.setup,
-            poses,
-            joints,
-            view=view,
-            ghosts=goals(self.setup, drawn) if drawn else None,
-            marks=marks(self.setup, drawn) if drawn else (),
-            steps=steps(drawn) if drawn else (),
-        )
-        if out is not None:
-            write_png(image, out)
-        return image
+    def _in_space(self) -> Mapping[str, Placement]:
+        return self.sim.placements() if self.backend_name == "sim" else {}
 
     @property
     def sim(self) -> SimulatedTable:

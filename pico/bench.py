@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from pico.planning.request import Preference
     from pico.twin.film import Caption
     from pico.twin.picture import Image, View
+    from pico.twin.ruler import Measured
     from pico.twin.snapshot import Recording
 
 __all__ = ["AsyncBench", "Bench", "CommitMode", "new_lab"]
@@ -175,14 +176,36 @@ class Bench(Reader):
         self,
         revision: str | None = None,
         *,
-        view: View = "perspective",
         manifest: bool = False,
+        view: View = "perspective",
         plan: bool | Plan = False,
-        out: Path | None = None,
         size: tuple[int, int] = (960, 720),
+        out: Path | None = None,
     ) -> Image:
         """Return a picture (height, width, 3) of the bench; see `AsyncBench.render`."""
-        return self._thread.wait(self._bench.render(revision, view=view, plan=plan, out=out))
+        return self._thread.wait(
+            self._bench.render(revision, manifest=manifest, view=view, plan=plan, size=size, out=out)
+        )
+
+    def render_diff(self, a: str | None = None, b: str | None = None, *, out: Path | None = None) -> Image:
+        """Return a picture of how state `a` becomes `b`; see `AsyncBench.render_diff`."""
+        return self._bench.render_diff(a, b, out=out)
+
+    def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:
+        """Return a drawing as SVG with its parts list; see `AsyncBench.sheet`."""
+        return self._thread.wait(self._bench.sheet(revision, manifest=manifest))
+
+    def ruler(self, a: str, b: str) -> Measured:
+        """Return how far two things on the bench are from each other; see `AsyncBench.ruler`."""
+        return self._thread.wait(self._bench.ruler(a, b))
+
+    def view(self) -> None:
+        """Open MuJoCo's own viewer on the bench; see `AsyncBench.view`."""
+        self._thread.wait(self._bench.view())
+
+    def render_ruler(self, measured: Measured, *, out: Path | None = None) -> Image:
+        """Return a picture of what `ruler` found; see `AsyncBench.render_ruler`."""
+        return self._thread.wait(self._bench.render_ruler(measured, out=out))
 
 
 def new_lab(folder: Path, example: str | None = None) -> None:

@@ -38,6 +38,11 @@ def places(setup: Setup, seen: Observation, in_space: Mapping[str, Placement]) -
     return found
 
 
+def standing(setup: Setup, state: LabState) -> dict[str, Place]:
+    """Return where to draw each component of the inventory as a state wants it."""
+    return {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
+
+
 def goals(setup: Setup, plan: Plan) -> dict[str, Pose]:
     """Return where the components are to stand that a plan moves, or would have to."""
     ends = ends_of(setup, plan)

@@ -23,9 +23,10 @@ LAYERS: dict[str, set[str]] = {
     "backends": {"diagnostics", "model", "journal", "geometry", "motion", "vision", "twin"},
     "execution": {"diagnostics", "model", "journal", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
+    "drawings": {"model", "history", "motion", "twin", "pictures"},
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "vision", "twin", "backends", "execution", "pictures",
+        "vision", "twin", "backends", "execution", "pictures", "drawings",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",

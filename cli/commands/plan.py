@@ -13,6 +13,7 @@ from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Rev
 from ..session import Session
 from ..views import picture as picture_view
 from ..views import plan as view
+from ..waiting import waiting
 
 Explain = Annotated[
     str | None,
@@ -22,7 +23,9 @@ Explain = Annotated[
 Picture = Annotated[
     Path | None,
     typer.Option(
-        "--picture", metavar="PNG", help="Draw the plan from above; where it is impossible, who blocks whom in red."
+        "--picture",
+        metavar="PNG",
+        help="Draw the plan from above, its steps numbered; where it is impossible, who blocks whom in red.",
     ),
 ]
 
@@ -62,7 +65,8 @@ def plan(
             next_step=_next(revision, out, _again(target, exclude, prefer)),
         )
     if picture:
-        bench.render(view="top", plan=found, out=session.folder / picture)
+        with waiting("Drawing"):
+            bench.render(view="top", plan=found, out=session.folder / picture)
         session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='the plan')}")
     if not session.json and not explain:
         session.report(found.diagnostics)

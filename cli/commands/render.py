@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,38 +13,76 @@ from pico.diagnostics import PicoError, did_you_mean, error
 from ..arguments import Revision
 from ..session import Session
 from ..views import picture as view
+from ..waiting import waiting
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
 
 VIEWS = ("perspective", "top")
+LARGEST = 8000
+"""Pixels along an edge."""
 
 
 def render(
     context: typer.Context,
     revision: Revision = None,
-    out: Annotated[Path, typer.Option("--out", metavar="PNG", help="Where the picture goes.")] = Path("bench.png"),
+    out: Annotated[
+        Path, typer.Option("--out", metavar="FILE", help="Where it goes: .png, or .svg for a drawing with parts list.")
+    ] = Path("bench.png"),
     looking: Annotated[str, typer.Option("--view", metavar="perspective|top", help="From where.")] = "perspective",
+    manifest: Annotated[bool, typer.Option("--manifest", help="As the manifest wants it.")] = False,
     plan: Annotated[
         bool, typer.Option("--plan", help="Show what would move on the way to REV or the manifest.")
     ] = False,
+    size: Annotated[str, typer.Option("--size", metavar="WxH", help="Pixels of the picture.")] = "960x720",
 ) -> int:
-    """Draw the bench as a PNG.
+    """Draw the bench: a picture as PNG, or a drawing with its parts list as SVG.
 
-    As it is, or as a revision wants it. Needs no OpenGL.
+    As it is, with --manifest as the manifest wants it, or as REV wants it. Needs no OpenGL. An SVG is drawn from above
+    at true scale, one unit a millimetre, with names and a parts list.
     """
     session = Session.of(context)
+    _require(looking, out, plan, manifest and revision is not None)
+    pixels = _pixels(size)
     bench = session.bench()
-    if looking not in ("perspective", "top"):
+    path = session.folder / out
+    with waiting("Drawing"):
+        if out.suffix.lower() == ".svg":
+            path.write_text(bench.sheet(revision, manifest=manifest), encoding="utf-8")
+        else:
+            seen_from = "top" if looking == "top" else "perspective"
+            bench.render(revision, manifest=manifest, view=seen_from, plan=plan, size=pixels, out=path)
+    session.show(view, path, shown=out, what=_what(bench, revision, manifest, plan))
+    return 0
+
+
+def _what(bench: Bench, revision: str | None, manifest: bool, plan: bool) -> str:
+    goal = bench.name_of(revision) if revision else "the manifest"
+    if plan:
+        return f"the bench as it is, and dashed where parts go for {goal}"
+    return goal if revision or manifest else "the bench as it is"
+
+
+def _require(looking: str, out: Path, plan: bool, both: bool) -> None:
+    if looking not in VIEWS:
         raise PicoError(error("usage", f"there is no view `{looking}`", hint=did_you_mean(looking, VIEWS)))
+    if out.suffix.lower() not in (".png", ".svg"):
+        hint = f"`--out {out.stem or 'bench'}.png` or `--out {out.stem or 'bench'}.svg`"
+        raise PicoError(error("usage", f"{out} is neither a .png nor a .svg", hint=hint))
+    if both:
+        raise PicoError(error("usage", "--manifest draws the manifest, not a revision", hint="leave one of them out"))
+    if plan and out.suffix.lower() == ".svg":
+        hint = "`pico plan --picture plan.png` draws it as PNG"
+        raise PicoError(error("usage", "an SVG shows no plan", hint=hint))
     if plan and looking != "top":
         raise PicoError(error("usage", "what would move is drawn from above only", hint="add `--view top`"))
-    path = session.folder / out
-    bench.render(revision, view="top" if looking == "top" else "perspective", plan=plan, out=path)
-    goal = bench.name_of(revision) if revision else "the manifest"
-    what = (
-        f"the bench as it is, and dashed where parts go for {goal}"
-        if plan
-        else goal
-        if revision
-        else "the bench as it is"
-    )
-    session.show(view, path, shown=out, what=what)
-    return 0
+
+
+def _pixels(size: str) -> tuple[int, int]:
+    """Return width and height of `960x720`."""
+    found = re.fullmatch(r"(\d+)x(\d+)", size)
+    width, height = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not (64 <= width <= LARGEST and 48 <= height <= LARGEST):
+        hint = f"width x height in pixels, for example 1920x1440; at least 64x48, at most {LARGEST}x{LARGEST}"
+        raise PicoError(error("usage", f"`{size}` is no size of a picture", hint=hint))
+    return width, height

@@ -8,12 +8,12 @@ import typer
 
 from ..arguments import Component
 from ..session import Session
-from ..views import simulated as view
+from ..views import simulated as said
 
 app = typer.Typer(
     rich_markup_mode=None,
     no_args_is_help=True,
-    help="Act on the simulated world: reset it, nudge or remove a component, bump a camera.",
+    help="Act on the simulated world: reset it, nudge or remove a component, bump a camera, view it.",
 )
 
 
@@ -22,7 +22,7 @@ def reset(context: typer.Context) -> int:
     """Put every part of the simulated bench home, as in a new world."""
     session = Session.of(context)
     session.bench().sim.reset()
-    session.show(view, "every part of the simulated bench is at home")
+    session.show(said, "every part of the simulated bench is at home")
     return 0
 
 
@@ -37,7 +37,7 @@ def nudge(
     """Push a component, as somebody bumping the table would."""
     session = Session.of(context)
     pose = session.bench().sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
-    session.show(view, f"{name} now stands at {pose}", pose=pose)
+    session.show(said, f"{name} now stands at {pose}", pose=pose)
     return 0
 
 
@@ -56,7 +56,7 @@ def bump(
     session = Session.of(context)
     session.bench().sim.bump(camera, shift=(dx, dy, dz), turn=(0.0, 0.0, dyaw))
     moved = f"({dx:g}, {dy:g}, {dz:g}) mm, {dyaw:g} deg"
-    session.show(view, f"{camera or 'every camera at the table'} moved by {moved}; its calibration is as before")
+    session.show(said, f"{camera or 'every camera at the table'} moved by {moved}; its calibration is as before")
     return 0
 
 
@@ -65,5 +65,16 @@ def remove(context: typer.Context, name: Component) -> int:
     """Take a component off the simulated table: it is then missing."""
     session = Session.of(context)
     session.bench().sim.remove(name)
-    session.show(view, f"{name} is off the table; `pico sim reset` brings everything back")
+    session.show(said, f"{name} is off the table; `pico sim reset` brings everything back")
+    return 0
+
+
+@app.command()
+def view(context: typer.Context) -> int:
+    """Open MuJoCo's own viewer on the bench and follow what moves; needs a display."""
+    from pico.twin.viewer import require_display
+
+    require_display()
+    session = Session.of(context)
+    session.bench().view()
     return 0

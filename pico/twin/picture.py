@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from pico.twin.dimensions import Dimension
     from pico.twin.marks import Mark
     from pico.twin.perspective import Beam
     from pico.twin.steps import Step
@@ -46,20 +47,22 @@ def render(
     beams: bool = True,
     marks: Sequence[Mark] = (),
     steps: Sequence[Step] = (),
+    dimensions: Sequence[Dimension] = (),
 ) -> Image:
     """Return a picture (height, width, 3) of the bench, sRGB.
 
     `poses`: where components stand, by name; a `Placement` where one does not stand on its base; names that are
-    missing are not drawn. `joints`: of each robot [rad], parked where missing. `ghosts`: where components are to go,
-    drawn dashed in the view from above; `marks`: what is in whose way, drawn red there; `steps`: what is moved where,
-    numbered, with a list below that makes the picture higher. `beams`: draw the light of sources up to what stops it.
+    missing are not drawn. `joints`: of each robot [rad], parked where missing. `beams`: draw the light of sources up to
+    what stops it. In the view from above only: `ghosts`, where components are to go, dashed; `marks`, what is in whose
+    way, red; `steps`, what is moved where, numbered, with a list below that makes the picture higher; `dimensions`,
+    lengths.
     """
     if view == "top":
         from pico.twin.topview import draw
 
         return draw(
             setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams,
-            marks=marks, steps=steps,
+            marks=marks, steps=steps, dimensions=dimensions,
         )  # fmt: skip
     return _perspective(setup, poses, joints, width, height, labels, beams)
 

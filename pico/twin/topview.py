@@ -13,6 +13,7 @@ from pico.motion.kinematics import span, tool_pose
 from pico.motion.types import Joints
 from pico.twin.beams import Place, beam_paths, flat
 from pico.twin.canvas import Canvas, Point
+from pico.twin.dimensions import Dimension, draw_dimensions, legend
 from pico.twin.lettering import Color
 from pico.twin.marks import LEGEND, Mark, draw_marks
 from pico.twin.names import Named, write_names
@@ -55,6 +56,7 @@ def draw(
     beams: bool,
     marks: Sequence[Mark] = (),
     steps: Sequence[Step] = (),
+    dimensions: Sequence[Dimension] = (),
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.twin.picture.render`."""
     canvas = new_canvas(setup, width, height)
@@ -84,7 +86,8 @@ def draw(
         things = [Named(n, outline(setup.type_of(n).geometry.footprint, pose), ink) for n, pose, ink in named]
         write_names(canvas, things, size)
     draw_marks(canvas, setup, marks, places, ghosts, size)
-    _draw_legend(canvas, setup, size, LEGEND if marks else REACH_LEGEND)
+    draw_dimensions(canvas, dimensions, size)
+    _draw_legend(canvas, setup, size, LEGEND if marks else legend(dimensions) if dimensions else REACH_LEGEND)
     draw_numbers(canvas, setup, moves, size)
     return with_list(canvas.finished(), steps, 0.95 * size)
 
@@ -134,8 +137,8 @@ def _draw_areas(canvas: Canvas, setup: Setup, size: float) -> None:
     for name, region in sorted(setup.lab.regions.items()):
         canvas.fill(_corners(region.area), _REGION, 0.55)
         canvas.dashes(_closed(region.area), (160, 184, 214), 1.0, (6, 4))
-        at = (region.area.x[1], region.area.y[0])
-        canvas.text(name, at, 0.8 * size, (96, 124, 160), align="right", shift=(-5, -5))
+        at = (region.area.x[1], region.area.y[1])
+        canvas.text(name, at, 0.8 * size, (96, 124, 160), align="right", shift=(0, -3))
     for name, zone in sorted(setup.lab.keep_out.items()):
         canvas.fill(_corners(zone.area), (250, 226, 226), 0.7)
         canvas.dashes(_closed(zone.area), _FORBIDDEN, 1.2, (5, 4))
@@ -163,7 +166,7 @@ def _draw_reach(canvas: Canvas, setup: Setup, robot: Robot) -> None:
     for radius in span(robot, max(grasps, default=_GRASP_HEIGHT)):
         if radius < 1.0:
             continue
-        for arc in _on_table(setup, circle((robot.mount.x, robot.mount.y), radius, 180)):
+        for arc in on_table(setup, circle((robot.mount.x, robot.mount.y), radius, 180)):
             canvas.dashes(arc, _REACH, 1.2, (8, 5))
 
 
@@ -223,7 +226,7 @@ def _front(footprint: Footprint) -> float:
     return footprint.disc if footprint.disc is not None else max(x for x, _ in footprint.vertices)
 
 
-def _on_table(setup: Setup, ring: list[Point]) -> list[list[Point]]:
+def on_table(setup: Setup, ring: list[Point]) -> list[list[Point]]:
     """The stretches of a closed line that lie on the table."""
     x, y = setup.lab.table.size
     inside = [0 <= px <= x and 0 <= py <= y for px, py in ring]

@@ -1,0 +1,34 @@
+"""`pico ruler`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..session import Session
+from ..views import picture as picture_view
+from ..views import ruler as view
+from ..waiting import waiting
+
+A = Annotated[str, typer.Argument(metavar="A", help="COMPONENT[:optical|base|hole], SLOT, hole:COLUMN,ROW or X,Y.")]
+B = Annotated[str, typer.Argument(metavar="B", help="As A.")]
+Picture = Annotated[Path | None, typer.Option("--picture", metavar="PNG", help="Draw it from above.")]
+
+
+def ruler(context: typer.Context, a: A, b: B, picture: Picture = None) -> int:
+    """Measure between two things on the bench.
+
+    Between their points, between their nearest faces, and along the beam axis of the first one. `pico ruler lx_125
+    ly_150`, `pico ruler p2:base hole:12,7`, `pico ruler cam 520,420`. Holes are counted from 1,1 at the front left.
+    """
+    session = Session.of(context)
+    bench = session.bench()
+    found = bench.ruler(a, b)
+    session.show(view, found)
+    if picture:
+        with waiting("Drawing"):
+            bench.render_ruler(found, out=session.folder / picture)
+        session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='it')}")
+    return 0

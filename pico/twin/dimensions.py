@@ -1,0 +1,77 @@
+"""Lengths on the drawing from above: lines with their measure, and the legs along x and y."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from pico.twin.canvas import Canvas, Point
+from pico.twin.lettering import Align, Color
+
+_INK: Color = (120, 20, 120)
+_SURFACE: Color = (0, 110, 90)
+_WHITE: Color = (255, 255, 255)
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """A length to draw from `start` to `end` [mm], with its measure; `surfaces`: between two faces."""
+
+    start: Point
+    end: Point
+    text: str
+    surfaces: bool = False
+
+
+def legend(dimensions: Sequence[Dimension]) -> str:
+    """Return what the lines are, with their lengths."""
+    words = [f"{'green: nearest faces' if d.surfaces else 'violet: points'}, {d.text}" for d in dimensions]
+    return " · ".join(words)
+
+
+def draw_dimensions(canvas: Canvas, dimensions: Sequence[Dimension], size: float) -> None:
+    """Draw each length; that between points with its measure, on the side away from dx and dy."""
+    for dimension in sorted(dimensions, key=lambda d: d.surfaces):
+        (x0, y0), (x1, y1) = dimension.start, dimension.end
+        color = _SURFACE if dimension.surfaces else _INK
+        sloping = min(abs(x1 - x0), abs(y1 - y0)) * canvas.scale > 12
+        if not dimension.surfaces and sloping:
+            _legs(canvas, dimension.start, dimension.end, size)
+        canvas.line((dimension.start, dimension.end), color, 4.0 if dimension.surfaces else 2.0)
+        for tip, back in ((dimension.end, dimension.start), (dimension.start, dimension.end)):
+            _tick(canvas, tip, back, color)
+        if not dimension.surfaces:
+            aside = (-8 if x1 > x0 else 8) if sloping else 0
+            align: Align = "center" if not sloping else "right" if x1 > x0 else "left"
+            middle = ((x0 + x1) / 2, (y0 + y1) / 2)
+            lower = (0.9 * size if y1 < y0 else -0.3 * size) if sloping else -0.8 * size
+            canvas.text(dimension.text, middle, size, color, align=align, weight=600, shift=(aside, lower), halo=_WHITE)
+
+
+def _legs(canvas: Canvas, start: Point, end: Point, size: float) -> None:
+    """The way along x and then along y, with dx and dy."""
+    corner = (end[0], start[1])
+    for a, b in ((start, corner), (corner, end)):
+        canvas.dashes((a, b), _INK, 1.0, (2, 4))
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    below = 1.1 * size if dy > 0 else -0.4 * size
+    at = ((start[0] + corner[0]) / 2, start[1])
+    canvas.text(f"dx {dx:+.5g}", at, 0.8 * size, _INK, align="center", shift=(0, below), halo=_WHITE)
+    side = (corner[0], (start[1] + end[1]) / 2)
+    aside = 6 if dx > 0 else -6
+    canvas.text(
+        f"dy {dy:+.5g}", side, 0.8 * size, _INK, align="left" if dx > 0 else "right",
+        shift=(aside, 0.3 * size), halo=_WHITE,
+    )  # fmt: skip
+
+
+def _tick(canvas: Canvas, tip: Point, back: Point, color: Color) -> None:
+    """A short bar across the end of a line."""
+    length = math.dist(tip, back)
+    if length < 1e-6:
+        canvas.dots([tip], 4 / canvas.scale, color)
+        return
+    half = 6 / canvas.scale
+    nx, ny = -(tip[1] - back[1]) / length * half, (tip[0] - back[0]) / length * half
+    canvas.line(((tip[0] - nx, tip[1] - ny), (tip[0] + nx, tip[1] + ny)), color, 2.0)
