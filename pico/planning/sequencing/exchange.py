@@ -30,20 +30,30 @@ def anneal(
     draw, log, arcs, after, count = random.Random(seed).random, math.log, tour.arcs, tour.after, tour.count
     line = [count, *order, count]
     place = _places(line)
+    good = [[j if j < count else count + 1 for j in row] for row in near]
     gain, lowest, best = 0.0, 0.0, tuple(order)
     warmth = HOT * abs(tour.cost(order)) / (count + 1)
     cooling = (COLD / HOT) ** (1 / max(1, moves))
     for _ in range(moves):
         warmth *= cooling
         i = int(draw() * (count + 1))
-        j = near[i][int(draw() ** 2 * len(near[i]))]
-        a, b, c = _stretches(place[i], place[j] if j < count else count + 1, count, draw)
+        row = good[i]
+        p, q, skew = place[i], place[row[int(draw() ** 2 * len(row))]], draw() ** 5
+        if q > p + 1:  # what is at place q comes right after what is at p: by itself, or with what is behind it
+            if draw() < 0.5:
+                a, b, c = p, q - 1, q + int(skew * (count + 1 - q))
+            else:
+                a, b, c = p - 1 - int(skew * p), p, q - 1
+        elif q < p:
+            length = 1 + int(skew * (p - q))
+            a, b, c = q - 1, (q - 1 + length if draw() < 0.5 else p - length), p
+        else:
+            continue
         if not 0 <= a < b < c <= count:
             continue
-        i, first, j, second, k, last = line[a], line[a + 1], line[b], line[b + 1], line[c], line[c + 1]
-        change = (
-            arcs[i][second] + arcs[k][first] + arcs[j][last] - arcs[i][first] - arcs[j][second] - arcs[k][last]
-        )  # fmt: skip
+        first, second, last = line[a + 1], line[b + 1], line[c + 1]
+        out, mid, end = arcs[line[a]], arcs[line[b]], arcs[line[c]]
+        change = out[second] + end[first] + mid[last] - out[first] - mid[second] - end[last]
         if change > 0 and change >= -warmth * log(1.0 - draw()):
             continue
         if not exchangeable(line[a + 1 : b + 1], line[b + 1 : c + 1], after):
@@ -58,24 +68,12 @@ def anneal(
 
 
 def _places(line: abc.Sequence[int]) -> list[int]:
-    place = [0] * (len(line) - 1)
+    """Return at what place of the line each operation is, and the start; behind them that of the park."""
+    place = [0] * len(line)
+    place[-1] = len(line) - 1
     for n, k in enumerate(line[1:-1], 1):
         place[k] = n
     return place
-
-
-def _stretches(i: int, j: int, count: int, draw: abc.Callable[[], float]) -> tuple[int, int, int]:
-    """Return a, b, c for which exchanging the places a+1..b and b+1..c brings what is at place `j` right after what
-    is at `i`; out of order or range where there are none. The third place is drawn, near ones more often."""
-    skew = draw() ** 5
-    if j > i + 1:
-        if draw() < 0.5:
-            return i, j - 1, j + int(skew * (count + 1 - j))
-        return i - 1 - int(skew * i), i, j - 1
-    if j < i:
-        length = 1 + int(skew * (i - j))
-        return j - 1, (j - 1 + length if draw() < 0.5 else i - length), i
-    return 0, 0, 0
 
 
 def exchangeable(first: abc.Sequence[int], second: abc.Sequence[int], after: Masks) -> bool:

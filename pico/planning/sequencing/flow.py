@@ -28,10 +28,11 @@ class Network:
         """Return the source's side of a smallest cut, or None where at least `enough` can flow; `banned` nodes are left
         out. Sides and nodes are bits."""
         room, flow = self._capacity.copy(), 0.0
+        shut = bytearray(banned >> node & 1 for node in range(len(self._out)))
         while True:
-            back = self._search(source, sink, banned, room)
-            if sink not in back:
-                return sum(1 << node for node in back)
+            reached, back = self._search(source, sink, shut.copy(), room)
+            if reached[-1] != sink:
+                return sum(1 << node for node in reached)
             path, node = list[int](), sink
             while node != source:
                 path.append(back[node])
@@ -44,15 +45,20 @@ class Network:
             if flow >= enough:
                 return None
 
-    def _search(self, source: int, sink: int, banned: int, room: abc.Sequence[float]) -> dict[int, int]:
-        """Return for each node that can still be reached the arc that a shortest path enters it by."""
-        back, queue, head, out = {source: -1}, [source], self._head, self._out
-        for reached in queue:  # it grows meanwhile
-            for e in out[reached]:
-                node = head[e]
-                if room[e] > TINY and node not in back and not banned >> node & 1:
-                    back[node] = e
-                    if node == sink:
-                        return back
-                    queue.append(node)
-        return back
+    def _search(
+        self, source: int, sink: int, closed: bytearray, room: abc.Sequence[float]
+    ) -> tuple[list[int], list[int]]:  # fmt: skip
+        """Return the nodes that can still be reached, as far as the sink, and for each the arc that a shortest path
+        enters it by. `closed`: one byte a node, set where it is left out; the search sets those it has reached."""
+        queue, back, head, out = [source], [-1] * len(closed), self._head, self._out
+        closed[source] = 1
+        for node in queue:  # it grows meanwhile
+            for e in out[node]:
+                if room[e] > TINY and not closed[head[e]]:
+                    to = head[e]
+                    closed[to] = 1
+                    back[to] = e
+                    queue.append(to)
+                    if to == sink:
+                        return queue, back
+        return queue, back
