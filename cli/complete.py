@@ -12,7 +12,7 @@ from .summary import COMMANDS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
-    "-n", "--number", "--explain", "--target",
+    "-n", "--number", "--explain", "--target", "--record", "--size", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
 _CHOICE = ("--target", "--exclude", "--prefer")
@@ -22,7 +22,11 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "init": ("--example",),
     "status": ("--all",),
     "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", "--picture", *_CHOICE),
-    "apply": _APPLY,
+    "apply": (*_APPLY, "--record", "--stop-on-error"),
+    "stop": ("--now",),
+    "resume": ("--auto-approve", "--fidelity", "--stop-on-error"),
+    "undo": ("--auto-approve", "--fidelity"),
+    "recover": ("--done", "--not-done", "--auto-approve", "--fidelity"),
     "checkout": ("--auto-approve", "--fidelity"),
     "explain": ("--fidelity",),
     "graph": ("--format", "--out", "--fidelity"),
@@ -38,13 +42,16 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "stow": ("--speed", *_ONE),
     "set": _ONE,
     "home": _ONE,
-    "render": ("--out", "--view", "--plan"),
+    "diff": ("--picture",),
+    "render": ("--out", "--view", "--manifest", "--plan", "--size"),
+    "ruler": ("--picture",),
     "sim reset": (),
     "sim bump": ("--dx", "--dy", "--dz", "--dyaw"),
     "sim nudge": ("--dx", "--dy", "--dyaw"),
     "sim remove": (),
+    "sim view": (),
 }
-GROUPS = {"sim": ("reset", "nudge", "bump", "remove"), "catalog": ("list", "show")}
+GROUPS = {"sim": ("reset", "nudge", "bump", "remove", "view"), "catalog": ("list", "show")}
 FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),
@@ -54,7 +61,7 @@ FIXED = {
     "--example": ("minimal", "shel", "crowded", "two_arms"),
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
-_COMPONENT = ("do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
+_COMPONENT = ("ruler", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
 _REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 

@@ -24,13 +24,16 @@ LAYERS: dict[str, set[str]] = {
     "execution": {"diagnostics", "model", "journal", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
     "drawings": {"model", "history", "motion", "twin", "pictures"},
+    "takeup": {
+        "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
+    },
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "drawings",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "vision", "twin", "backends", "execution", "pictures", "async_bench",
+        "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup",
     },
 }  # fmt: skip
 
