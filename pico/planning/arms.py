@@ -10,8 +10,9 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-TRIED = 150_000
-"""How many moves the search for an order times in all; a count of work, so that the answer is always the same."""
+TRIED = 3000
+"""How many moves the search for an order times in all, for each move; a count of work, so that the answer is always the
+same."""
 _EQUAL = 1e-6
 _PARKED = -1
 Table = tuple[tuple[float, ...], ...]
@@ -80,7 +81,7 @@ def timed(work: Work, order: Sequence[int]) -> tuple[float, float]:
 def soonest(work: Work, order: Sequence[int], tried: int = TRIED, seed: int = 0) -> tuple[int, ...]:
     """Return an order that keeps `before` and ends as soon as one that is found from `order`, which keeps it as well:
     local search that shifts single moves, from there and again and again from some moves shifted at random."""
-    rnd, left = random.Random(seed), [tried]
+    rnd, left = random.Random(seed), [tried * len(order)]
     best, cost = _descended(work, tuple(order), left)
     while left[0] > 0 and len(order) > 2:
         kicked = best
@@ -141,6 +142,14 @@ def least(work: Work, tours: Sequence[float], free: Mapping[int, float]) -> floa
         bounds.append(sum(shortest[j] for j in inside) + min((tails[j] for j in inside), default=0.0))
     chain: dict[int, float] = {}
     for j in sorted(moves, key=lambda j: len(work.before[j])):
-        chain[j] = max((chain[e] for e in work.before[j]), default=0.0) + shortest[j]
+        chain[j] = max((chain[e] + _handover(work, e, j, free) for e in work.before[j]), default=0.0) + shortest[j]
         bounds.append(chain[j] + tails[j])
     return max(bounds, default=0.0)
+
+
+def _handover(work: Work, first: int, then: int, free: Mapping[int, float]) -> float:
+    """Return how long the arm of one move takes at least to leave the zones that another arm needs for a later one."""
+    if first in free or then in free or work.arm[first] == work.arm[then] or not work.stays[first] & work.enters[then]:
+        return 0.0
+    onward = (work.between[first][k] + work.loaded[k] for k in work.of(work.arm[first]) if k != first)
+    return min((work.end[first], *onward))

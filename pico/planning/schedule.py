@@ -99,9 +99,9 @@ def makespan(operations: Sequence[Operation]) -> float:
 
 
 def least_makespan(operations: Sequence[Operation], arms: float | None) -> float | None:
-    """Return a time before which no schedule of these operations ends [s]: what the arms need in any order and people
-    while the arms stand still, or what one component's motors and set-points need one after the other. None where the
-    arms do not tell."""
+    """Return a time before which no schedule of these operations ends [s]: what the arms need in any order, people
+    while the arms stand still, and what comes before all of them and after, a shutter, say; or what one component's
+    motors and set-points need one after the other. None where the arms do not tell."""
     if arms is None or not operations:
         return None
     people = sum(o.seconds for o in operations if o.primitive == "operator")
@@ -109,4 +109,20 @@ def least_makespan(operations: Sequence[Operation], arms: float | None) -> float
     for o in operations:
         if o.primitive in ("set", "home"):
             chains[o.component] = chains.get(o.component, 0.0) + o.seconds
-    return round(min(max(arms + people, *chains.values(), 0.0), makespan(operations)), 6)
+    around = sum(_around(operations)) if arms else 0.0
+    return round(min(max(arms + people + around, *chains.values(), 0.0), makespan(operations)), 6)
+
+
+def _around(operations: Sequence[Operation]) -> tuple[float, float]:
+    """Return how long the longest operation takes that all of the robots' wait for, and the longest that waits for all
+    of them [s]. `operations` come after what they wait for."""
+    earlier: dict[str, frozenset[str]] = {}
+    for o in operations:
+        earlier[o.id] = frozenset(o.after).union(*(earlier[e] for e in o.after))
+    robots = {o.id for o in operations if o.robot}
+    first = frozenset.intersection(*(earlier[i] for i in robots)) if robots else frozenset[str]()
+    others = [o for o in operations if not o.robot and robots]
+    return (
+        max((o.seconds for o in others if o.id in first), default=0.0),
+        max((o.seconds for o in others if robots <= earlier[o.id]), default=0.0),
+    )

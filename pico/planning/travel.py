@@ -53,10 +53,10 @@ def toured(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: M
         robots = {s.hold.robot for s in steps}
     if several and len(robots) > 1:
         return Tour(tuple(steps), timed(work_of(clock, steps), range(len(steps)))[0], _least(clock, steps))
-    if len(robots) > 1 or None in robots or len(steps) < 2:
+    if len(robots) > 1 or None in robots or not steps:
         order = arranged(table.setup, table, steps, precedence(table, steps, {}))
         loaded = {r: sum(clock.loaded(s) for s in order if s.hold.robot == r) for r in robots}
-        return Tour(order, sum(loaded.values()), max(loaded.values()) if clock.told else None)
+        return Tour(order, sum(loaded.values()), max(loaded.values(), default=0.0) if clock.told else None)
     first = _sequenced(clock, steps)
     moved = nearer(clock, first.steps)
     best = _sequenced(clock, moved) if moved != first.steps else first
