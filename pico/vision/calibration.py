@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from pico.model.record import record
+from pico.diagnostics import PicoError, error
+from pico.model.record import as_json, digest, record
 from pico.vision.camera import CameraModel
+from pico.vision.rigid import motion, rotation, rotation_vector
 
 if TYPE_CHECKING:
     import numpy as np
@@ -48,3 +52,86 @@ class Calibration:
             for name, camera in self.cameras.items()
         }
         return replace(self, cameras=cameras)
+
+    @property
+    def digest(self) -> str:
+        """The digest that plans record: of the cameras and of how well they are known, not of when it was made."""
+        return digest({key: value for key, value in self.as_json().items() if key != "made_at"})
+
+    def as_json(self) -> dict[str, Any]:
+        """Return schema `pico.calibration/v1`: cameras with lens, position [mm] and rotation vector [deg]."""
+        return {
+            "schema": SCHEMA,
+            "made_at": self.made_at,
+            "accuracy": as_json(self.accuracy),
+            "residuals": {name: round(value, 4) for name, value in sorted(self.residuals.items())},
+            "cameras": {name: _camera_json(camera) for name, camera in sorted(self.cameras.items())},
+        }
+
+
+SCHEMA = "pico.calibration/v1"
+FILE = "calibration.json"
+"""In the folder of a lab, so that Git keeps what the bench's cameras were when."""
+
+
+def write_calibration(folder: Path, calibration: Calibration) -> Path:
+    """Write the calibration into the folder of a lab, and return the file."""
+    path = folder / FILE
+    path.write_text(json.dumps(calibration.as_json(), indent=2) + "\n")
+    return path
+
+
+def read_calibration(folder: Path) -> Calibration | None:
+    """Return the calibration in the folder of a lab, or None; raises PicoError where the file is something else."""
+    path = folder / FILE
+    if not path.exists():
+        return None
+    try:
+        data = json.loads(path.read_text())
+        if data["schema"] != SCHEMA:
+            raise ValueError(f"it has schema `{data['schema']}`, not `{SCHEMA}`")
+        return Calibration(
+            cameras={name: _camera(name, camera) for name, camera in data["cameras"].items()},
+            accuracy=Accuracy(**data["accuracy"]),
+            residuals=data["residuals"],
+            made_at=data["made_at"],
+        )
+    except (ValueError, KeyError, TypeError) as exc:
+        hint = "make it again with `pico calibrate`"
+        raise PicoError(error("calibration-file", f"{path} is no calibration: {exc}", hint=hint)) from exc
+
+
+def _camera_json(camera: CameraModel) -> dict[str, Any]:
+    import numpy as np
+
+    k = camera.matrix
+    return {
+        "robot": camera.robot,
+        "depth": camera.depth,
+        "pixels": list(camera.pixels),
+        "focal": _plain((k[0, 0], k[1, 1])),
+        "principal": _plain((k[0, 2], k[1, 2])),
+        "distortion": _plain(camera.distortion),
+        "position": _plain(camera.pose[:3, 3]),
+        "rotation": _plain(np.degrees(rotation_vector(camera.pose[:3, :3]))),
+    }
+
+
+def _plain(numbers: Any) -> list[float]:
+    return [round(float(number), 6) for number in numbers]
+
+
+def _camera(name: str, data: Mapping[str, Any]) -> CameraModel:
+    import numpy as np
+
+    (fx, fy), (cx, cy) = data["focal"], data["principal"]
+    width, height = data["pixels"]
+    return CameraModel(
+        name,
+        (int(width), int(height)),
+        np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]]),
+        np.array(data["distortion"], np.float64),
+        motion(rotation(np.radians(data["rotation"])), np.array(data["position"], np.float64)),
+        data["robot"],
+        data["depth"],
+    )

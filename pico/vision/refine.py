@@ -9,7 +9,7 @@ its plane is seen through, two gray levels, and the blur. They are fitted to all
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
@@ -61,8 +61,8 @@ def refine(picture: Picture, corners: Array, cells: Array, blur: float = 0.8) ->
         return None
     start = _homography((corners - patch.center) / patch.scale)
     side = float(np.linalg.norm(corners[0] - corners[2])) / 2**0.5 / _CELLS
-    parameters = np.append(start.ravel()[:8], blur / side)
-    drawn = np.kron(np.pad(cells, 1, constant_values=1.0), np.ones((_FINE, _FINE)))
+    parameters: Any = np.append(start.ravel()[:8], blur / side)
+    drawn: Any = np.kron(np.pad(cells, 1, constant_values=1.0), np.ones((_FINE, _FINE)))
     for _ in range(_ROUNDS):
         design, left, contrast = _linear(patch, drawn, parameters)
         normal = design.T @ design

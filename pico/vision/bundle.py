@@ -1,0 +1,221 @@
+"""Cameras fixed above the table: lenses and places from pictures of the board and of the datums, all at once. mm.
+
+Each picture of the board is taken by all cameras at one instant. The unknowns are nine numbers of each lens, six of
+each camera and six of each pose of the board; the board ties cameras to one another, the datums tie them to the table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import PicoError, error
+from pico.model.lab import Setup
+from pico.vision.camera import CameraModel
+from pico.vision.charuco import BoardView
+from pico.vision.datums import ENOUGH, datum_corners, resection
+from pico.vision.least_squares import Solution, solve
+from pico.vision.markers import Marker, Markers
+from pico.vision.rigid import motion, moved, rotation
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+LENS = 9
+"""Numbers of a lens: fx, fy, cx, cy, k1, k2, p1, p2, k3."""
+LENS_STEPS = (1e-2, 1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-6, 1e-6, 1e-5)
+POSE_STEPS = (1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-5)  # mm, rad
+_OUTLIER = 4.0  # times the median distance, from which a corner is left out
+CORNER_NOISE = 0.05
+"""One standard deviation of a corner of the board [pixels]."""
+
+Shot = Mapping[str, BoardView]
+"""The board as the cameras saw it at one instant, by camera."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bundle:
+    """Calibrated cameras; what is left of board and datum corners, by camera [pixels, root mean square]; what a camera
+    being off by one standard deviation does to a position on the table [mm]."""
+
+    cameras: Mapping[str, CameraModel]
+    residuals: Mapping[str, float]
+    position: float
+
+
+def lens(camera: CameraModel) -> Array:
+    """Return the nine numbers of a camera's lens."""
+    import numpy as np
+
+    k = camera.matrix
+    return np.array([k[0, 0], k[1, 1], k[0, 2], k[1, 2], *camera.distortion])
+
+
+def with_lens(camera: CameraModel, numbers: Array) -> CameraModel:
+    """Return the camera with another lens."""
+    import numpy as np
+
+    fx, fy, cx, cy = numbers[:4]
+    matrix: Any = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
+    return replace(camera, matrix=matrix, distortion=np.array(list(numbers[4:]), np.float64))
+
+
+def intrinsics(views: Sequence[BoardView], camera: CameraModel) -> tuple[CameraModel, list[Array]]:
+    """Return the camera with the lens that fits pictures of the board best (Zhang, PAMI 22, 1330 (2000)), and the pose
+    (4, 4) of the board in the camera's frame for each. Starts from the lens that `camera` has."""
+    import cv2
+    import numpy as np
+
+    points = [view.corners.astype(np.float32) for view in views]
+    pixels = [view.pixels.astype(np.float32).reshape(-1, 1, 2) for view in views]
+    start = camera.matrix.copy(), camera.distortion.copy()
+    _, matrix, distortion, turns, shifts = cv2.calibrateCamera(
+        points, pixels, camera.pixels, *start, flags=cv2.CALIB_USE_INTRINSIC_GUESS
+    )
+    poses = [motion(rotation(np.ravel(r)), np.ravel(t)) for r, t in zip(turns, shifts, strict=True)]
+    numbers = np.asarray(np.ravel(distortion)[:5], np.float64)
+    found = replace(camera, matrix=np.asarray(matrix, np.float64), distortion=numbers)
+    return found, poses
+
+
+def bundle(
+    setup: Setup, shots: Sequence[Shot], datums: Mapping[str, Markers], start: Mapping[str, CameraModel]
+) -> Bundle:
+    """Return the cameras of `start` (as the lab says they are) as pictures of the board and of the datums have them.
+
+    `datums`: a picture of the table by each camera. Raises PicoError where a camera saw too little.
+    """
+    import numpy as np
+
+    seen = {name: _datums(setup, datums[name]) for name in start}
+    _refuse(shots, seen)
+    cameras: dict[str, CameraModel] = {}
+    boards: dict[int, Array] = {}
+    for name, camera in start.items():
+        numbers = [i for i, shot in enumerate(shots) if name in shot]
+        ready, poses = intrinsics([shots[i][name] for i in numbers], camera)
+        cameras[name] = replace(ready, pose=resection(*seen[name], ready).pose)
+        boards.update({i: cameras[name].pose @ p for i, p in zip(numbers, poses, strict=True) if i not in boards})
+    problem = _Problem(cameras, boards, shots, seen, {})
+    steps = [*(LENS_STEPS + POSE_STEPS) * len(cameras), *POSE_STEPS * len(boards)]
+    found = solve(problem.residuals, np.zeros(len(steps)), np.array(steps), rounds=30)
+    problem = problem.without_outliers(found)
+    found = solve(problem.residuals, found.parameters, np.array(steps), rounds=30)
+    fitted, _ = problem.at(found.parameters)
+    return Bundle(fitted, problem.left(found), _position(fitted, seen, found))
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    cameras: Mapping[str, CameraModel]
+    boards: Mapping[int, Array]
+    shots: Sequence[Shot]
+    datums: Mapping[str, tuple[Array, Array]]
+    weights: Mapping[str, Array]
+
+    def at(self, change: Array) -> tuple[dict[str, CameraModel], dict[int, Array]]:
+        """Return cameras and poses of the board, changed by the parameters."""
+        each, cameras = LENS + 6, {}
+        for i, (name, camera) in enumerate(self.cameras.items()):
+            part = change[i * each : (i + 1) * each]
+            placed = replace(camera, pose=moved(camera.pose, part[LENS:]))
+            cameras[name] = with_lens(placed, lens(camera) + part[:LENS])
+        rest = change[len(cameras) * each :].reshape(-1, 6)
+        return cameras, {n: moved(pose, part) for (n, pose), part in zip(self.boards.items(), rest, strict=True)}
+
+    def residuals(self, change: Array) -> Array:
+        import numpy as np
+
+        cameras, boards = self.at(change)
+        off = {name: self._off(camera, boards) / CORNER_NOISE for name, camera in cameras.items()}
+        return np.concatenate([left * self.weights.get(name, 1.0) for name, left in off.items()])
+
+    def without_outliers(self, found: Solution) -> _Problem:
+        """Return the problem with corners left out that are far off: covered in part, or cut by the picture's edge."""
+        import numpy as np
+
+        cameras, boards = self.at(found.parameters)
+        weights = {}
+        for name, camera in cameras.items():
+            off = np.linalg.norm(self._off(camera, boards).reshape(-1, 2), axis=1)
+            weights[name] = np.repeat(off < _OUTLIER * max(float(np.median(off)), 0.01), 2).astype(np.float64)
+        return replace(self, weights=weights)
+
+    def _off(self, camera: CameraModel, boards: Mapping[int, Array]) -> Array:
+        """How far (2 n,) [pixels] the corners of datums and boards are from where they should be."""
+        import numpy as np
+
+        points, pixels = [self.datums[camera.name][0]], [self.datums[camera.name][1]]
+        for number, pose in boards.items():
+            view = self.shots[number].get(camera.name)
+            if view is not None:
+                points.append(view.corners @ pose[:3, :3].T + pose[:3, 3])
+                pixels.append(view.pixels)
+        off = camera.project(np.concatenate(points)) - np.concatenate(pixels)
+        return np.nan_to_num(off, nan=1e3).ravel()
+
+    def left(self, found: Solution) -> dict[str, float]:
+        import numpy as np
+
+        cameras, boards = self.at(found.parameters)
+        squares = {name: self._off(camera, boards) ** 2 for name, camera in cameras.items()}
+        return {
+            name: round(float(np.sqrt(2 * np.average(each, weights=self.weights.get(name)))), 4)
+            for name, each in squares.items()
+        }
+
+
+def _position(cameras: Mapping[str, CameraModel], seen: Mapping[str, tuple[Array, Array]], found: Solution) -> float:
+    """Return what the uncertainty of lens and pose does to a position on the table [mm], at the datums."""
+    import numpy as np
+
+    worst, each = 0.0, LENS + 6
+    scale = max(1.0, found.rms) ** 2
+    for i, (name, camera) in enumerate(cameras.items()):
+        steps, points = np.array(LENS_STEPS + POSE_STEPS), seen[name][0]
+        columns = [_shifted(camera, step).project(points) - camera.project(points) for step in np.diag(steps)]
+        jacobian = np.stack([c.ravel() / s for c, s in zip(columns, steps, strict=True)], axis=1)
+        block = found.covariance[i * each : (i + 1) * each, i * each : (i + 1) * each]
+        pixels = float(np.sqrt(np.trace(jacobian @ block @ jacobian.T) * scale / len(points)))
+        distance = float(np.mean(np.linalg.norm(points - camera.pose[:3, 3], axis=1)))
+        worst = max(worst, pixels * distance / float(camera.matrix[0, 0]))
+    return worst
+
+
+def _shifted(camera: CameraModel, change: Array) -> CameraModel:
+    return with_lens(replace(camera, pose=moved(camera.pose, change[LENS:])), lens(camera) + change[:LENS])
+
+
+def _datums(setup: Setup, picture: Markers) -> tuple[Array, Array]:
+    """Return corners (n, 3) [mm] of the datums that a picture shows, and where they are seen (n, 2) [pixels]."""
+    import numpy as np
+
+    by_number = {datum.marker: datum for datum in setup.lab.datums.values()}
+    seen: list[Marker] = [m for m in picture.markers if m.number in by_number and m.number not in picture.duplicates]
+    points: list[Any] = [datum_corners(by_number[m.number]) for m in seen]
+    pixels: list[Any] = [m.corners for m in seen]
+    return np.concatenate([np.zeros((0, 3)), *points]), np.concatenate([np.zeros((0, 2)), *pixels])
+
+
+LEAST = 6
+"""Pictures of the board that a camera needs."""
+
+
+def _refuse(shots: Sequence[Shot], seen: Mapping[str, tuple[Array, Array]]) -> None:
+    wrong = []
+    for name, (points, _) in seen.items():
+        count = sum(name in shot for shot in shots)
+        if count < LEAST:
+            hint = "show the board at more places and tilts, all of it in the picture"
+            summary = f"camera `{name}` sees the board in {count} pictures; {LEAST} is the least"
+            wrong.append(error("calibration-board", summary, hint=hint, address=name))
+        if len(points) < 4 * ENOUGH:
+            hint = f"the lab needs {ENOUGH} datums or more that every camera sees (`datums` of the Lab)"
+            summary = f"camera `{name}` sees {len(points) // 4} datums; {ENOUGH} is the least"
+            wrong.append(error("calibration-datums", summary, hint=hint, address=name))
+    if wrong:
+        raise PicoError(wrong)
