@@ -30,5 +30,9 @@ def film(session: Session, bench: Bench, plan: Plan, recording: Recording, event
                 line.share = done / total
         except KeyboardInterrupt:
             pass
+    if not done:
+        (session.folder / path).unlink(missing_ok=True)
+        session.say("No film: it was interrupted before its first picture.")
+        return
     first, last = recording.snapshots[0].time, recording.snapshots[-1].time
     session.show(view, session.folder / path, shown=path, seconds=last - first, share=done / total)
