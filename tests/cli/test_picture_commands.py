@@ -1,4 +1,4 @@
-"""Pictures, lengths and films from the command line: `render`, `ruler`, `diff --picture`, `apply --record`, `sim view`."""
+"""Pictures, lengths and films from the command line, and what is said where there can be none."""
 
 from __future__ import annotations
 
