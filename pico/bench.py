@@ -126,6 +126,12 @@ class Bench(Reader):
 
         return self._thread.wait(takeup.recover_plan(self._bench))
 
+    def settle(self) -> None:
+        """Record what became of operations that a killed run had begun; see `pico.takeup`."""
+        from pico import takeup
+
+        self._thread.wait(takeup.settle(self._bench))
+
     def open_questions(self) -> list[Diagnostic]:
         """Return what only a person can tell of the last runs."""
         from pico import takeup

@@ -68,6 +68,15 @@ async def recover_plan(bench: AsyncBench) -> Plan:
     return _planned(bench, seen, wanted, Target(title="the bench with empty hands", state=wanted.as_json()))
 
 
+async def settle(bench: AsyncBench) -> None:
+    """Record what became of operations that a killed run had begun, though there is nothing left to move.
+
+    Raises PicoError for what only a person can tell.
+    """
+    if (bench.root / ".pico" / "journal.sqlite").exists() and _journal(bench).unsettled():
+        await bench.backend.release(await bench.backend.acquire("pico apply"))
+
+
 def open_questions(bench: AsyncBench) -> list[Diagnostic]:
     """Return an error for each operation that only a person can tell the end of."""
     from pico.backends import recovery

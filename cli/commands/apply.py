@@ -68,6 +68,7 @@ def approve(
     if plan.errored:
         return ExitCode.IMPOSSIBLE
     if not plan.operations:
+        bench.settle()
         return ExitCode.ERROR if plan.absent else ExitCode.DONE
     session.say("")
     if not auto_approve and not session.confirm(question(plan)):
