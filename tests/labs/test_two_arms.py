@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,13 +19,15 @@ from pico.bench import Bench
 from pico.history.example import make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, ObservedValue
+from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
+from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
-from pico.model.state import LabState, place_of
+from pico.model.state import ComponentState, LabState, place_of
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import fk, joint_at
-from pico.motion.types import Segment
+from pico.motion.recheck import Recheck, Task
+from pico.motion.types import MovePath, Segment
 from pico.planning import plan
 
 THICK = 90.0
@@ -79,11 +84,12 @@ def test_each_arm_has_storage_of_its_own_and_both_reach_the_middle(lab: tuple[Se
     }
 
 
-def test_every_state_is_reached_from_every_other_and_only_what_crosses_is_put_down(
+def test_states_are_reached_from_one_another_and_only_what_crosses_is_put_down(
     lab: tuple[Setup, States, ArmMotion],
 ) -> None:
     setup, states, _ = lab
-    for a, b in itertools.permutations(states, 2):
+    for n, pair in enumerate(itertools.combinations(states, 2)):
+        a, b = pair if n % 2 else pair[::-1]
         made = planned(lab, a, b)
         assert not made.errored, (a, b, [d.summary for d in made.diagnostics])
         assert check(setup, observed(setup, states[a]), states[b], made, extensions=1) == [], (a, b)
@@ -155,3 +161,98 @@ def test_arms_never_come_near_one_another_while_the_bench_follows_its_history(
         for one, two in both[::3]
     )
     assert nearest > 2 * THICK, "an arm is no thicker than that, nor what it carries"
+    checks = {name: Recheck(setup, name) for name in setup.lab.robots}
+    for one, two in both[::12]:
+        assert checks["arm1"].check(held_still("arm1", one), Task(), {}, {"arm2": two}) is None
+
+
+def held_still(robot: str, joints: tuple[float, ...]) -> MovePath:
+    return MovePath(robot, None, (Segment("transit", (0.0, 1.0), (joints, joints), 80.0),))
+
+
+def test_what_the_arms_do_at_the_same_time_does_not_collide_in_the_plan_either(
+    lab: tuple[Setup, States, ArmMotion], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setup, _, motion = lab
+    found: dict[tuple[str, str], list[MovePath]] = {}
+
+    def kept(ask: Callable[..., Any], robot: str, *rest: Any, **more: Any) -> Any:
+        path = ask(robot, *rest, **more)
+        if isinstance(path, MovePath):
+            found.setdefault((robot, path.component or "park"), []).append(path)
+        return path
+
+    for name in ("move", "park"):
+        monkeypatch.setattr(motion, name, partial(kept, getattr(motion, name)))
+    made = planned(lab, "stored", "circular")
+    lanes: dict[str, list[tuple[Operation, MovePath]]] = {name: [] for name in setup.lab.robots}
+    for op in made.operations:
+        if op.robot:
+            paths = found[op.robot, "park" if op.primitive == "park" else op.component]
+            lanes[op.robot].append((op, next(p for p in paths if abs(p.seconds - op.seconds) < 1e-5)))
+    checks = {name: Recheck(setup, name) for name in setup.lab.robots}
+    together = 0
+    for t in np.arange(0.0, made.makespan, 0.1):
+        now = {name: moment(motion, name, lane, t) for name, lane in lanes.items()}
+        together += sum(op is not None for op, _ in now.values()) == 2
+        for a, b in (("arm1", "arm2"), ("arm2", "arm1")):
+            op, still = now[a]
+            part = None if op is None or op.primitive == "park" else op.component
+            geometry = setup.type_of(part).geometry if part else None
+            there = Pose(-5000, -5000)
+            task = Task(part, geometry, there, there, float(op.arguments["grasp_yaw"]) if part and op else 0.0)
+            assert checks[a].check(still, task, {}, {b: now[b][1].end}) is None, (t, a)
+    assert together > 0.7 * made.makespan / 0.1, "and they do work at the same time"
+    ends = {name: motion.move(name, "sample", Pose(1000, 500), Pose(1000, 450), 0.0, {}) for name in lanes}
+    one, two = (end.end for end in ends.values() if isinstance(end, MovePath))
+    assert checks["arm1"].check(held_still("arm1", one), Task(), {}, {"arm2": two}) is not None, "it can tell"
+
+
+def moment(
+    motion: ArmMotion, robot: str, lane: list[tuple[Operation, MovePath]], t: float
+) -> tuple[Operation | None, MovePath]:
+    """What an arm does at a time of the plan, and how it then stands, as a path that stays there."""
+    before = motion.park_joints(robot)
+    for op, path in lane:
+        if t < op.start:
+            break
+        left = t - op.start
+        for segment in path.segments if left < op.seconds else ():
+            if left <= segment.seconds:
+                k = min(range(len(segment.times)), key=lambda k: abs(segment.times[k] - left))
+                joints = segment.joints[k]
+                still = Segment(segment.name, (0.0, 1.0), (joints, joints), segment.opening)
+                return op, MovePath(robot, path.component, (still,))
+            left -= segment.seconds
+        before = path.end
+    return None, held_still(robot, before)
+
+
+def test_the_arms_hand_a_part_over_in_the_physical_world(tmp_path: Path) -> None:
+    make_example("two_arms", tmp_path / "lab")
+    with Bench.open(tmp_path / "lab", fidelity="physics") as bench:
+        for tag in ("focused", "circular"):
+            made = bench.plan(tag)
+            report = bench.apply(made)
+            assert (report.outcome, report.failed, report.remaining) == ("done", 0, ()), (tag, report.diagnostics)
+            moves = sum(o.primitive in ("move", "stow") for o in made.operations)
+            assert made.makespan <= report.seconds < made.makespan + 3.0 * moves
+            assert bench.plan(tag).operations == ()
+
+
+def test_an_arm_left_where_arms_meet_parks_before_the_other_comes_in(lab: tuple[Setup, States, ArmMotion]) -> None:
+    setup, states, motion = lab
+    there = motion.move("arm1", "p1", setup.lab.slots["left/a6"].pose, Pose(1000, 450, 0), 0.0, {})
+    assert isinstance(there, MovePath)
+    seen = observed(setup, states["polarized"])
+    seen = replace(seen, robots={"arm1": ObservedRobot(joints=there.end), "arm2": ObservedRobot(joints=())})
+    wanted = replace(states["polarized"], components={
+        **states["polarized"].components, "iris_out": ComponentState(pose=Pose(1180, 450, 0)),
+    })  # fmt: skip
+    made = plan(
+        setup, seen, wanted, motion=motion, backend="sim", fidelity="kinematic", base=Base(), target=Target()
+    )  # fmt: skip
+    assert not made.errored, [d.summary for d in made.diagnostics]
+    park, move = (next(o for o in made.operations if o.component == name) for name in ("arm1", "iris_out"))
+    assert park.start + park.seconds <= move.start + 1e-6
+    assert park.id in move.after
