@@ -4,9 +4,9 @@
 
 Each scene has up to eight marked components at random poses on the table, the arm parked. `overhead` is what the
 cameras over the table make of it together; `hand, 20 cm` is the eye in the hand, the tool upright above a component
-so that its plate is 200 mm from the lens. Both are read by `pico.vision` with the cameras exactly calibrated; sensor
-noise and blur are the lab's, and the heights of plates are known to be exact. Errors are distances in x and y [mm] and in yaw [deg]. The renderer `egl` is left out
-where the machine has no EGL.
+so that its plate is 200 mm from the lens. Both are read by `pico.vision` with the cameras exactly calibrated and the
+plates known to be level and as high as their type says; sensor noise and blur are the lab's. Errors are distances in
+x and y [mm] and in yaw [deg]. The renderer `egl` is left out where the machine has no EGL.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ from pico.vision.nominal import camera_models  # noqa: E402
 APART, EDGE, BACK = 95.0, 60.0, 560.0  # mm, between components, from the table's edges, and no farther back than this
 LENS = 200.0
 """Distance of the plate from the lens of the eye in the hand [mm]."""
-EXACT = Accuracy(position=0.0, yaw=0.0, height=0.02, pixels=0.1, upright=0.02)
-"""What the vision is told of a bench without errors: plates have their height, cameras are where they are said to be."""
+EXACT = Accuracy(position=0.0, yaw=0.0, height=0.001, pixels=0.1, upright=0.001)
+"""What the vision is told of a bench without errors: plates are level and at the height of their type."""
 
 
 @dataclass
