@@ -24,8 +24,9 @@ from pico.twin.physics import Twin
 from pico.twin.sight import InHand
 from pico.vision.anchor import anchored
 from pico.vision.camera import CameraModel
-from pico.vision.markers import detect
-from pico.vision.poses import Estimate, View, free, from_rays, on_plane
+from pico.vision.frame import Frame
+from pico.vision.markers import CELLS, Marker, detect
+from pico.vision.poses import Estimate, View, edge, free, from_rays, on_plane
 from pico.vision.rigid import best_motion, motion, moved, planar, rotation, rotation_vector, square, upright
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ if TYPE_CHECKING:
 
 _ROOM = 1.5
 """The region of a picture in which a plate is looked for is as large as the plate and so many times it around."""
+_CELL = 10
+"""Pixels that a cell of a marker is wide when its picture is read."""
 _MEMORY = 30
 """Picks over which what an eye has wrong is averaged."""
 
@@ -129,7 +132,7 @@ class EyeInHand:
         if last.min() < 8 or first[0] > width - 8 or first[1] > height - 8:
             return None
         frame = self._eyes.frame(camera.name, (*first.tolist(), *(last - first).tolist()))
-        found = [] if frame.black else [m for m in detect(frame).markers if m.number == number]
+        found = [] if frame.black else [m for m in _markers(frame, edge(corners)) if m.number == number]
         return View(replace(camera, robot=None), found[0]) if len(found) == 1 else None
 
     def _anchor(self) -> None:
@@ -152,6 +155,27 @@ class EyeInHand:
         """The number and the plate of a part's marker."""
         number, plate = self._setup.lab.inventory[component].marker, self._setup.type_of(component).geometry.marker
         return (number, plate) if number is not None and plate is not None else None
+
+
+def _markers(frame: Frame, size: float) -> tuple[Marker, ...]:
+    """The markers in a picture, in which they are about `size` pixels large.
+
+    Pixels of a close picture are binned: a marker is read best where its cells are about ten pixels wide.
+    """
+    import cv2
+    import numpy as np
+
+    share = int(size / CELLS / _CELL)
+    if share < 2:
+        return detect(frame).markers
+    height, width = (n // share * share for n in frame.gray.shape)
+    soft = cv2.GaussianBlur(frame.gray[:height, :width], (0, 0), 0.8 * share)
+    small = cv2.resize(soft, None, fx=1 / share, fy=1 / share, interpolation=cv2.INTER_AREA)
+    binned = detect(replace(frame, gray=np.asarray(small, np.uint8), offset=(0, 0))).markers
+    first = np.array(frame.offset)
+    return tuple(
+        replace(m, corners=(m.corners + 0.5) * share - 0.5 + first, covariance=m.covariance * share**2) for m in binned
+    )
 
 
 def _plate_pose(plate: MarkerPlate) -> Array:

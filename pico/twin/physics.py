@@ -1,4 +1,5 @@
-"""Bodies and arms in motion: gravity, contacts, friction, servos. Nothing is welded and nothing teleports.
+"""Bodies and arms in motion: gravity, contacts, friction, servos. Nothing is welded, and nothing teleports but by the
+fraction of a millimetre by which a seat pulls what is put on it.
 
 Joints in radians, openings of a gripper in mm, times in seconds.
 """
@@ -175,6 +176,19 @@ class Twin:
     def placement(self, name: str) -> Placement:
         """Return where a component is."""
         return placement_of(self.data.xpos[self._body[name]], self.data.xquat[self._body[name]])
+
+    def pull(self, name: str, dx: float, dy: float, dyaw: float) -> None:
+        """Shift a free component by (dx, dy) [mm] and turn it about the vertical by dyaw [deg], as its seat does when
+        it takes hold of it."""
+        import mujoco
+
+        address = int(self.model.body(name).jntadr[0])
+        if address < 0:
+            return
+        first, half = int(self.model.jnt_qposadr[address]), math.radians(dyaw) / 2
+        self.data.qpos[first : first + 2] += (dx / 1000, dy / 1000)
+        turn = self.data.qpos[first + 3 : first + 7]
+        mujoco.mju_mulQuat(turn, (math.cos(half), 0.0, 0.0, math.sin(half)), turn.copy())
 
     def speed(self, name: str) -> float:
         """Return how fast a component moves [mm/s]; turning counts as 50 mm/s a radian a second."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Callable, Generator
 from dataclasses import replace
 from typing import Any
@@ -49,6 +50,7 @@ class PhysicsWorld:
         sight: Callable[[Twin], Sight] | None = Exact,
     ) -> None:
         self._setup = setup
+        self._random = random.Random(f"{world.seed} {world.clock:.6f}")
         places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
         things = {n: Thing(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
         self._own = tuple(things)
@@ -71,7 +73,9 @@ class PhysicsWorld:
         """
         self._require_fingers(path.robot)
         goal = Pose(**operation.arguments["to"]["pose"])
-        handling = Handling(self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal, self._sight)
+        handling = Handling(
+            self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal, self._sight, self._seat
+        )
         found: dict[str, Any] = yield from self._guarded(path.robot, handling.run())
         return found
 
@@ -97,6 +101,15 @@ class PhysicsWorld:
             for name, robot in world.robots.items()
         }
         return replace(world, components=components, robots=robots)
+
+    def _seat(self, component: str) -> None:
+        """A seat takes hold of a part that was let go: it comes to rest within the repeatability of its type, one
+        standard deviation in x, in y and in yaw. A free part stays where it stands."""
+        if self._setup.seating_of(component) not in ("magnet", "kinematic"):
+            return
+        spread = self._setup.type_of(component).repeatability
+        sigmas = (spread.position, spread.position, spread.yaw)
+        self.twin.pull(component, *(self._random.gauss(0.0, sigma) for sigma in sigmas))
 
     def _guarded(self, robot: str, work: Generator[float, None, Any]) -> Generator[float, None, Any]:
         """Do `work`; where it fails or is stopped, the arm stops where it is."""
