@@ -20,9 +20,9 @@ from pico.diagnostics import PicoError, error
 from pico.model.record import as_json, record
 from pico.planning.arms import Work, timed
 
-TICK = 1e-4
+TICK = 1e-3
 """The unit of time of the model [s]; what takes part of one is rounded down, so that the bound holds."""
-EFFORT = 20.0
+EFFORT = 10.0
 """How hard to try, in the deterministic time of CP-SAT, about seconds."""
 
 
