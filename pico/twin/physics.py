@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Setup
+from pico.motion.engine import require_mujoco
 from pico.motion.types import Joints
 from pico.twin.placement import Placement, placement_of
 from pico.twin.scene import TIMESTEP, Thing, build_scene
@@ -64,6 +65,7 @@ class Twin:
         holding: Mapping[str, str] | None = None,
         pad_friction: float | None = None,
     ) -> None:
+        require_mujoco()
         import mujoco
 
         self.model = build_scene(setup, things, pad_friction=pad_friction).compile()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.diagnostics import PicoError, error
 from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
+from pico.motion.engine import require_mujoco
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints
 from pico.twin.beams import Place, beam_paths
@@ -122,6 +123,7 @@ def posed_model(
 
 def model_of(setup: Setup, places: Mapping[str, Placement]) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return the scene with the components at `places`, arms stretched out."""
+    require_mujoco()
     import mujoco
 
     from pico.twin.scene import Thing, build_scene
