@@ -12,7 +12,7 @@ from .summary import COMMANDS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
-    "-n", "--number", "--explain", "--target", "--record", "--size", "--done", "--not-done",
+    "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
 _CHOICE = ("--target", "--exclude", "--prefer")
@@ -45,6 +45,8 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "diff": ("--picture",),
     "render": ("--out", "--view", "--manifest", "--plan", "--size"),
     "ruler": ("--picture",),
+    "calibrate": (),
+    "markers": ("--out", "--paper"),
     "sim reset": (),
     "sim bump": ("--dx", "--dy", "--dz", "--dyaw"),
     "sim nudge": ("--dx", "--dy", "--dyaw"),
@@ -58,6 +60,7 @@ FIXED = {
     "--view": ("perspective", "top"),
     "--prefer": ("fewest-moves", "shortest-time"),
     "--format": ("dot", "mermaid"),
+    "--paper": ("a4", "letter"),
     "--example": ("minimal", "shel", "crowded", "two_arms"),
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")

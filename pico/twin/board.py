@@ -53,16 +53,25 @@ def _board_print(board: Board, margin: float) -> NDArray[np.float32]:
     return _inked(image)
 
 
-def datum_sheets(setup: Setup) -> list[Sheet]:
-    """Return the datum markers of a lab, each with a white rim of a sixth of its edge."""
+def marker_sheet(number: int, size: float, pose: Array) -> Sheet:
+    """Return a marker with edges of `size` [mm], its middle at `pose` (4, 4), with a white rim of a sixth of that."""
+    edge = size * 8 / 6
+    return Sheet(_marker_print(number), (edge, edge), pose)
+
+
+@cache
+def _marker_print(number: int) -> NDArray[np.float32]:
     import numpy as np
 
-    sheets = []
-    for datum in setup.lab.datums.values():
-        image = np.kron(np.pad(marker_image(datum.marker, 6), 1, constant_values=255), np.ones((24, 24)))
-        edge = datum.size * 8 / 6
-        sheets.append(Sheet(_inked(image), (edge, edge), upright(Pose(datum.x, datum.y, datum.yaw), 0.0)))
-    return sheets
+    return _inked(np.kron(np.pad(marker_image(number, 6), 1, constant_values=255), np.ones((24, 24))))
+
+
+def datum_sheets(setup: Setup) -> list[Sheet]:
+    """Return the datum markers of a lab."""
+    return [
+        marker_sheet(datum.marker, datum.size, upright(Pose(datum.x, datum.y, datum.yaw), 0.0))
+        for datum in setup.lab.datums.values()
+    ]
 
 
 def _inked(image: Any) -> NDArray[np.float32]:

@@ -11,8 +11,9 @@ from pico.backends.sim.store import change_world, load_world, reset_world
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.request import require_component
-from pico.twin.camera_errors import CameraShift
+from pico.twin.camera_errors import CameraShift, true_cameras
 from pico.twin.placement import Placement
+from pico.vision.camera import CameraModel
 
 
 class SimulatedTable:
@@ -54,6 +55,11 @@ class SimulatedTable:
         by = CameraShift(shift=shift, turn=turn)
         who = f"sim bump {camera or 'all cameras'}"
         change_world(self._setup, self._root, who, lambda world: bump(self._setup, world, camera, by))
+
+    def true_cameras(self) -> dict[str, CameraModel]:
+        """Return the cameras as they really are: what pictures are taken with, and what calibration has to find."""
+        world, _ = load_world(self._setup, self._root)
+        return true_cameras(self._setup, self._setup.lab.sim.errors, world.seed, world.cameras)
 
     def remove(self, name: str) -> None:
         """Take a component off the table: it is then missing."""

@@ -1,0 +1,28 @@
+"""What `pico calibrate` found."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pico.vision.calibration import Calibration
+    from pico.vision.camera import CameraModel
+
+
+def text(calibration: Calibration, *, shown: str) -> str:
+    """Return a line for each camera, and where it was written."""
+    lines = [_line(camera, calibration.residuals[name]) for name, camera in calibration.cameras.items()]
+    sure = f"A position on the table is known to {calibration.accuracy.position:.3f} mm (one sigma)."
+    return "\n".join([*lines, sure, f"Wrote {shown}, {calibration.digest[:19]}. Commit it with the lab."])
+
+
+def _line(camera: CameraModel, residual: float) -> str:
+    x, y, z = camera.pose[:3, 3]
+    where = f"on {camera.robot}'s hand at" if camera.robot else "at"
+    focal = f"focal length {camera.matrix[0, 0]:.1f} px"
+    return f"  {camera.name:<10} {where} ({x:.2f}, {y:.2f}, {z:.2f}) mm, {focal}, residual {residual:.3f} px"
+
+
+def data(calibration: Calibration, **_: Any) -> dict[str, Any]:
+    """Return schema `pico.calibration/v1`, with its `digest`."""
+    return {**calibration.as_json(), "digest": calibration.digest}
