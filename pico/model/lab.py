@@ -245,13 +245,15 @@ class SimErrors:
 class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
     the finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
-    with the cameras."""
+    with the cameras. `sight`: by what the physical world corrects a part in the hand before it is put down: the truth,
+    the pictures of the eye in the hand, or nothing."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1
     pad_friction: float = 1.0
     renderer: Literal["raycast", "egl"] = "raycast"
     errors: SimErrors = SimErrors()
+    sight: Literal["exact", "pixels", "none"] = "exact"
 
 
 @record

@@ -133,6 +133,21 @@ class PhysicsWorld:
         raise MoveFailed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
 
 
+def seeing(setup: Setup, world: World) -> Callable[[Twin], Sight] | None:
+    """Return what makes the sight that the lab asks for: `sim.sight`."""
+    if setup.lab.sim.sight != "pixels":
+        return Exact if setup.lab.sim.sight == "exact" else None
+
+    def eyes(twin: Twin) -> Sight:
+        from pico.backends.sim.eyes import eyes_of
+        from pico.twin.eye import EyeInHand
+        from pico.vision.nominal import camera_models
+
+        return EyeInHand(setup, twin, eyes_of(setup, world, twin.model, twin.data), camera_models(setup))
+
+    return eyes
+
+
 def _seen(body: Body, placement: Placement, held: bool) -> Body:
     """The component as it is now."""
     x, y, z = (v * 1000 for v in placement.position)

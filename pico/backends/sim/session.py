@@ -311,6 +311,6 @@ def new_mover(setup: Setup, world: World, fidelity: str) -> Mover:
     """Return what moves the bodies of `world` at a fidelity: `kinematic` or `physics`."""
     if fidelity == "kinematic":
         return KinematicWorld(setup, world)
-    from pico.backends.sim.physics import PhysicsWorld
+    from pico.backends.sim.physics import PhysicsWorld, seeing
 
-    return PhysicsWorld(setup, world)
+    return PhysicsWorld(setup, world, sight=seeing(setup, world))
