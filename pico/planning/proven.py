@@ -80,7 +80,8 @@ def _modelled(work: Work, model: Any) -> list[Any]:
         parked = end[j] + _ticks(work.end[j])
         model.add(last >= parked)
         model.add(out[j] >= end[j])
-        model.add(out[j] >= parked).only_enforce_if(parks[j])
+        if work.stays[j]:
+            model.add(out[j] >= parked).only_enforce_if(parks[j])
         for i in work.before[j]:
             model.add(begin[j] >= end[i])
     for own in (work.of(arm) for arm in range(work.arms)):
