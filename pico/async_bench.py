@@ -18,6 +18,7 @@ from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
 from pico.model.status import Status, compare, refuse_unapplied
 from pico.motion.deferred import DeferredMotion
+from pico.vision.calibration import calibration_digest
 
 if TYPE_CHECKING:
     from pico.backends.protocol import Backend
@@ -107,7 +108,7 @@ class AsyncBench(Drawings):
         commit = self.folder.history().resolve(revision).id if revision else None
         _, wanted = manifests.require()
         seen = await self.observe()
-        return plan(
+        found = plan(
             self.setup,
             seen,
             wanted,
@@ -128,6 +129,8 @@ class AsyncBench(Drawings):
             targets=targets,
             exclude=exclude,
         )
+        calibration = calibration_digest(self.root)
+        return replace(found, calibration=calibration).sealed() if calibration else found
 
     def base(self, seen: Observation) -> Base:
         """Return what a plan from this observation starts from."""

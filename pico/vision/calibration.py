@@ -101,6 +101,15 @@ def read_calibration(folder: Path) -> Calibration | None:
         raise PicoError(error("calibration-file", f"{path} is no calibration: {exc}", hint=hint)) from exc
 
 
+def calibration_digest(folder: Path) -> str | None:
+    """Return the digest of the calibration in the folder of a lab, or None; reads no more than the file."""
+    try:
+        data = json.loads((folder / FILE).read_text())
+    except (OSError, ValueError):
+        return None
+    return digest({key: value for key, value in data.items() if key != "made_at"}) if isinstance(data, dict) else None
+
+
 def _camera_json(camera: CameraModel) -> dict[str, Any]:
     import numpy as np
 

@@ -12,7 +12,7 @@ from painted import bumped, looking, setup, stereo
 from pico.diagnostics import PicoError
 from pico.model.pose import Pose
 from pico.vision.bundle import bundle
-from pico.vision.calibration import Calibration, read_calibration, write_calibration
+from pico.vision.calibration import Calibration, calibration_digest, read_calibration, write_calibration
 from pico.vision.charuco import BOARD, BoardView, charuco
 from pico.vision.datums import datum_corners
 from pico.vision.hand_eye import hand_eye, park_martin
@@ -114,10 +114,23 @@ def test_the_file_gives_the_calibration_back(tmp_path: Path) -> None:
     again = read_calibration(tmp_path)
     assert again is not None and again.digest == made.digest
     assert apart(again.cameras["left"].pose, made.cameras["left"].pose) == pytest.approx((0, 0), abs=1e-4)
-    assert replace(made, made_at="later").digest == made.digest
+    assert replace(made, made_at="later").digest == made.digest == calibration_digest(tmp_path)
 
 
 def test_a_file_that_is_no_calibration_is_refused(tmp_path: Path) -> None:
     (tmp_path / "calibration.json").write_text('{"schema": "other"}')
     with pytest.raises(PicoError, match="no calibration"):
         read_calibration(tmp_path)
+
+
+def test_a_plan_records_the_calibration(tmp_path: Path) -> None:
+    from pico.bench import Bench, new_lab
+
+    new_lab(tmp_path / "lab", "minimal")
+    with Bench.open(tmp_path / "lab") as bench:
+        assert bench.plan().calibration is None
+        made = Calibration(stereo())
+        write_calibration(bench.root, made)
+        plan = bench.plan()
+    assert plan.calibration == made.digest
+    assert plan.sealed().digest == plan.digest
