@@ -31,7 +31,7 @@ sys.path.insert(0, str(ROOT))
 from pico.backends.sim.judge import standing  # noqa: E402
 from pico.backends.sim.mover import MoveFailed  # noqa: E402
 from pico.backends.sim.physics import PhysicsWorld  # noqa: E402
-from pico.backends.sim.world import World, new_world  # noqa: E402
+from pico.backends.sim.world import new_world  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.model.lab import Setup, SimErrors  # noqa: E402
 from pico.model.operation import Operation, Reason  # noqa: E402
@@ -164,7 +164,8 @@ def report(name: str, run: Run, done: list[Trial]) -> bool:
     for trial in done:
         if trial.failure:
             print(f"failed: {trial.failure}")
-    columns = [spread([t.data[key] for t in good]) for key in ("error_mm", "error_deg", "correction_mm")] if good else []
+    keys = ("error_mm", "error_deg", "correction_mm") if good else ()
+    columns = [spread([t.data[key] for t in good]) for key in keys]
     cpu, wall = sum(t.cpu for t in done) / len(done), sum(t.wall for t in done) / len(done)
     print(f"{name:12s} {len(done):5d} {len(done) - len(good):5d}  " + "  ".join(f"{c:21s}" for c in columns)
           + f"  {cpu:5.2f} {wall:5.2f}  x{sum(t.simulated for t in done) / sum(t.wall for t in done):.0f}")  # fmt: skip

@@ -1,0 +1,129 @@
+"""Placements are corrected by what sees the part in the hand; what is not seen is not placed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from physical import bench, finish, path_to, to
+
+from pico.backends.sim.mover import MoveFailed
+from pico.backends.sim.physics import PhysicsWorld, seeing
+from pico.backends.sim.world import new_world
+from pico.manifest.catalog import packaged_type
+from pico.model.lab import Setup, SimErrors
+from pico.model.observation import Uncertainty
+from pico.model.pose import Pose
+from pico.twin.sight import Exact, InHand
+
+GOAL = Pose(395.0, 420.0, 30.0)
+PART = "lx_125"
+
+
+@pytest.fixture(scope="module")
+def setup() -> Setup:
+    return bench()
+
+
+def changed(setup: Setup, seating: str = "free", **sim: object) -> Setup:
+    """Return the bench with another seating of the part, and other settings of the simulation."""
+    kind = setup.lab.inventory[PART].type
+    catalog = {**setup.catalog, kind: replace(setup.catalog[kind], seating=seating)}
+    return replace(setup, catalog=catalog, lab=replace(setup.lab, sim=replace(setup.lab.sim, **sim)))
+
+
+def placed(setup: Setup, shift: float, sight: object = Exact) -> tuple[dict[str, float], Pose | None]:
+    """Place a part that stands `shift` mm beside where the path has it; return what was said and where it stands."""
+    world = new_world(setup)
+    path, pose = path_to(setup, world, PART, GOAL), world.components[PART].pose
+    assert pose is not None
+    there = world.with_body(PART, pose=replace(pose, y=pose.y + shift))  # along the pads, which don't center it
+    physics = PhysicsWorld(setup, there, sight=sight)  # type: ignore[arg-type]
+    data = finish(physics, physics.move(to(PART, GOAL), path))
+    return data, physics.world(there).components[PART].pose
+
+
+def test_without_a_sight_the_error_of_the_pick_is_that_of_the_placement(setup: Setup) -> None:
+    data, _ = placed(changed(setup), 2.0, None)
+    assert data["error_mm"] == pytest.approx(2.0, abs=0.5)
+    assert data["correction_mm"] == 0.0
+
+
+def test_a_sight_takes_the_error_of_the_pick_out(setup: Setup) -> None:
+    data, _ = placed(changed(setup), 2.0)
+    assert data["error_mm"] < 0.15
+    assert data["correction_mm"] == pytest.approx(2.0, abs=0.5)
+
+
+def test_pictures_of_cameras_that_are_wrong_place_within_half_a_millimetre(setup: Setup) -> None:
+    errors = SimErrors(camera_position=0.2, camera_rotation=0.05, focal_length=0.005)
+    wrong = changed(setup, errors=errors, sight="pixels")
+    data, _ = placed(wrong, 2.0, seeing(wrong, new_world(wrong)))
+    assert data["error_mm"] < 0.3
+    assert data["error_deg"] < 0.2
+
+
+def test_black_pictures_make_it_leave_the_part_alone(setup: Setup) -> None:
+    dark = changed(setup, errors=SimErrors(lost_frames=1.0), sight="pixels")
+    world = new_world(dark)
+    physics = PhysicsWorld(dark, world, sight=seeing(dark, world))
+    with pytest.raises(MoveFailed, match=f"no camera sees {PART} in the hand of arm1: it was left there") as caught:
+        finish(physics, physics.move(to(PART, GOAL), path_to(dark, world, PART, GOAL)))
+    assert caught.value.diagnostic.code == "unseen"
+    assert physics.world(world).components[PART] == world.components[PART]
+
+
+class Blinded(Exact):
+    """Sees a part until it is lifted."""
+
+    def pose_in_hand(self, robot: str, component: str) -> InHand | None:
+        return None
+
+
+class Slipped(Exact):
+    """Sees a part 12 mm from where it is."""
+
+    def pose_in_hand(self, robot: str, component: str) -> InHand | None:
+        seen = super().pose_in_hand(robot, component)
+        assert seen is not None
+        return InHand(Pose(seen.pose.x + 12.0, seen.pose.y, seen.pose.yaw), seen.height, Uncertainty())
+
+
+@pytest.mark.parametrize(("sight", "code", "off"), [(Blinded, "unseen", 0.0), (Slipped, "slipped", 12.0)])
+def test_what_is_not_where_it_should_be_in_the_hand_goes_back(
+    setup: Setup, sight: object, code: str, off: float
+) -> None:
+    world = new_world(setup)
+    start = world.components[PART].pose
+    assert start is not None
+    physics = PhysicsWorld(setup, world, sight=sight)  # type: ignore[arg-type]
+    with pytest.raises(MoveFailed, match="put back") as caught:
+        finish(physics, physics.move(to(PART, GOAL), path_to(setup, world, PART, GOAL)))
+    after = physics.world(world)
+    pose = after.components[PART].pose
+    assert caught.value.diagnostic.code == code
+    assert pose is not None
+    assert pose.distance(start) == pytest.approx(off, abs=2.0)
+    assert after.robots["arm1"].holding is None
+
+
+def test_a_seat_pulls_within_its_repeatability_and_the_same_way_for_a_seed(setup: Setup) -> None:
+    free, _ = placed(changed(setup), 0.0)
+    first, pose = placed(changed(setup, "magnet"), 0.0)
+    second, again = placed(changed(setup, "magnet"), 0.0)
+    assert free["error_mm"] < 0.05 < first["error_mm"] < 0.5
+    assert (first, pose) == (second, again)
+
+
+def test_v_grooves_bring_a_part_to_the_middle_of_the_hand(setup: Setup) -> None:
+    kind = setup.lab.inventory[PART].type
+    grooved = replace(packaged_type("plano_convex_100_v_groove"), name=kind, seating="free")
+    data, _ = placed(replace(setup, catalog={**setup.catalog, kind: grooved}), 2.0, None)
+    assert data["error_mm"] < 0.3
+
+
+def test_a_grip_without_room_for_a_groove_is_refused() -> None:
+    flat = packaged_type("plano_convex_100").geometry
+    assert flat.grasp is not None
+    with pytest.raises(ValueError, match="no V-groove for fingers of 22 mm fits a grip of 34 mm held at 34 mm"):
+        replace(flat, grasp=replace(flat.grasp, fixture="v_groove"))
