@@ -52,8 +52,10 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "sim nudge": ("--dx", "--dy", "--dyaw"),
     "sim remove": (),
     "sim view": (),
+    "sim power-cycle": (),
+    "sim faults": (),
 }
-GROUPS = {"sim": ("reset", "nudge", "bump", "remove", "view"), "catalog": ("list", "show")}
+GROUPS = {"sim": ("reset", "nudge", "bump", "remove", "view", "power-cycle", "faults"), "catalog": ("list", "show")}
 FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),

@@ -78,3 +78,34 @@ def view(context: typer.Context) -> int:
     session = Session.of(context)
     session.bench().view()
     return 0
+
+
+@app.command(name="power-cycle")
+def power_cycle(context: typer.Context) -> int:
+    """Switch the simulated bench off and on.
+
+    Axes that must be homed then stand nobody knows where, and the next plan homes them first; electronics are dark and
+    closed.
+    """
+    session = Session.of(context)
+    session.bench().sim.power_cycle()
+    session.show(said, "the power was off; the next plan homes what must be homed")
+    return 0
+
+
+@app.command()
+def faults(
+    context: typer.Context,
+    words: Annotated[
+        list[str] | None, typer.Argument(metavar="KIND=RATE...", help="For example drop=0.05 seed=3; or off.")
+    ] = None,
+) -> int:
+    """Let things go wrong on the simulated bench: drop, slip, jam, camera, timeout, reading, slow, or all.
+
+    A rate is a share of the operations, from 0 to 1. Without an argument it says what is in force.
+    """
+    session = Session.of(context)
+    found = session.bench().sim.faults(words or ())
+    rates = ", ".join(f"{kind} {100 * rate:g} %" for kind, rate in found.rates.items() if rate)
+    session.show(said, f"faults: {rates} of the operations, seed {found.seed}" if rates else "nothing goes wrong")
+    return 0

@@ -216,11 +216,29 @@ class Margins:
 
 
 @record
+class PolicyRule:
+    """What must hold of a plan before anything moves: `that`, a CEL expression over the plan and the bench.
+
+    `mandatory`: where it does not hold, or can't be told, nothing moves; `advisory`: that is only said. `message`: what
+    is said then.
+    """
+
+    name: str
+    that: str
+    level: Literal["mandatory", "advisory"] = "mandatory"
+    message: str = ""
+
+
+@record
 class Policy:
     """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's
-    shutter is open; else a plan closes it first."""
+    shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico watch --heal` may
+    bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift."""
 
     open_beam: bool = False
+    rules: tuple[PolicyRule, ...] = ()
+    heal: bool = False
+    ignore: tuple[str, ...] = ()
 
 
 @record
@@ -246,7 +264,8 @@ class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
     the finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
     with the cameras. `sight`: by what the physical world corrects a part in the hand before it is put down: the truth,
-    the pictures of the eye in the hand, or nothing."""
+    the pictures of the eye in the hand, or nothing. `faults`: what goes wrong how often, as a share of the operations
+    that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, or `all` of them."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1
@@ -254,6 +273,14 @@ class SimSettings:
     renderer: Literal["raycast", "egl"] = "raycast"
     errors: SimErrors = SimErrors()
     sight: Literal["exact", "pixels", "none"] = "exact"
+    faults: Mapping[Literal["drop", "slip", "jam", "camera", "timeout", "reading", "slow", "all"], float] = field(
+        default_factory=dict
+    )
+
+    def __post_init__(self) -> None:
+        for name, rate in self.faults.items():
+            if not 0 <= rate <= 1:
+                raise ValueError(f"the rate of `{name}` in `faults` is a share from 0 to 1, not {rate:g}")
 
 
 @record

@@ -18,12 +18,14 @@ from pico.backends.sim.hand import nudge
 from pico.backends.sim.store import change_world, load_world, world_path
 from pico.backends.sim.world import new_world
 from pico.diagnostics import ExitCode, PicoError
+from pico.model.lab import Policy
 from pico.model.observation import ObservedValue, UnknownObject
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json
 
 SETUP, _ = shel("gantry")
+SETUP = replace(SETUP, lab=replace(SETUP.lab, policy=Policy(open_beam=True)))  # no plan closes the shutter here
 ASKED = Reason(kind="asked")
 
 

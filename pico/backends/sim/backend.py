@@ -128,6 +128,7 @@ class SimBackend:
     async def acquire(self, holder: str) -> Lease:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
         from pico.backends.recovery import open_questions, settle
+        from pico.backends.sim.faults import faults_of
         from pico.backends.sim.session import Session
 
         lease = self._lock.acquire(holder)
@@ -135,7 +136,7 @@ class SimBackend:
             world, self.diagnostics = load_world(self.setup, self.root)
             self._session = Session(
                 self.setup, self.root, world, fidelity=self.fidelity, journal=self.journal, token=lease.token,
-                motion=self._motion, tell=self._tell,
+                motion=self._motion, tell=self._tell, faults=faults_of(self.setup, self.root),
             )  # fmt: skip
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
             asked = open_questions(self.journal.unsettled())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pico.backends.sim.faults import Fault
 from pico.motion.types import MovePath, SegmentName
 
 Way = Literal["goes_on", "leaves_it", "undecided", "may_turn_back"]
@@ -31,6 +32,18 @@ def way_out(path: MovePath, elapsed: float) -> Way:
     if phase == "grip":
         return "undecided"
     return "may_turn_back" if phase in ("lift", "transit") else "goes_on"
+
+
+def strikes(fault: Fault, path: MovePath, elapsed: float) -> bool:
+    """Return whether what goes wrong on the way of a part does so by now: in the middle of its transit, or later."""
+    if fault.kind not in ("drop", "jam"):
+        return False
+    ends = 0.0
+    for segment in path.segments:
+        if segment.name == "transit":
+            return ends + fault.at * segment.seconds <= elapsed < ends + segment.seconds + 0.5
+        ends += segment.seconds
+    return False
 
 
 def sooner(path: MovePath, elapsed: float, back: MovePath) -> bool:

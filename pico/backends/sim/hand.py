@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from pico.backends.sim.world import Body, World, footprints
+from pico.backends.sim.world import Body, World, footprints, initial_value
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.geometry.shape import placed, separation
+from pico.model.catalog import Tunable
 from pico.model.lab import Setup
-from pico.model.observation import ObservedRobot
+from pico.model.observation import ObservedRobot, ObservedValue
 from pico.model.pose import Pose, wrap
 from pico.model.state import home_state, place_of
 
@@ -37,6 +38,26 @@ def remove(setup: Setup, world: World, name: str) -> World:
         hint = f"`pico sim nudge {name}` puts it back to its home"
         raise PicoError(error("missing", f"{name} is not on the table", hint=hint, address=name))
     return _released(world, name).with_body(name, presence="missing", pose=None, free=None)
+
+
+def power_cycle(setup: Setup, world: World) -> World:
+    """Return the world after its power was off: arms and absolute axes know where they are, axes that must be homed
+    don't, open-loop ones are where they were last sent as far as anybody knows; electronics start dark and closed."""
+    for name, body in world.components.items():
+        tunables = setup.type_of(name).tunables if name in setup.lab.inventory else {}
+        values = {key: _powered_up(tunables[key], v) if key in tunables else v for key, v in body.values.items()}
+        world = world.with_body(name, values=values)
+    return world
+
+
+def _powered_up(kind: Tunable, live: ObservedValue) -> ObservedValue:
+    if kind.axis is not None:
+        if kind.axis.kind == "homed":
+            return ObservedValue(value=None, status="unknown")
+        return live if kind.axis.kind == "absolute" or live.value is None else replace(live, status="commanded")
+    if kind.mover != "electronics":
+        return live
+    return ObservedValue(value="closed" if "closed" in kind.choices else initial_value(kind))
 
 
 def _body(world: World, name: str) -> Body:

@@ -9,7 +9,7 @@ from pico.backends.sim.world import Body, World
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Geometry, Tunable
 from pico.model.lab import Setup
-from pico.model.observation import ObservedValue, slot_at
+from pico.model.observation import ObservedValue, Presence, slot_at
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -141,6 +141,60 @@ def not_simulated(component: str, what: str) -> Diagnostic:
     return error("not-simulated", text, hint="poses and set-points are simulated", address=component)
 
 
+def require_dark(setup: Setup, world: World, operation: Operation) -> None:
+    """Raise MoveFailed where an arm would work in the open beam of a laser whose shutter can be closed, unless the lab
+    allows it. The shutter is read back here, whatever the plan closed before."""
+    if setup.lab.policy.open_beam:
+        return
+    for name, body in sorted(world.components.items()):
+        if not _has_shutter(setup, world, name) or body.presence == "missing":
+            continue
+        shutter = body.values["shutter"]
+        if shutter.status != "known" or shutter.value != "closed":
+            what = shutter.value if shutter.status == "known" else "not known to be closed"
+            text = f"{operation.robot} must not work in the beam: the shutter of {name} is {what}"
+            raise MoveFailed(error("open-beam", text, hint=f"`pico set {name} shutter=closed`; {_AGAIN}", address=name))
+
+
+def _has_shutter(setup: Setup, world: World, name: str) -> bool:
+    if name not in setup.lab.inventory or setup.type_of(name).optics.element != "source":
+        return False
+    shutter = setup.type_of(name).tunables.get("shutter")
+    closes = shutter is not None and shutter.mover in ("motor", "electronics") and "closed" in shutter.choices
+    return closes and "shutter" in world.components[name].values
+
+
+def dropped(robot: str, name: str, pose: Pose, presence: Presence) -> Diagnostic:
+    """Return what is said of a part that fell out of the hand."""
+    where = {"seen": f"it stands at {pose}", "toppled": f"it lies on its side at {pose}"}.get(
+        presence, "it fell off the table"
+    )
+    hint = _AGAIN if presence == "seen" else f"put it upright by hand (here `pico sim nudge {name}`), then plan again"
+    return error("dropped", f"{robot} dropped {name}; {where}", hint=hint, address=name)
+
+
+def jammed(robot: str, name: str) -> Diagnostic:
+    """Return what is said of an arm that stopped by itself."""
+    text = f"{robot} stopped by itself on the way and holds {name}"
+    return error("jammed", text, hint="the next plan sets it down first; `pico recover` does only that", address=name)
+
+
+def axis_jammed(address: str) -> Diagnostic:
+    """Return what is said of an axis that did not get there."""
+    return error("jammed", f"{address} stopped on the way: nobody knows where it stands", hint=_AGAIN, address=address)
+
+
+def no_answer(address: str) -> Diagnostic:
+    """Return what is said of an axis that did not answer, and was read to be elsewhere."""
+    return error("timeout", f"{address} did not answer, and is not where it should be", hint=_AGAIN, address=address)
+
+
+def unseen(name: str) -> Diagnostic:
+    """Return what is said of a part that was put down and that no look showed."""
+    text = f"{name} was put down, and no camera saw it since: nobody knows whether it stands right"
+    return error("unseen", text, hint="plan again: it looks first", address=name)
+
+
 def put_back(name: str, where: str) -> Diagnostic:
     """Return what is said of a part that was brought back, because that was nearer than its goal."""
     return Diagnostic("note", "put-back", f"{name} was put back to {where}, which was nearer", address=name)
@@ -155,9 +209,7 @@ def shut(setup: Setup, world: World) -> World:
     """Return the world with the shutter of every laser closed, as the interlock of a bench closes them; the same world
     where they are."""
     for name, body in world.components.items():
-        source = name in setup.lab.inventory and setup.type_of(name).optics.element == "source"
-        shutter = setup.type_of(name).tunables.get("shutter") if source else None
-        if shutter is None or "closed" not in shutter.choices or "shutter" not in body.values:
+        if not _has_shutter(setup, world, name):
             continue
         if body.values["shutter"].value != "closed":
             world = world.with_value(name, "shutter", ObservedValue(value="closed"))

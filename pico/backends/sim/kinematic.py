@@ -10,7 +10,7 @@ from dataclasses import replace
 from pico.backends.sim.mover import InProgress, MoveFailed
 from pico.backends.sim.world import World
 from pico.model.lab import Setup
-from pico.model.observation import ObservedRobot
+from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.motion.kinematics import tool_pose
@@ -39,6 +39,7 @@ class KinematicWorld:
             if robot.holding and body and body.pose:
                 self._held[name] = (robot.holding, self._tool(name).inverse().compose(body.pose))
         self._placed: dict[str, Pose] = {}  # what was put down since
+        self._fallen: dict[str, Presence] = {}  # and what does not stand
 
     def advance(self, seconds: float) -> None:
         """Nothing happens between the moments at which operations are resumed."""
@@ -54,6 +55,7 @@ class KinematicWorld:
             elif segment.name == "release":
                 del self._held[robot]
                 self._placed[operation.component] = goal
+                self._fallen.pop(operation.component, None)
         return {"error_mm": 0.0, "error_deg": 0.0}
 
     def park(self, path: MovePath) -> InProgress:
@@ -61,6 +63,11 @@ class KinematicWorld:
         for segment in path.segments:
             yield from self._walk(path.robot, segment)
         return {}
+
+    def let_go(self, name: str, pose: Pose, presence: Presence) -> None:
+        """Let a component be at `pose`, standing or not, and in no hand: what a hand does that loses it."""
+        self._held = {robot: held for robot, held in self._held.items() if held[0] != name}
+        self._placed[name], self._fallen[name] = pose, presence
 
     def carried(self, robot: str) -> Pose | None:
         """Return where the component in the gripper is, or None."""
@@ -72,7 +79,9 @@ class KinematicWorld:
         """Return `world` as it is now."""
         components = dict(world.components)
         for name, pose in self._placed.items():
-            components[name] = replace(components[name], presence="seen", pose=pose, free=None)
+            presence = self._fallen.get(name, "seen")
+            where = None if presence == "missing" else pose
+            components[name] = replace(components[name], presence=presence, pose=where, free=None)
         robots = {
             name: ObservedRobot(joints=joints, holding=self._held[name][0] if name in self._held else None)
             for name, joints in self._joints.items()

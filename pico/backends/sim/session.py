@@ -13,7 +13,8 @@ from typing import Any
 from pico.backends.attempt import Attempts
 from pico.backends.sim import judge
 from pico.backends.sim.bodies import snapshot
-from pico.backends.sim.halting import phase_at, sooner, way_out
+from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
+from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import InProgress, MoveFailed, Mover
 from pico.backends.sim.store import save_world
@@ -23,7 +24,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.journal import Journal, run_of
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
-from pico.model.observation import ObservedComponent, ObservedValue, slot_at
+from pico.model.observation import ObservedComponent, ObservedValue, Presence, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.quantities import Value
@@ -38,6 +39,8 @@ PROGRESS = 0.25
 WATCHED = 0.05
 """Simulated seconds between two looks at a run that is recorded, at most."""
 
+UPRIGHT = 0.7
+"""Share of the parts that are dropped and come to stand where there is room."""
 REST = 0.3
 """Seconds until an arm that is told to hold is at rest."""
 KEPT = 0.05
@@ -58,6 +61,7 @@ class Session:
         token: int,
         motion: Motion,
         tell: Callable[[Event], None],
+        faults: Faults | None = None,
     ) -> None:
         self.token = token
         self._setup, self._root, self._world = setup, root, world
@@ -67,6 +71,7 @@ class Session:
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
         self._attempts = Attempts(journal, self, token, self._began)
         self._told, self._halting, self._kept = 0, False, 0.0
+        self._faults, self._unseen = faults or Faults(), set[str]()
 
     def watch(self, look: Callable[[Snapshot], None]) -> None:
         """Let `look` see the table now, and at least every WATCHED simulated seconds while something moves."""
@@ -125,7 +130,10 @@ class Session:
         return self._time.now
 
     def look(self, component: str) -> ObservedComponent | None:
-        """Return a component as it is."""
+        """Return a component as it is; None where no camera saw it."""
+        if component in self._unseen:
+            self._unseen.remove(component)
+            return None
         return observe(self.world(), "sim", "").components.get(component)
 
     def store(self) -> None:
@@ -143,7 +151,7 @@ class Session:
         if operation.primitive == "park":
             return (yield from self._park(operation, key))
         if operation.primitive in ("set", "home"):
-            return (yield from self._set(operation))
+            return (yield from self._set(operation, key))
         raise judge.refused(operation)
 
     def _move(self, operation: Operation, key: str) -> InProgress:
@@ -153,10 +161,73 @@ class Session:
         start, path = self._way(operation, planned, goal)
         if isinstance(path, Blocked):
             raise judge.blocked(name, path)
+        judge.require_dark(self._setup, self.world(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
-        data = yield from self._reported(actual, key, path, self._mover.move(actual, path))
-        judge.require_placed(self._setup, self.world(), name, goal, slot)
+        fault = self._fault(operation, key)
+        data = yield from self._reported(actual, key, path, self._mover.move(actual, path), fault)
+        if fault is not None and fault.kind == "slip":
+            self._slipped(name, fault)
+        seen = yield from self._looked_at(name, fault)
+        judge.require_placed(self._setup, self.world().with_body(name, pose=seen), name, goal, slot)
         return data
+
+    def _fault(self, operation: Operation, key: str) -> Fault | None:
+        """Return what goes wrong with an operation, by the lease and by what it is, so that a seed repeats itself."""
+        return self._faults.of(operation.primitive, f"{self.token}/{key.partition('/')[2]}")
+
+    def _slipped(self, name: str, fault: Fault) -> None:
+        """Let a part stand where it was put down after it slipped in the hand; in physics friction decides that."""
+        pose = judge.standing_pose(self.world(), name)
+        where, world = beside(pose, fault.draw), self.world()
+        others = {n: b.pose for n, b in world.components.items() if b.pose and b.presence == "seen"}
+        if isinstance(self._mover, KinematicWorld) and room_at(self._setup, name, where, others):
+            self._mover.let_go(name, where, "seen")
+
+    def _looked_at(self, name: str, fault: Fault | None) -> Generator[float, None, Pose]:
+        """Return where a part that was put down is seen: two looks that agree are believed.
+
+        Raises MoveFailed, outcome unknown, where no look shows it.
+        """
+        pose = judge.standing_pose(self.world(), name)
+        if fault is None or fault.kind not in ("camera", "reading"):
+            return pose
+        blind = fault.draw.randint(1, LOOKS + 1) if fault.kind == "camera" else 0
+        first = Pose(pose.x + fault.draw.uniform(5, 20), pose.y, pose.yaw) if fault.kind == "reading" else pose
+        readings = [None if n < blind else first if n == 0 else pose for n in range(LOOKS)]
+        believed: list[Pose] = []
+        for reading in readings:
+            if reading is not None and any(reading.distance(other) < 0.5 for other in believed):
+                return reading
+            believed += [reading] if reading is not None else []
+            yield LOOK
+        if believed:
+            return believed[-1]
+        self._unseen.add(name)
+        raise MoveFailed(judge.unseen(name), "unknown")
+
+    def _strike(
+        self, fault: Fault, operation: Operation, path: MovePath, work: InProgress
+    ) -> Generator[float, None, None]:
+        """Let a part drop out of the hand on its way, or the arm stop with it; raises MoveFailed."""
+        name, pose = operation.component, self._mover.carried(path.robot)
+        if pose is None:
+            return
+        twin = getattr(self._mover, "twin", None)
+        if fault.kind == "drop" and twin is not None:
+            twin.grip(path.robot, self._setup.lab.robots[path.robot].gripper.stroke)
+            return  # the mover sees that the hand is empty, and says so
+        self._drop_work(work)
+        yield REST
+        if fault.kind == "jam":
+            raise MoveFailed(judge.jammed(path.robot, name))
+        assert isinstance(self._mover, KinematicWorld)
+        others = {n: b.pose for n, b in self.world().components.items() if b.pose and b.presence != "held"}
+        pose = self._mover.carried(path.robot) or pose
+        room = room_at(self._setup, name, pose, others)
+        upright = room and fault.draw.random() < UPRIGHT
+        presence: Presence = "missing" if room is None else "seen" if upright else "toppled"
+        self._mover.let_go(name, pose, presence)
+        raise MoveFailed(judge.dropped(path.robot, name, pose, presence))
 
     def _way(self, operation: Operation, planned: Pose, goal: Pose) -> tuple[Pose, MovePath | Blocked]:
         """Return where a part stands, or is in the hand, and the path that takes it from there to its goal."""
@@ -188,11 +259,11 @@ class Session:
         """Return the joints of the other arms as they are now."""
         return {name: other.joints for name, other in self.world().robots.items() if name != robot}
 
-    def _set(self, operation: Operation) -> InProgress:
+    def _set(self, operation: Operation, key: str) -> InProgress:
         """Drive a tunable to a value, or its axis to its home; while it moves nobody knows its value."""
         name, (tunable, kind) = operation.component, judge.setpoint(self._setup, operation)
         judge.standing_pose(self.world(), name)
-        live = self._world.components[name].values[tunable]
+        live, fault = self._world.components[name].values[tunable], self._fault(operation, key)
         before = None if live.status == "unknown" else live.value
         if operation.primitive == "home":
             goal: Value = kind.axis.home if kind.axis else 0.0
@@ -200,13 +271,33 @@ class Session:
         else:
             goal = judge.require_value(name, tunable, kind, operation.arguments.get("to"))
             seconds = set_seconds(kind, before, goal)
+            if before is None and kind.axis and kind.axis.kind == "homed":  # it must be homed first
+                seconds = home_seconds(kind, None) + set_seconds(kind, kind.axis.home, goal)
         self._world = self._world.with_value(name, tunable, ObservedValue(value=None, status="unknown"))
         self._keep()
+        if fault is not None:
+            yield from self._driven_badly(fault, f"{name}.{tunable}", seconds)
         yield seconds
         self._world = self._world.with_value(name, tunable, ObservedValue(value=goal))
         return {"value": goal}
 
-    def _reported(self, operation: Operation, key: str, path: MovePath, work: InProgress) -> InProgress:
+    def _driven_badly(self, fault: Fault, address: str, seconds: float) -> Generator[float, None, None]:
+        """Let what is wrong with an axis take its time; raises MoveFailed where it does not get there."""
+        if fault.kind == "slow":
+            yield 3 * seconds
+        elif fault.kind == "reading":
+            yield LOOK  # the first reading is wrong, so it is read again, and again
+        elif fault.kind == "jam":
+            yield seconds * fault.at
+            raise MoveFailed(judge.axis_jammed(address))
+        elif fault.kind == "timeout":
+            yield 2 * seconds
+            if fault.draw.random() < 0.5:  # it did nothing; else it did, and only its answer was lost
+                raise MoveFailed(judge.no_answer(address))
+
+    def _reported(
+        self, operation: Operation, key: str, path: MovePath, work: InProgress, fault: Fault | None = None
+    ) -> InProgress:
         """Pass an operation on, and say how far it is at most every PROGRESS seconds."""
         begun, told, decided, phase = self._time.now, self._time.now, False, ""
         try:
@@ -216,6 +307,9 @@ class Session:
                 if self._time.now - told >= PROGRESS:
                     told = self._time.now
                     self._tell("operation_progress", operation, key, self._progress(path, elapsed))
+                if fault is not None and strikes(fault, path, elapsed):
+                    struck, fault = fault, None
+                    yield from self._strike(struck, operation, path, work)
                 if self._halting and not decided:
                     decided = yield from self._way_out(operation, path, elapsed, work)
                 phase, before = phase_at(path, elapsed), phase

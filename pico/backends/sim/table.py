@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.eyes import bump
-from pico.backends.sim.hand import nudge, remove
+from pico.backends.sim.faults import Faults, faults_of, parse, save_faults
+from pico.backends.sim.hand import nudge, power_cycle, remove
 from pico.backends.sim.store import change_world, load_world, reset_world
 from pico.model.lab import Setup
 from pico.model.pose import Pose
@@ -67,3 +69,16 @@ class SimulatedTable:
         change_world(
             self._setup, self._root, f"sim remove {name}", lambda world: remove(self._setup, world, name)
         )  # fmt: skip
+
+    def power_cycle(self) -> None:
+        """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""
+        change_world(self._setup, self._root, "sim power-cycle", lambda world: power_cycle(self._setup, world))
+
+    def faults(self, words: Sequence[str] = ()) -> Faults:
+        """Let faults happen from now on, as `drop=0.05 seed=3` says them, or none for `off`; return what is in force.
+
+        Raises PicoError for a fault that there is not.
+        """
+        if words:
+            save_faults(self._root, parse(words, self._setup.lab.sim.seed))
+        return faults_of(self._setup, self._root)

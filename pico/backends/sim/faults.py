@@ -1,0 +1,135 @@
+"""What goes wrong on the simulated bench, by seed and rate: so that recovery is tested, and a recipe before it is run.
+
+`drop`: the part falls out of the hand on the way. `slip`: it turns in the fingers and is put down beside its goal.
+`jam`: an axis, or the arm with the part in its hand, stops on the way. `camera`: nobody sees the part that was put
+down, for some looks or for good. `timeout`: an axis does not answer; it did what it should, or not. `reading`: the
+first reading is wrong. `slow`: an axis takes several times as long.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.geometry.shape import placed, separation
+from pico.geometry.table import overhang
+from pico.model.lab import Setup
+from pico.model.operation import Primitive
+from pico.model.pose import Pose
+from pico.model.record import as_json, record
+
+_MOVES: tuple[Primitive, ...] = ("move", "stow")
+_SETS: tuple[Primitive, ...] = ("set", "home")
+KINDS: Mapping[str, tuple[Primitive, ...]] = {
+    "drop": _MOVES, "slip": _MOVES, "jam": (*_MOVES, *_SETS), "camera": _MOVES, "timeout": _SETS,
+    "reading": (*_MOVES, *_SETS), "slow": _SETS,
+}  # fmt: skip
+LOOKS = 3
+"""How often a bench looks at most before it gives up: two looks that agree are believed."""
+LOOK = 0.5
+"""What one more look takes [s]."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What goes wrong with one operation, and the chance that decides how."""
+
+    kind: str
+    draw: random.Random
+    at: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "at", self.draw.uniform(0.1, 0.9))
+
+
+@record
+class Faults:
+    """How often each kind of fault comes: its share of the operations that it can befall. `all`: any of them."""
+
+    rates: Mapping[str, float] = field(default_factory=dict)
+    seed: int = 1
+
+    def of(self, primitive: Primitive, key: str) -> Fault | None:
+        """Return what goes wrong with the operation under `key`, the same each time; mostly nothing."""
+        draw = random.Random(f"{self.seed}/{key}")
+        able = [kind for kind, primitives in KINDS.items() if primitive in primitives]
+        for kind in able:
+            if draw.random() < self.rates.get(kind, 0.0):
+                return Fault(kind, draw)
+        if able and draw.random() < self.rates.get("all", 0.0):
+            return Fault(draw.choice(able), draw)
+        return None
+
+
+def parse(words: Sequence[str], seed: int) -> Faults:
+    """Return the faults that `drop=0.05 all=0.01 seed=3` asks for, none for `off`; raises PicoError for nonsense."""
+    rates: dict[str, float] = {}
+    for word in words:
+        name, _, value = word.partition("=")
+        if name == "off" and not value:
+            rates = {}
+        elif name == "seed" and value.isdigit():
+            seed = int(value)
+        else:
+            rates[name] = _rate(name, value)
+    return Faults(rates=rates, seed=seed)
+
+
+def _rate(name: str, value: str) -> float:
+    known = (*KINDS, "all", "seed", "off")
+    if name not in known:
+        raise PicoError(error("unknown-fault", f"there is no fault `{name[:40]}`", hint=did_you_mean(name[:40], known)))
+    try:
+        rate = float(value)
+    except ValueError:
+        rate = -1.0
+    if not 0 <= rate <= 1:
+        text = f"`{name}={value[:20]}` is no rate"
+        raise PicoError(error("rate", text, hint=f"a share of the operations, from 0 to 1: `{name}=0.05`"))
+    return rate
+
+
+def faults_of(setup: Setup, root: Path) -> Faults:
+    """Return the faults of the simulated bench in `root`: those that `pico sim faults` asked for, else the lab's."""
+    try:
+        data = json.loads(_path(root).read_text(encoding="utf-8"))
+        return Faults(rates={str(k): float(v) for k, v in data["rates"].items()}, seed=int(data["seed"]))
+    except FileNotFoundError:
+        return Faults(rates={str(k): v for k, v in setup.lab.sim.faults.items()}, seed=setup.lab.sim.seed)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
+        hint = "`pico sim faults off` writes it anew"
+        raise PicoError(error("faults-file", f"{_path(root)} cannot be read: {exc}", hint=hint)) from exc
+
+
+def save_faults(root: Path, faults: Faults) -> None:
+    """Let these faults happen on the simulated bench in `root` from now on; raises PicoError."""
+    try:
+        _path(root).parent.mkdir(parents=True, exist_ok=True)
+        _path(root).write_text(json.dumps(as_json(faults)), encoding="utf-8")
+    except OSError as exc:
+        text = f"the faults cannot be stored in {_path(root)}: {(exc.strerror or str(exc)).lower()}"
+        raise PicoError(error("faults-file", text)) from exc
+
+
+def _path(root: Path) -> Path:
+    return root / ".pico" / "sim" / "faults.json"
+
+
+def beside(pose: Pose, draw: random.Random) -> Pose:
+    """Return where a part that slipped in the hand comes to stand instead of at `pose`: up to 4 mm and 5 deg away."""
+    return Pose(pose.x + draw.uniform(-4, 4), pose.y + draw.uniform(-4, 4), pose.yaw + draw.uniform(-5, 5))
+
+
+def room_at(setup: Setup, name: str, pose: Pose, others: Mapping[str, Pose]) -> bool | None:
+    """Return whether a part touches no other one at `pose`; None where it would not be on the table."""
+    shape = placed(setup.type_of(name).geometry.footprint, pose)
+    if overhang(setup.lab.table, shape) > 0:
+        return None
+    return all(
+        separation(shape, placed(setup.type_of(other).geometry.footprint, at)) > 0
+        for other, at in others.items() if other != name
+    )  # fmt: skip
