@@ -51,7 +51,8 @@ Seeing = Callable[[Twin], Sight] | None
 
 @dataclass(frozen=True)
 class Trial:
-    """One move: what it returned or why it failed, the seconds predicted, simulated, and spent here."""
+    """One move: what it returned or why it failed, the seconds predicted, simulated, spent
+    here, and of CPU for its path."""
 
     data: dict[str, float]
     failure: str
@@ -59,6 +60,7 @@ class Trial:
     simulated: float
     wall: float
     cpu: float
+    path: float = 0.0
 
 
 @dataclass
@@ -107,7 +109,9 @@ class Run:
                 continue
             yaw, believed = rnd.choice(geometry.grasp.yaws), self._misjudged(start)
             things = standing(setup, world) | {name: Standing(believed, geometry)}
+            cpu = time.process_time()
             path = self.motion.move(self.robot, name, believed, goal, yaw, things, world.robots[self.robot].joints)
+            self.path_cpu = time.process_time() - cpu
             if not isinstance(path, Blocked):
                 arguments = {"from": {"pose": as_json(believed)}, "to": {"pose": as_json(goal)}, "grasp_yaw": yaw}
                 return {"component": name, "arguments": arguments, "reason": Reason(kind="asked")}, path
@@ -133,7 +137,7 @@ class Run:
         except MoveFailed as exc:
             failure = exc.diagnostic.summary
         spent = time.perf_counter() - began, time.process_time() - cpu
-        return Trial(data, failure, path.seconds, simulated, *spent)
+        return Trial(data, failure, path.seconds, simulated, *spent, self.path_cpu)
 
 
 def pixels(setup: Setup, seed: int) -> Callable[[Twin], Sight]:
