@@ -19,6 +19,7 @@ class Progress:
         self.order = {op.id: i for i, op in enumerate(plan.operations, 1)}
         self.titles = {op.id: f"{address(op)} {what(op, change_of(plan, op))}" for op in plan.operations}
         self.names = max(map(width, self.titles.values()), default=0)
+        self.began: float | None = None
 
     def line(self, event: Event) -> str:
         """Return the line that stays after an event; empty for none."""
@@ -35,12 +36,17 @@ class Progress:
         return f"  {marks[event.kind]} {self._head(event)}  {self._tail(event)}".rstrip()
 
     def live(self, event: Event) -> str:
-        """Return the line that stands while an operation is under way; empty for none."""
+        """Return the line that stands while an operation is under way; empty for none.
+
+        It ends with the time that passed on the bench since the first operation began: in the simulator, simulated.
+        """
         op = self.operations.get(event.operation or "")
         if op is None or event.kind not in ("operation_started", "operation_progress"):
             return ""
+        self.began = event.time if self.began is None else self.began
         done = float(event.data.get("fraction", 0.0)) * op.seconds
-        tail = f"{done:5.1f} / {op.seconds:.1f} s  {event.data.get('phase', '')}"
+        phase, passed = event.data.get("phase", ""), event.time - self.began
+        tail = f"{done:5.1f} / {op.seconds:.1f} s  {phase:8}  {passed:.0f} s in all"
         return shorten(f"  {paint('cyan', '▸')} {self._head(event)}  {tail}".rstrip(), WIDTH)
 
     def _head(self, event: Event) -> str:
