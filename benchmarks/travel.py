@@ -1,6 +1,6 @@
 """How short the way of an arm between its operations is: against nearest neighbor, and against a bound.
 
-    python benchmarks/travel.py [--sizes 12 18 50 100] [--densities 0.2 0.4] [--cases 10] [--times] [--moves 1100000]
+    python benchmarks/travel.py [--sizes 12 18 50 100] [--densities 0.2 0.4] [--cases 10] [--times] [--moves 1200000]
 
 Discs of 6 to 8 cm lie on a square that they fill to the density given, and have goals drawn in the same way; a move
 waits for those of all discs that lie where it ends. Rings are broken by moves to storage beside the table, the disc in

@@ -16,6 +16,9 @@ from pico.planning.sequencing.problem import Masks, Tour
 
 HOT, COLD = 0.6, 0.1
 """First and last temperature, in mean costs of an arc of the first order."""
+CLEAR = 0.5
+"""By how many temperatures the arc that a move makes may be dearer than the one that it replaces: few dearer ones are
+worth while, and looking at them takes time that others use better."""
 NEAR = 10
 """How many good successors of an operation are tried."""
 
@@ -39,6 +42,9 @@ def anneal(
         i = int(draw() * (count + 1))
         row = good[i]
         p, q, skew = place[i], place[row[int(draw() ** 2 * len(row))]], draw() ** 5
+        old = arcs[line[p]]
+        if old[line[q]] - old[line[p + 1]] > CLEAR * warmth:
+            continue
         if q > p + 1:  # what is at place q comes right after what is at p: by itself, or with what is behind it
             if draw() < 0.5:
                 a, b, c = p, q - 1, q + int(skew * (count + 1 - q))

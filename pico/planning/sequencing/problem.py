@@ -24,7 +24,7 @@ class Effort:
     18 operations). `rounds`: how often the bound is tightened where the exact search does not end.
     """
 
-    moves: int = 1_100_000
+    moves: int = 1_200_000
     steps: int = 85_000_000
     rounds: int = 7
     seed: int = 0

@@ -87,7 +87,7 @@ def test_the_same_problem_has_the_same_answer() -> None:
 def test_an_answer_that_every_version_of_python_must_give() -> None:
     case = instance(40, 0.05, 4)
     found = ask(case, Effort(moves=20_000, rounds=0))
-    assert (found.cost, found.order[:8]) == (163.0, (5, 36, 10, 39, 31, 25, 4, 9))
+    assert (found.cost, found.order[:8]) == (180.0, (4, 29, 7, 38, 35, 9, 21, 32))
 
 
 def test_nothing_to_order() -> None:
