@@ -46,18 +46,25 @@ def instant(kills: int) -> int:
     return wrong
 
 
-def command(folder: Path, *words: str, kill_after: float = 0.0) -> int | None:
-    """Run a command of PICO in a process of its own; return its exit code, None where it was killed."""
+def forked(folder: Path, *words: str, out: str = "out.txt") -> int:
+    """Start a command of PICO in a process of its own, and return its number."""
     from pico_cli.main import main
 
     child = os.fork()
     if child == 0:
-        out = os.open(folder / "out.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
-        os.dup2(out, 1), os.dup2(out, 2)
+        to = os.open(folder / out, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(to, 1)
+        os.dup2(to, 2)
         os.chdir(folder)
         code = main(words)
         sys.stdout.flush()
         os._exit(code)
+    return child
+
+
+def command(folder: Path, *words: str, kill_after: float = 0.0) -> int | None:
+    """Run a command of PICO in a process of its own; return its exit code, None where it was killed."""
+    child = forked(folder, *words)
     if kill_after:
         time.sleep(kill_after)
         os.kill(child, signal.SIGKILL)

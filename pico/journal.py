@@ -1,6 +1,7 @@
 """The write-ahead record of operations: what was meant, what began, and what became of it.
 
-SQLite in `.pico/journal.sqlite`, WAL with synchronous=FULL: a record is on the disk when its function returns. Each
+SQLite in `.pico/journal.sqlite`, WAL with synchronous=FULL: a record is on the disk when its function returns, an
+`intent` at the latest with the `started` that follows, for the log is written in order. Each
 attempt at an operation has a key, `run id/operation id/attempt`, and at most four records: `intent` before anything,
 `started` before motion, one of `done`, `failed` and `unknown` before anyone hears of it; after an `unknown` one
 `resolved`, once an observation or a person says how it ended. Records are only added, in the order of their numbers:
@@ -275,11 +276,15 @@ class Journal:
     def _add(self, key: str, kind: RecordKind, component: str, content: str, token: int, data: Any) -> None:
         row = (key, run_of(key), _PHASE[kind], kind, component, content, token, self._clock(), _text(data))
         with self._guarded():
+            if kind == "intent":
+                self._db.execute("PRAGMA synchronous=NORMAL")
             written = self._db.execute(
                 "INSERT INTO records (key, run, phase, kind, component, digest, token, at, data)"
                 " SELECT ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE ? >= (SELECT token FROM fence)",
                 (*row, token),
             ).rowcount
+            if kind == "intent":
+                self._db.execute("PRAGMA synchronous=FULL")
         if not written:
             raise PicoError(_late(token), ExitCode.LOCKED)
 

@@ -10,6 +10,7 @@ import fcntl
 import getpass
 import json
 import os
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -23,6 +24,10 @@ from pico.model.record import record
 def utc_now() -> str:
     """Return the time as ISO 8601, UTC, to the second."""
     return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+NAMED_WITHIN = 20
+"""Hundredths of a second in which who takes the lock writes its name beside it."""
 
 
 @record
@@ -60,6 +65,7 @@ class BenchLock:
     def release(self) -> None:
         """Let go of the lock; nothing happens where it is not held."""
         if self._file is not None:
+            (self._folder / "holder.json").unlink(missing_ok=True)
             os.close(self._file)
             self._file = None
 
@@ -120,13 +126,25 @@ class BenchLock:
             return Holder(token=0, user="somebody", pid=0, since="", what="another process")
 
     def _taken(self) -> Diagnostic:
-        try:
-            who = json.loads((self._folder / "holder.json").read_text(encoding="utf-8"))
-            by = f"{who['user']} (process {who['pid']}, since {who['since']}): {who['what']}"
-        except (OSError, ValueError, KeyError, TypeError):
-            by = "another process"
+        who = self._read_holder()
+        for _ in range(NAMED_WITHIN):
+            if who.pid and _alive(who.pid):
+                break
+            time.sleep(0.01)  # it has just taken the lock, and its name is not there yet
+            who = self._read_holder()
+        by = f"{who.user} (process {who.pid}, since {who.since}): {who.what}" if who.pid else "another process"
         hint = "wait until it is done; looking (`pico status`, `pico plan`) is always possible"
         return error("locked", f"the bench is in use by {by}", hint=hint)
+
+
+def _alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
 
 
 def user() -> str:
