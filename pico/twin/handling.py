@@ -143,16 +143,14 @@ class Handling:
         if seen is None and "grip" not in legs:  # there is nowhere better to put it
             return meant
         if seen is None:
-            yield from self._return(legs, meant)
-            yield from self._lose("unseen", f"no camera sees {self.component} in the hand of {robot}: it was put back")
+            yield from self._return(legs, meant, "unseen", f"no camera sees {self.component} in the hand of {robot}")
         assert seen is not None  # `_lose` raises
         joints = self.twin.joints(robot)
         held = _Held(self._tool(joints).inverse().compose(seen.pose), seen.height - tool_pose(self.robot, joints)[2])
         slid, turned = held.pose.distance(meant.pose), abs(angle_between(meant.pose.yaw, held.pose.yaw))
         if max(slid / SLID_MM, turned / SLID_DEG) > 1 and "grip" in legs:
-            yield from self._return(legs, held)
             text = f"{self.component} slipped by {slid:.1f} mm and {turned:.1f}° in the fingers of {robot}"
-            yield from self._lose("slipped", f"{text}: it was put back")
+            yield from self._return(legs, held, "slipped", text)
         return held
 
     def _aim(self, held: _Held, goal: Pose) -> Generator[float, None, Column]:
@@ -177,8 +175,8 @@ class Handling:
         if self.seated:
             self.seated(self.component)
 
-    def _return(self, legs: dict[SegmentName, Segment], held: _Held) -> Steps:
-        """Put the part back where it stood, the way it came, as well as is known where it is in the hand."""
+    def _return(self, legs: dict[SegmentName, Segment], held: _Held, code: str, text: str) -> Steps:
+        """Put the part back where it stood, the way it came, by where it is in the hand; raises Lost."""
         robot, top = self.path.robot, legs["transit"].joints[-1]
         yield from self._rise(tool_pose(self.robot, top)[2])
         yield from nudge(self.twin, robot, top)
@@ -188,6 +186,7 @@ class Handling:
         yield from self._follow(self._shifted(backward(legs["lift"]), column, CLEARANCE - held.base))
         yield from settle(self.twin, robot)
         yield from self._let_go(legs["release"])
+        yield from self._lose(code, f"{text}: it was put back")
 
     def _tool(self, joints: Joints) -> Pose:
         x, y, _, yaw = tool_pose(self.robot, joints)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from physical import bench, finish, path_to, to
+from physical import bench, finish, fresh, path_to, to
 
+from pico.backends.sim.judge import standing
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld, seeing
 from pico.backends.sim.world import new_world
@@ -14,6 +15,8 @@ from pico.manifest.catalog import packaged_type
 from pico.model.lab import Setup, SimErrors
 from pico.model.observation import Uncertainty
 from pico.model.pose import Pose
+from pico.motion.arms import ArmMotion
+from pico.motion.types import MovePath
 from pico.twin.sight import Exact, InHand
 
 GOAL = Pose(395.0, 420.0, 30.0)
@@ -127,3 +130,20 @@ def test_a_grip_without_room_for_a_groove_is_refused() -> None:
     assert flat.grasp is not None
     with pytest.raises(ValueError, match="no V-groove for fingers of 22 mm fits a grip of 34 mm held at 34 mm"):
         replace(flat, grasp=replace(flat.grasp, fixture="v_groove"))
+
+
+def test_a_part_that_is_in_the_hand_is_set_down(setup: Setup) -> None:
+    world, physics = fresh(setup)
+    work = physics.move(to(PART, GOAL), path_to(setup, world, PART, GOAL))
+    while physics.carried("arm1") is None or physics.twin.placement(PART).position[2] < 0.1:
+        physics.advance(next(work))
+    work.close()
+    physics.advance(0.5)
+    now, held = physics.world(world), physics.carried("arm1")
+    assert held is not None
+    joints = now.robots["arm1"].joints
+    path = ArmMotion(setup).set_down("arm1", PART, held, GOAL, standing(setup, now), joints)
+    assert isinstance(path, MovePath), path
+    data = finish(physics, physics.move(to(PART, GOAL), path))
+    assert data["error_mm"] < 0.5
+    assert physics.world(now).robots["arm1"].holding is None
