@@ -265,7 +265,8 @@ class SimSettings:
     the finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
     with the cameras. `sight`: by what the physical world corrects a part in the hand before it is put down: the truth,
     the pictures of the eye in the hand, or nothing. `faults`: what goes wrong how often, as a share of the operations
-    that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, or `all` of them."""
+    that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, or `all` of them. `observe`: how
+    the table is looked at, exactly or through the cameras."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1
@@ -273,6 +274,7 @@ class SimSettings:
     renderer: Literal["raycast", "egl"] = "raycast"
     errors: SimErrors = SimErrors()
     sight: Literal["exact", "pixels", "none"] = "exact"
+    observe: Literal["exact", "sight"] = "exact"
     faults: Mapping[Literal["drop", "slip", "jam", "camera", "timeout", "reading", "slow", "all"], float] = field(
         default_factory=dict
     )

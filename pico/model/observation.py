@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Literal
 
+from pico.diagnostics import Diagnostic
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup, Slot
 from pico.model.pose import Pose
@@ -35,13 +36,18 @@ class ObservedValue:
 @record
 class ObservedComponent:
     """One component as it was seen: no pose where it is `missing`; `toppled` where it lies on its side; `held` by a
-    robot. `age`: seconds since it was seen."""
+    robot. `age`: seconds since it was seen.
+
+    `how` its pose is known: `stereo`, `known height` (one camera), `in hand`; `fixed` where the lab says; `gripper`;
+    `remembered`, `placed` where something hides it and it was seen, or put down by an arm, last; empty: exactly.
+    """
 
     presence: Presence = "seen"
     pose: Pose | None = None
     uncertainty: Uncertainty = Uncertainty()
     age: float = 0.0
     values: Mapping[str, ObservedValue] = field(default_factory=dict)
+    how: str = ""
 
 
 @record
@@ -69,7 +75,13 @@ class ObservedRobot:
 
 @record
 class Observation:
-    """A bench as a backend saw it. `time`: the backend's own clock [s], which simulated time advances."""
+    """A bench as a backend saw it. `time`: the backend's own clock [s], which simulated time advances.
+
+    `person`: whether somebody is at the table, None where nothing tells.
+
+    `problems`: what could not be told, or is not as it should be; an error about a component keeps a plan from
+    touching it.
+    """
 
     backend: str
     time: float = 0.0
@@ -77,6 +89,14 @@ class Observation:
     components: Mapping[str, ObservedComponent] = field(default_factory=dict)
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
     robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
+    person: bool | None = None
+    problems: tuple[Diagnostic, ...] = ()
+
+
+def doubtful(setup: Setup, name: str, part: ObservedComponent) -> bool:
+    """Return whether a component was seen less exactly than it must stand: then nobody can say that it is right."""
+    tolerance = setup.type_of(name).pose.tolerance
+    return part.uncertainty.position > tolerance.position or part.uncertainty.yaw > tolerance.yaw
 
 
 def slot_at(setup: Setup, pose: Pose) -> str | None:

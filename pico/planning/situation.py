@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.diff import Change, diff_observed
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent
+from pico.model.observation import Observation, doubtful
 from pico.model.state import LabState, place_of
 
 
@@ -27,7 +27,7 @@ def read_situation(setup: Setup, seen: Observation, wanted: LabState, *, exact: 
     changes = diff_observed(setup, seen, wanted, exact=exact)
     moving = tuple(c.component for c in changes if c.tunable == "pose" and not c.tolerated)
     robots = tuple(n for n in sorted(setup.lab.robots) if not _holding(seen, n))
-    found = [*_absences(setup, seen, wanted), *_doubts(setup, seen)]
+    found = [*_problems(seen, wanted), *_absences(setup, seen, wanted), *_doubts(setup, seen)]
     return Situation(changes, moving, robots, tuple(found))
 
 
@@ -35,9 +35,22 @@ def _holding(seen: Observation, robot: str) -> str | None:
     return seen.robots[robot].holding if robot in seen.robots else None
 
 
+def _problems(seen: Observation, wanted: LabState) -> Iterator[Diagnostic]:
+    """What was wrong with what was seen: an error about a part that the goal does not name keeps nothing from it, and
+    that nobody sees it is no matter of the goal's."""
+    for problem in seen.problems:
+        if problem.code == "marker-hidden" and problem.address not in wanted.components:
+            continue
+        touches = problem.severity != "error" or not problem.address or problem.address in wanted.components
+        yield problem if touches else replace(problem, severity="warning")
+
+
 def _absences(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Diagnostic]:
+    told = {problem.address for problem in seen.problems}
     for name in sorted(setup.lab.inventory):
         part = seen.components.get(name)
+        if name in told and (part is None or part.presence == "missing"):
+            continue
         if part is not None and part.presence == "toppled":
             yield warning(
                 "toppled", f"{name} lies on its side; nothing is moved near it",
@@ -55,15 +68,10 @@ def _absences(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Dia
 
 def _doubts(setup: Setup, seen: Observation) -> Iterator[Diagnostic]:
     for name, part in sorted(seen.components.items()):
-        if name in setup.lab.inventory and part.pose is not None and _doubtful(setup, name, part):
+        if name in setup.lab.inventory and part.pose is not None and doubtful(setup, name, part):
             yield warning(
                 "uncertain",
                 f"{name} was seen at {part.pose} only to within {part.uncertainty.position:.2g} mm and "
                 f"{part.uncertainty.yaw:.2g}°, less exactly than it must stand",
                 hint="look again from nearer, or uncover its marker", address=name,
             )  # fmt: skip
-
-
-def _doubtful(setup: Setup, name: str, part: ObservedComponent) -> bool:
-    tolerance = setup.type_of(name).pose.tolerance
-    return part.uncertainty.position > tolerance.position or part.uncertainty.yaw > tolerance.yaw

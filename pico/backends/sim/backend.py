@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncGenerator, Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,14 +16,18 @@ from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.event import Event
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, Uncertainty
 from pico.model.operation import Operation, OperationResult, Primitive
+from pico.model.pose import Pose
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
 
 if TYPE_CHECKING:
+    from pico.backends.memory import Seen
     from pico.backends.recovery import Settled
+    from pico.backends.sight import Look
     from pico.backends.sim.session import Session
+    from pico.backends.sim.world import World
     from pico.journal import Journal
     from pico.twin.snapshot import Snapshot
 
@@ -60,6 +65,8 @@ class SimBackend:
         self._journal: Journal | None = None
         self._listeners: list[asyncio.Queue[Event | None]] = []
         self._look: Callable[[Snapshot], None] | None = None
+        self._looked: tuple[tuple[World, str | None], Look] | None = None
+        self._placed: dict[str, Seen] = {}
 
     # looking
 
@@ -88,11 +95,46 @@ class SimBackend:
         )
 
     async def observe(self) -> Observation:
-        """Return the table exactly as it is; raises PicoError where its file can't be read."""
+        """Return the table as the lab says that it is looked at, exactly or by sight.
+
+        Raises PicoError where its file can't be read, and by sight where cameras are dark or have moved.
+        """
+        if self.setup.lab.sim.observe == "sight":
+            from pico.backends.sight import require_trusted
+
+            return require_trusted(self._by_sight().observation)
+        return self._with_hands(observe(self._world(), "sim", self._clock()))
+
+    async def scan(self) -> Look:
+        """Return what the cameras see of the table, whatever the lab says, also what is wrong with them.
+
+        Raises PicoError where there are none.
+        """
+        return self._by_sight()
+
+    def _world(self) -> World:
         if self._session is not None:
-            return self._with_hands(observe(self._session.world(), "sim", self._clock()))
+            return self._session.world()
         world, self.diagnostics = load_world(self.setup, self.root)
-        return self._with_hands(observe(world, "sim", self._clock()))
+        return world
+
+    def _by_sight(self) -> Look:
+        """Look through the cameras; the same table looks the same again, so that it is not looked at twice."""
+        from pico.backends.memory import noted, recall, remember
+        from pico.backends.sight import BLIND
+        from pico.backends.sim.sight import see
+        from pico.vision.calibration import calibration_digest
+
+        world, calibration = self._world(), calibration_digest(self.root)
+        if self._looked is None or self._looked[0] != (world, calibration):
+            last = {**recall(self.root), **self._placed}
+            found = see(self.setup, self.root, world, "sim", self._clock(), last)
+            found = replace(found, observation=self._with_hands(found.observation))
+            if not any(problem.code in BLIND for problem in found.observation.problems):
+                remember(self.root, noted(last, found.observation))
+                self._placed.clear()
+            self._looked = (world, calibration), found
+        return self._looked[1]
 
     def _with_hands(self, seen: Observation) -> Observation:
         """Return the observation with what the journal knows of the parts in the hands: where they were picked."""
@@ -201,7 +243,19 @@ class SimBackend:
             raise PicoError(error("lease", text), ExitCode.LOCKED)
         if self._halted:
             raise PicoError(judge.HALTED, ExitCode.INTERRUPTED)
-        return await session.execute(operation, key)
+        result = await session.execute(operation, key)
+        if result.outcome == "done" and operation.primitive in ("move", "stow"):
+            self._note_placed(operation, result.ended)
+        return result
+
+    def _note_placed(self, operation: Operation, time: float) -> None:
+        """Remember where an arm put a part down, for it may hide it from the cameras."""
+        from pico.backends.memory import Seen
+
+        spread = self.setup.type_of(operation.component).repeatability
+        sigma = Uncertainty(position=spread.position, yaw=spread.yaw)
+        pose = Pose(**operation.arguments["to"]["pose"])
+        self._placed[operation.component] = Seen(pose=pose, uncertainty=sigma, time=time, placed=True)
 
     async def halt(self) -> None:
         """Start nothing more, and wait until what is under way has reached a safe end: an arm then stands above the

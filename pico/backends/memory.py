@@ -1,0 +1,81 @@
+"""Where the parts of a bench were last: what the cameras saw of them, or where an arm put them down since.
+
+Kept as `.pico/seen.json` beside the lab, so that a part that something hides is not lost. It is no truth: whoever looks
+asks the cameras first.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from pico.model.observation import Observation, Uncertainty
+from pico.model.pose import Pose
+from pico.model.record import as_json, record
+
+SCHEMA = "pico.seen/v1"
+
+
+@record
+class Seen:
+    """Where a part was last. `time`: on the clock of the bench [s]; `placed`: an arm put it there, and no camera has
+    seen it since."""
+
+    pose: Pose
+    uncertainty: Uncertainty = Uncertainty()
+    time: float = 0.0
+    placed: bool = False
+
+    @property
+    def kept(self) -> str:
+        """How its pose is known while something hides it."""
+        return "placed" if self.placed else "remembered"
+
+
+def memory_path(root: Path) -> Path:
+    """Return where the memory of the lab in folder `root` is kept."""
+    return root / ".pico" / "seen.json"
+
+
+def recall(root: Path) -> dict[str, Seen]:
+    """Return where parts were last; nothing where the file is missing or can't be read, for it is only a memory."""
+    try:
+        data = json.loads(memory_path(root).read_text(encoding="utf-8"))
+        if data["schema"] != SCHEMA:
+            return {}
+        return {
+            name: Seen(
+                pose=Pose(**part["pose"]),
+                uncertainty=Uncertainty(**part["uncertainty"]),
+                time=float(part["time"]),
+                placed=bool(part["placed"]),
+            )
+            for name, part in data["parts"].items()
+        }
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {}
+
+
+def noted(last: Mapping[str, Seen], seen: Observation) -> dict[str, Seen]:
+    """Return the memory after an observation: what was seen just now replaces what was known of it."""
+    fresh = {
+        name: Seen(pose=part.pose, uncertainty=part.uncertainty, time=seen.time)
+        for name, part in seen.components.items()
+        if part.pose is not None and part.presence == "seen" and part.how not in ("fixed", "remembered", "placed")
+    }
+    return {**last, **fresh}
+
+
+def remember(root: Path, parts: Mapping[str, Seen]) -> None:
+    """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
+    path = memory_path(root)
+    fresh = path.with_name(f"seen.{os.getpid()}.tmp")
+    document = {"schema": SCHEMA, "parts": as_json(parts)}
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        fresh.write_text(json.dumps(document, separators=(",", ":"), sort_keys=True), encoding="utf-8")
+        fresh.replace(path)
+    except OSError:
+        fresh.unlink(missing_ok=True)

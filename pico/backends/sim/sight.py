@@ -1,0 +1,74 @@
+"""The simulated table as its cameras see it: pictures of the world as it is, read by the code that reads real ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.backends.memory import Seen
+from pico.backends.sight import Known, Look, look, no_cameras
+from pico.backends.sim.bodies import body_placement
+from pico.backends.sim.eyes import eyes_of
+from pico.backends.sim.world import World
+from pico.model.catalog import Geometry
+from pico.model.lab import Setup
+from pico.vision.calibration import read_calibration
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from pico.twin.cameras import Eyes
+    from pico.vision.frame import Frame
+
+TRIES = 3
+"""Pictures that are asked of a camera before it counts as lost."""
+
+
+def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, last: Mapping[str, Seen]) -> Look:
+    """Return what the cameras see of `world`; raises PicoError where the lab has none over its table.
+
+    `last`: where parts were seen or put down before. The same world gives the same pictures.
+    """
+    names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
+    if not names:
+        raise no_cameras(setup)
+    eyes = eyes_of(setup, world, *scene_of(setup, world))
+    known = Known(
+        backend=backend,
+        time=world.clock,
+        observed_at=observed_at,
+        robots=world.robots,
+        values={name: body.values for name, body in world.components.items()},
+        last=last,
+    )
+    return look(setup, [_picture(eyes, name) for name in names], read_calibration(root), known)
+
+
+def _picture(eyes: Eyes, name: str) -> Frame:
+    frame = eyes.frame(name)
+    for _ in range(TRIES - 1):
+        if not frame.black:
+            break
+        frame = eyes.frame(name)
+    return frame
+
+
+def scene_of(setup: Setup, world: World) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return the scene of a world, strangers included, ready to be looked at."""
+    import mujoco
+
+    from pico.twin.picture import pose_model
+    from pico.twin.placement import upright
+    from pico.twin.scene import Thing, build_scene
+
+    places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
+    things = {name: Thing(setup.type_of(name).geometry, place) for name, place in places.items()}
+    for name, stranger in world.unknown.items():
+        shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
+        things[name] = Thing(shape, upright(stranger.pose))
+    model = build_scene(setup, things).compile()
+    model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    data = mujoco.MjData(model)
+    pose_model(setup, model, data, places, {name: robot.joints for name, robot in world.robots.items()})
+    return model, data
