@@ -1,0 +1,78 @@
+"""A halted arm ends its move where that is sooner; a stopped one brakes, holds, and shuts the beam."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import pytest
+from benches import execute, plan_to, shel, sim
+
+from pico.backends.sim.halting import phase_at, way_out
+from pico.backends.sim.store import load_world
+from pico.execution import RunResult, run
+from pico.model.pose import Pose
+from pico.motion.types import MovePath, Segment
+
+SETUP, C3 = shel("gantry")
+START = Pose(110, 220, 0)
+
+
+def path(*names: Any) -> MovePath:
+    return MovePath("arm1", "p1", tuple(Segment(n, (0.0, 1.0), ((0.0,), (0.0,)), 10.0) for n in names))
+
+
+def test_what_a_halted_arm_may_do_depends_on_whether_it_holds_the_part() -> None:
+    whole = path("approach", "descend", "grip", "lift", "transit", "lower", "release", "retreat")
+    ways = [way_out(whole, n + 0.5) for n in range(8)]
+    assert ways == ["leaves_it", "leaves_it", "undecided", "may_turn_back", "may_turn_back", *["goes_on"] * 3]
+    assert phase_at(whole, 4.2) == "transit" and phase_at(whole, 99.0) == "retreat"
+    assert way_out(path("park"), 0.5) == "goes_on"
+    assert way_out(path("lift", "transit", "lower", "release", "retreat"), 0.5) == "goes_on"
+
+
+def cut_short(root: Path, phase: str, how: str, share: float = 0.0) -> RunResult:
+    """Run to C3, and halt or stop in a phase of the move of p1."""
+    bench = sim(SETUP, root)
+
+    async def go() -> RunResult:
+        planned, events, acted = await plan_to(bench, C3), [], False
+        async for event in run(planned, bench, run_id="r1", holder="test", setup=SETUP):
+            events.append(event)
+            there = event.component == "p1" and event.data.get("phase") == phase
+            if there and event.data["fraction"] >= share and not acted:
+                acted = True
+                await getattr(bench, how)()
+        return RunResult.of(events)
+
+    return asyncio.run(go())
+
+
+@pytest.mark.parametrize(("phase", "goes_back"), [("approach", True), ("lift", True), ("lower", False)])
+def test_a_part_goes_to_its_goal_or_back_and_the_hand_is_empty(tmp_path: Path, phase: str, goes_back: bool) -> None:
+    result = cut_short(tmp_path, phase, "halt")
+    world, _ = load_world(SETUP, tmp_path)
+    pose = world.components["p1"].pose
+    assert pose is not None
+    assert world.robots["arm1"].holding is None
+    assert (pose.distance(START) < 1e-6) == goes_back
+    assert result.outcome == "interrupted"
+    notes = [r.data["diagnostic"] for r in result.operations.values() if r.outcome == "failed"]
+    assert [n["code"] for n in notes] == (["put-back"] if goes_back else [])
+    bench = sim(SETUP, tmp_path)
+    again, _ = asyncio.run(execute(bench, asyncio.run(plan_to(bench, C3)), "r2"))
+    assert again.outcome == "done"
+
+
+def test_stopped_the_shutter_is_closed_the_part_held_and_the_journal_whole(tmp_path: Path) -> None:
+    cut_short(tmp_path, "transit", "stop", share=0.4)
+    world, _ = load_world(SETUP, tmp_path)
+    assert world.robots["arm1"].holding == "p1"
+    assert world.components["laser"].values["shutter"].value == "closed"
+    bench = sim(SETUP, tmp_path)
+    assert bench.journal.unfinished() == ()
+    planned = asyncio.run(plan_to(bench, C3))
+    first = next(op for op in planned.operations if op.robot)
+    assert (first.reason.kind, first.arguments["to"]["slot"]) == ("held", "storage/b1")
+    assert asyncio.run(execute(bench, planned, "r2"))[0].outcome == "done"

@@ -1,0 +1,61 @@
+"""The rest of a move that was cut short: from wherever the arm holds the part, to a place, by both collision checks."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.append(str(Path(__file__).resolve().parent.parent / "execution"))
+
+from benches import shel
+
+from pico.model.pose import Pose
+from pico.motion.arms import ArmMotion
+from pico.motion.setdown import tool_of
+from pico.motion.types import Blocked, MovePath, Standing
+
+SETUP, STATE = shel()
+GEOMETRY = SETUP.type_of("p1").geometry
+START, GOAL = Pose(110, 220, 0), Pose(420, 420, 30)
+
+
+@pytest.fixture(scope="module")
+def motion() -> ArmMotion:
+    return ArmMotion(SETUP)
+
+
+def moved(motion: ArmMotion, standing: dict[str, Standing]) -> MovePath:
+    path = motion.move("arm1", "p1", START, GOAL, 90.0, standing)
+    assert isinstance(path, MovePath)
+    return path
+
+
+@pytest.mark.parametrize("segment", ["lift", "transit", "lower"])
+@pytest.mark.parametrize("goal", [START, GOAL, Pose(200, 310, 90)])
+def test_from_anywhere_on_its_way_a_part_can_be_brought_down(motion: ArmMotion, segment: str, goal: Pose) -> None:
+    path = moved(motion, {})
+    leg = next(s for s in path.segments if s.name == segment)
+    joints = leg.joints[len(leg.joints) // 2]
+    robot = SETUP.lab.robots["arm1"]
+    grip = next(s for s in path.segments if s.name == "grip")
+    in_hand = tool_of(robot, grip.joints[-1]).inverse().compose(START)
+    held = tool_of(robot, joints).compose(in_hand)
+    down = motion.set_down("arm1", "p1", held, goal, {}, joints)
+    assert isinstance(down, MovePath)
+    assert [s.name for s in down.segments] == ["lift", "transit", "lower", "release", "retreat"]
+    assert down.segments[0].joints[0] == joints
+    released = next(s for s in down.segments if s.name == "release").joints[-1]
+    where = tool_of(robot, released).compose(in_hand)
+    assert where.distance(goal) < 0.01
+    assert abs((where.yaw - goal.yaw + 180) % 360 - 180) < 0.01
+
+
+def test_a_place_that_is_taken_is_refused_by_name(motion: ArmMotion) -> None:
+    path = moved(motion, {})
+    joints = next(s for s in path.segments if s.name == "transit").joints[0]
+    standing = {"p2": Standing(GOAL, GEOMETRY)}
+    found = motion.set_down("arm1", "p1", START, GOAL, standing, joints)
+    assert isinstance(found, Blocked)
+    assert found.obstacle == "p2"
