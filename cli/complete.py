@@ -51,11 +51,15 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "sim bump": ("--dx", "--dy", "--dz", "--dyaw"),
     "sim nudge": ("--dx", "--dy", "--dyaw"),
     "sim remove": (),
+    "sim person": (),
     "sim view": (),
     "sim power-cycle": (),
     "sim faults": (),
 }
-GROUPS = {"sim": ("reset", "nudge", "bump", "remove", "view", "power-cycle", "faults"), "catalog": ("list", "show")}
+GROUPS = {
+    "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
+    "catalog": ("list", "show"),
+}
 FIXED = {
     "--backend": ("sim", "hardware"),
     "--fidelity": ("kinematic", "physics"),

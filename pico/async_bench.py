@@ -122,6 +122,7 @@ class AsyncBench(Drawings):
                 only=tuple(sorted(targets)) or None,
                 exclude=tuple(sorted(exclude)) or None,
                 state=wanted.as_json(),
+                expect=wanted.expect or None,
             ),
             exact=exact,
             source=manifests.source,
@@ -130,7 +131,15 @@ class AsyncBench(Drawings):
             exclude=exclude,
         )
         calibration = calibration_digest(self.root)
-        return replace(found, calibration=calibration).sealed() if calibration else found
+        return self.judged(replace(found, calibration=calibration).sealed() if calibration else found, seen)
+
+    def judged(self, plan: Plan, seen: Observation) -> Plan:
+        """Return the plan with what the policy of the lab says of it."""
+        if not self.setup.lab.policy.rules:
+            return plan
+        from pico.policy.rules import judged
+
+        return judged(self.setup, plan, seen)
 
     def base(self, seen: Observation) -> Base:
         """Return what a plan from this observation starts from."""
@@ -199,13 +208,15 @@ class AsyncBench(Drawings):
         base = self.base(seen)
         if request.primitive == "set":
             assert request.tunable is not None and request.value is not None
-            return planning.set_one(self.setup, seen, name, request.tunable, request.value, base=base, **options)
-        if request.primitive == "home":
+            found = planning.set_one(self.setup, seen, name, request.tunable, request.value, base=base, **options)
+        elif request.primitive == "home":
             assert request.tunable is not None
-            return planning.home_one(self.setup, seen, name, request.tunable, base=base, **options)
-        goal = request.slot or request.pose
-        assert goal is not None
-        return planning.move_one(self.setup, seen, name, goal, motion=DeferredMotion(self.setup), base=base, **options)
+            found = planning.home_one(self.setup, seen, name, request.tunable, base=base, **options)
+        else:
+            goal, motion = request.slot or request.pose, DeferredMotion(self.setup)
+            assert goal is not None
+            found = planning.move_one(self.setup, seen, name, goal, motion=motion, base=base, **options)
+        return self.judged(found, seen)
 
     def run(
         self,

@@ -107,10 +107,11 @@ def _planned(
 ) -> Plan:  # fmt: skip
     from pico.planning import plan
 
-    return plan(
+    found = plan(
         bench.setup, seen, wanted, motion=DeferredMotion(bench.setup), backend=bench.backend_name,
         fidelity=bench.fidelity, base=bench.base(seen), target=target, targets=only, exclude=exclude,
     )  # fmt: skip
+    return bench.judged(found, seen)
 
 
 def _live(bench: AsyncBench, seen: Observation) -> LabState:

@@ -11,29 +11,33 @@ ROOT = Path(__file__).resolve().parent.parent
 LAYERS: dict[str, set[str]] = {
     "diagnostics": set(),
     "resources": set(),
-    "model": {"diagnostics"},
-    "manifest": {"diagnostics", "resources", "model"},
+    "expressions": set(),
+    "model": {"diagnostics", "expressions"},
+    "manifest": {"diagnostics", "expressions", "resources", "model"},
     "history": {"diagnostics", "resources", "model", "manifest"},
     "journal": {"diagnostics", "model"},
     "geometry": {"diagnostics", "model"},
     "motion": {"diagnostics", "model", "geometry"},
     "planning": {"diagnostics", "model", "geometry", "motion"},
+    "policy": {"diagnostics", "expressions", "model", "geometry", "planning"},
     "vision": {"diagnostics", "model", "geometry"},
     "twin": {"diagnostics", "model", "geometry", "motion", "vision"},
     "backends": {"diagnostics", "model", "journal", "geometry", "motion", "vision", "twin"},
-    "execution": {"diagnostics", "model", "journal", "backends"},
+    "execution": {"diagnostics", "model", "journal", "policy", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
     "drawings": {"model", "history", "motion", "twin", "pictures"},
+    "scans": {"diagnostics", "model", "manifest", "backends", "twin", "async_bench"},
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "vision", "twin", "backends", "execution", "pictures", "drawings",
+        "policy", "vision", "twin", "backends", "execution", "pictures", "drawings",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup",
+        "scans",
     },
 }  # fmt: skip
 

@@ -67,6 +67,8 @@ def approve(
         session.report(plan.diagnostics)
     if plan.errored:
         return ExitCode.IMPOSSIBLE
+    if plan.denied:
+        return ExitCode.DENIED
     if not plan.operations:
         bench.settle()
         return ExitCode.ERROR if plan.absent else ExitCode.DONE

@@ -33,6 +33,8 @@ def checkout(
         session.report(plan.diagnostics)
     if plan.errored:
         return ExitCode.IMPOSSIBLE
+    if plan.denied:
+        return ExitCode.DENIED
     if plan.operations and not auto_approve and (session.json or not session.confirm("\n" + question(plan))):
         session.say("Nothing moved; the files are where they were.")
         return ExitCode.ERROR

@@ -72,6 +72,8 @@ def plan(
         session.report(found.diagnostics)
     if found.errored:
         return ExitCode.IMPOSSIBLE
+    if found.denied:
+        return ExitCode.DENIED
     return ExitCode.CHANGES if detailed_exitcode and (found.operations or found.absent) else ExitCode.DONE
 
 

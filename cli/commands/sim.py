@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from pico.diagnostics import PicoError, error
+
 from ..arguments import Component
 from ..session import Session
 from ..views import simulated as said
@@ -77,6 +79,20 @@ def view(context: typer.Context) -> int:
     require_display()
     session = Session.of(context)
     session.bench().view()
+    return 0
+
+
+@app.command()
+def person(
+    context: typer.Context,
+    where: Annotated[str, typer.Argument(metavar="here|away", help="Whether somebody is at the table from now on.")],
+) -> int:
+    """Let somebody step up to the simulated table, or go away: policies ask about it, and nothing heals meanwhile."""
+    if where not in ("here", "away"):
+        raise PicoError(error("usage", f"a person is `here` or `away`, not `{where[:40]}`"))
+    session = Session.of(context)
+    session.bench().sim.person(where == "here")
+    session.show(said, "somebody is at the table" if where == "here" else "nobody is at the table")
     return 0
 
 

@@ -143,6 +143,8 @@ def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool) -> int:
         session.report(plan.diagnostics)
     if plan.errored:
         return ExitCode.IMPOSSIBLE
+    if plan.denied:
+        return ExitCode.DENIED
     if dry_run or not plan.operations:
         return ExitCode.DONE
     session.say("")

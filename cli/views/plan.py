@@ -30,6 +30,8 @@ def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "", sin
     blocks.append("\n".join([*_tolerated(plan), *(part for line in _summary(plan) for part in wrap(line, "  "))]))
     if plan.errored:
         blocks.append("This plan can't be applied; what is wrong stands below.")
+    elif plan.denied:
+        blocks.append("Denied by the policy of this lab: nothing moves.")
     elif next_step and plan.operations:
         blocks.append(next_step)
     return "\n\n".join(block for block in blocks if block)
@@ -227,11 +229,26 @@ def _summary(plan: Plan) -> list[str]:
     stay = len(plan.base.state) - len(touched)
     whole = [line] if width(line) <= WIDTH - 2 else [" · ".join(parts[:-1]), parts[-1]]
     lines = [*whole, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
-    lines += [f"policy: {' · '.join(rule['text'] for rule in plan.policy)}"] if plan.policy else []
+    lines += policy(plan)
     if plan.target.scope:
         return [*lines, _scope(plan)]
     waiting = plan.absent or any(d.code == "blocked" for d in plan.diagnostics)
     return [*lines, f"the bench will not equal {goal_name(plan)} yet: the warnings say why"] if waiting else lines
+
+
+def policy(plan: Plan) -> list[str]:
+    """Return `policy: 3 rules hold · laser shutter closed during 2 moves`, and a line for each rule that does not."""
+    rules = [rule for rule in plan.policy if "level" in rule]
+    holding = sum(bool(rule["holds"]) for rule in rules)
+    said = [f"{count(holding, 'rule')} {'holds' if holding == 1 else 'hold'}"] if holding else []
+    said += [rule["text"] for rule in plan.policy if "level" not in rule]
+    lines = [f"policy: {' · '.join(said)}"] if said else []
+    for rule in rules:
+        if not rule["holds"]:
+            denied = rule["level"] == "mandatory"
+            word = paint("red", "policy denies") if denied else paint("yellow", "policy advises")
+            lines.append(f"{word}: {rule['rule']}: {rule['text']}")
+    return lines
 
 
 def _scope(plan: Plan) -> str:

@@ -29,6 +29,15 @@ def require_applicable(plan: Plan, able: Capabilities) -> None:
         raise PicoError(found)
 
 
+def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
+    """Raise PicoError (exit code DENIED) where a mandatory rule of the lab does not hold of `plan` on the bench as it
+    is now."""
+    if setup.lab.policy.rules:
+        from pico.policy import rules
+
+        rules.require_allowed(setup, plan, seen)
+
+
 def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
     if plan.backend != able.name:
         text = f"the plan was made for {plan.backend}, not for {able.name}"

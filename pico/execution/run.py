@@ -7,7 +7,7 @@ from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 
 from pico.backends.protocol import Backend
-from pico.execution.checks import require_applicable, require_current
+from pico.execution.checks import require_allowed, require_applicable, require_current
 from pico.execution.walk import Walk
 from pico.journal import Journal
 from pico.model.event import Event
@@ -30,7 +30,7 @@ async def run(
 
     The bench is locked for `holder` meanwhile. `setup` says the tolerances. Before the first operation
     raises PicoError: exit code IMPOSSIBLE for a plan with errors, STALE where the bench or the lab
-    changed since it was made, LOCKED where somebody else has the bench, ERROR where the backend can't do what the plan
+    changed since it was made, DENIED by the lab's policy, LOCKED where somebody else has the bench, ERROR where the backend can't do what the plan
     asks. A failure of an operation is an event.
 
     Where an operation fails, what depends on it is skipped and the rest goes on, unless `stop_on_error`. `resumed`: the
@@ -44,6 +44,7 @@ async def run(
     try:
         seen = await backend.observe()
         require_current(setup, plan, seen)
+        require_allowed(setup, plan, seen)
         journal: Journal | None = getattr(backend, "journal", None)  # one at the far end of a network keeps its own
         walk = Walk(
             plan, backend, lease, run=run_id, now=seen.time, cancelled=cancelled, journal=journal,

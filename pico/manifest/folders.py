@@ -9,7 +9,7 @@ from pathlib import Path
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.manifest.catalog import catalog_names, load_catalog, unknown_type
 from pico.manifest.files import read_folder, shown_path
-from pico.manifest.load import find_lab, load_folder
+from pico.manifest.load import Manifests, find_lab, load_folder
 from pico.model.catalog import Catalog, ComponentType
 from pico.model.record import record
 
@@ -41,13 +41,23 @@ def check_folder(start: Path) -> Checked:
         root = start
     manifests = load_folder(root)
     lab = manifests.setup.lab if manifests.setup else None
+    found = [*manifests.diagnostics, *_expressions(manifests)]
     return Checked(
         folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
         lab=lab.name if lab else "",
         files=len(read_folder(root)[0]),
         parts=len(lab.inventory) if lab else 0,
-        diagnostics=manifests.diagnostics,
+        diagnostics=tuple(found),
     )
+
+
+def _expressions(manifests: Manifests) -> list[Diagnostic]:
+    lab, state = manifests.setup and manifests.setup.lab, manifests.state
+    if lab and (lab.policy.rules or lab.policy.ignore or (state and state.expect)):
+        from pico.manifest.expression_checks import check_expressions
+
+        return check_expressions(manifests)
+    return []
 
 
 def format_folder(start: Path, files: Sequence[Path] = (), *, write: bool = True) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
 from pico.model.record import as_json, canonical, digest, record
+from pico.model.state import Expectation
 
 SCHEMA = "pico.plan/v1"
 
@@ -36,7 +37,7 @@ class Target:
     """What a plan leads to: a revision and its commit, or the manifest in the working tree (no revision).
 
     `title`: what it is where it is neither (the bench before a run). `only`: the components that were asked for;
-    `exclude`: those that were to be left alone. None for a whole plan.
+    `exclude`: those that were to be left alone. None for a whole plan. `expect`: what is expected of the bench then.
     """
 
     revision: str | None = None
@@ -45,6 +46,7 @@ class Target:
     only: tuple[str, ...] | None = None
     exclude: tuple[str, ...] | None = None
     state: Mapping[str, Any] = field(default_factory=dict)
+    expect: tuple[Expectation, ...] | None = None
 
     @property
     def name(self) -> str:
@@ -96,6 +98,11 @@ class Plan:
     @property
     def errored(self) -> bool:
         return any(d.severity == "error" for d in self.diagnostics)
+
+    @property
+    def denied(self) -> bool:
+        """Whether a mandatory rule of the lab's policy does not hold: then nothing may move."""
+        return any(not rule.get("holds") and rule.get("level") == "mandatory" for rule in self.policy)
 
     @property
     def absent(self) -> tuple[str, ...]:

@@ -112,6 +112,7 @@ def world_from_json(data: Any) -> World:
         unknown={k: _unknown(v) for k, v in data["unknown"].items()},
         shapes=shapes,
         cameras={k: _shift(v) for k, v in data.get("cameras", {}).items()},
+        person=data.get("person") is True,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from pico.backends.sim.bodies import body_placement
@@ -73,6 +74,11 @@ class SimulatedTable:
     def power_cycle(self) -> None:
         """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""
         change_world(self._setup, self._root, "sim power-cycle", lambda world: power_cycle(self._setup, world))
+
+    def person(self, present: bool) -> None:
+        """Let somebody step up to the table, or go away: rules of a policy may ask about it."""
+        who = f"sim person {'here' if present else 'away'}"
+        change_world(self._setup, self._root, who, lambda world: replace(world, person=present))
 
     def faults(self, words: Sequence[str] = ()) -> Faults:
         """Let faults happen from now on, as `drop=0.05 seed=3` says them, or none for `off`; return what is in force.

@@ -61,7 +61,8 @@ class Body:
 class World:
     """The simulated table. `clock`: simulated seconds since it was new. `robots`: joints [rad] and what each holds.
 
-    `cameras`: how far those were bumped that are not where they were when the world was new.
+    `cameras`: how far those were bumped that are not where they were when the world was new. `person`: somebody is at
+    the table.
     """
 
     schema: str = SCHEMA
@@ -73,6 +74,7 @@ class World:
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
     shapes: Mapping[str, Shape] = field(default_factory=dict)
     cameras: Mapping[str, CameraShift] = field(default_factory=dict)
+    person: bool = False
 
     def with_body(self, name: str, **changes: Any) -> World:
         """Return the world with fields of component `name` replaced."""
@@ -155,4 +157,5 @@ def observe(world: World, backend: str, observed_at: str) -> Observation:
         components=components,
         unknown=world.unknown,
         robots=world.robots,
+        person=world.person,
     )

@@ -1,0 +1,81 @@
+"""Whether the expressions of a lab's policy and of a state's expectations make sense, before anything is evaluated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
+from pico.expressions import ExpressionError, Language
+from pico.manifest.load import Manifests
+from pico.manifest.places import find, where
+from pico.manifest.tree import Document, List, Scalar
+from pico.model.lab import Setup
+from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of
+
+_SPEAK = "expectations speak of a component's pose, slot, tunables and measurables: `p2.pose.x`, `distance(p1, p2)`"
+_RULES = "rules speak of plan, operations, components, lasers, lab, human_present and of components: `laser.shutter`"
+
+
+def check_expressions(manifests: Manifests) -> list[Diagnostic]:
+    """Return what is wrong with the expressions of manifests that are right otherwise, each at its place."""
+    setup = manifests.setup
+    if setup is None:
+        return []
+    found: list[Diagnostic] = []
+    for document in manifests.documents.get("Lab", ()):
+        found += [*_rules(document, setup), *_ignored(document, setup)]
+    expected = [d for d in manifests.documents.get("LabState", ()) if find(d, "expect", 0)]
+    if expected:
+        language = Language(names_of(setup, setup.lab.inventory), functions_of(setup))
+        for document in expected:
+            found += _each(document, language, ("expect",), "this expectation can't be told", _SPEAK)
+    return found
+
+
+def _rules(document: Document, setup: Setup) -> Iterator[Diagnostic]:
+    rules = setup.lab.policy.rules
+    if not rules:
+        return
+    named = [rule.name for rule in rules]
+    for n, name in enumerate(named):
+        if name in named[:n]:
+            at = where(document, "policy", "rules", n, "name")
+            yield error("duplicate", f"two rules are called `{name}`", hint="give each its own name", source=at)
+    speaking = [n for n in setup.lab.inventory if n not in POLICY_NAMES]
+    language = Language({**names_of(setup, speaking), **POLICY_NAMES}, functions_of(setup))
+    yield from _each(document, language, ("policy", "rules"), "this rule can't be told, so it would deny", _RULES)
+
+
+def _each(
+    document: Document, language: Language, path: tuple[str, ...], what: str, hint: str
+) -> Iterator[Diagnostic]:  # fmt: skip
+    entry = find(document, *path)
+    for n, _ in enumerate(entry[1].items if entry and isinstance(entry[1], List) else ()):
+        said = find(document, *path, n, "that")
+        if said is None or not isinstance(said[1], Scalar):
+            continue
+        try:
+            language.compile(said[1].text)
+        except ExpressionError as exc:
+            yield error("expression", f"{what}: {exc}", hint=hint, source=_inside(document, said[1], exc))
+
+
+def _inside(document: Document, node: Scalar, wrong: ExpressionError) -> SourceRange:
+    """Return where in the manifest the characters stand that an error is about, however it is quoted or folded."""
+    raw, part = document.source.content[node.start : node.end], node.text[wrong.start : wrong.end]
+    if not part.strip() or part not in raw:
+        end = node.start + len(raw.rstrip())
+        return document.source.range(end - 1 if not part.strip() else node.start, end)
+    at = raw.find(part)
+    for _ in range(node.text[: wrong.start].count(part)):
+        at = max(at, raw.find(part, at + 1))
+    return document.source.range(node.start + at, node.start + at + len(part))
+
+
+def _ignored(document: Document, setup: Setup) -> Iterator[Diagnostic]:
+    known = [a for n in setup.lab.inventory for a in (n, f"{n}.pose", *(f"{n}.{t}" for t in setup.type_of(n).tunables))]
+    for n, name in enumerate(setup.lab.policy.ignore):
+        if name not in known:
+            hint = did_you_mean(name[:40], known) or "a component, or one of its tunables: `cam.exposure`"
+            at = where(document, "policy", "ignore", n)
+            yield error("unknown-tunable", f"there is no `{name[:40]}` to be ignored", hint=hint, source=at)

@@ -1,0 +1,142 @@
+"""What expressions may speak of: the names of a bench with the kind of each, and their values as observed.
+
+A component's name is text; `p2.pose.x`, `p2.angle` and so on are single names, so that a misspelt one is found before
+anything is evaluated. A value that is not assured has none: whoever asks for it is told why.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator
+from typing import Any
+
+from pico.expressions import Function, Kind
+from pico.model.catalog import Measurable, Tunable
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.pose import Pose, angle_between
+
+POLICY_NAMES: dict[str, Kind] = {
+    "plan": "any", "operations": "list", "components": "any", "lasers": "list", "lab": "any", "backend": "text",
+    "fidelity": "text", "human_present": "bool",
+}  # fmt: skip
+"""What rules of a policy speak of, besides the bench."""
+OF_AN_IMAGE = ("peak", "mean")
+"""What may be asked of a component that takes images."""
+_KINDS: dict[str, Kind] = {"float": "number", "bool": "bool", "choice": "text"}
+_PLACE: dict[str, Kind] = {
+    "": "text", ".presence": "text", ".slot": "text", ".pose.x": "number", ".pose.y": "number", ".pose.yaw": "number",
+}  # fmt: skip
+_DARK = "can't be measured: light is not simulated yet"
+
+
+def spoken_of(setup: Setup, texts: Iterable[str]) -> list[str]:
+    """Return the components whose names occur in expressions."""
+    words = {word for text in texts for word in re.findall(r"[A-Za-z_]\w*", text)}
+    return sorted(words & setup.lab.inventory.keys())
+
+
+def names_of(setup: Setup, components: Iterable[str]) -> dict[str, Kind]:
+    """Return the names that belong to components, with the kind of each."""
+    names: dict[str, Kind] = {}
+    for name in components:
+        kind = setup.type_of(name)
+        names |= {name + end: what for end, what in _PLACE.items()}
+        names |= {f"{name}.{t}": _KINDS[tunable.datatype] for t, tunable in kind.tunables.items()}
+        names |= {f"{name}.{m}": "number" for m in measured(kind.measurables)}
+    return names
+
+
+def measured(measurables: Any) -> Iterator[str]:
+    """Yield the numbers that can be measured: those that are measurables, and those of images."""
+    for name, measurable in measurables.items():
+        if isinstance(measurable, Measurable) and measurable.datatype == "float":
+            yield name
+        else:
+            yield from OF_AN_IMAGE
+
+
+def values_of(setup: Setup, seen: Observation, components: Collection[str]) -> tuple[dict[str, Any], dict[str, str]]:
+    """Return the values of `names_of` as observed, and why each of the others has none."""
+    values: dict[str, Any] = {}
+    unknown: dict[str, str] = {}
+    for name in components:
+        part = seen.components.get(name) or ObservedComponent(presence="missing")
+        values |= {name: name, f"{name}.presence": part.presence}
+        _place(setup, name, part, values, unknown)
+        kind = setup.type_of(name)
+        for tunable, declared in kind.tunables.items():
+            _value(f"{name}.{tunable}", declared, part, tunable, values, unknown)
+        unknown |= {f"{name}.{m}": f"{name}.{m} {_DARK}" for m in measured(kind.measurables)}
+    return values, unknown
+
+
+def _place(
+    setup: Setup, name: str, part: ObservedComponent, values: dict[str, Any], unknown: dict[str, str]
+) -> None:  # fmt: skip
+    why = _unplaced(setup, name, part)
+    if why or part.pose is None:
+        unknown |= dict.fromkeys([f"{name}.slot", *(f"{name}.pose.{a}" for a in ("x", "y", "yaw"))], why)
+        return
+    pose = part.pose
+    values |= {f"{name}.pose.x": pose.x, f"{name}.pose.y": pose.y, f"{name}.pose.yaw": pose.yaw}
+    values[f"{name}.slot"] = (slot_at(setup, pose) if setup.movable(name) else None) or ""
+
+
+def _unplaced(setup: Setup, name: str, part: ObservedComponent) -> str:
+    """Return why nobody can say where a component stands; empty where it is seen well enough."""
+    if part.presence != "seen" or part.pose is None:
+        return f"{name} is {part.presence if part.presence != 'seen' else 'missing'}"
+    tolerance, seen = setup.type_of(name).pose.tolerance, part.uncertainty
+    if seen.position > tolerance.position or seen.yaw > tolerance.yaw:
+        allowed = f"{tolerance.position:g} mm and {tolerance.yaw:g} deg"
+        return f"{name} is seen to {seen.position:.3g} mm and {seen.yaw:.3g} deg only, its tolerance is {allowed}"
+    return ""
+
+
+def _value(
+    name: str, declared: Tunable, part: ObservedComponent, tunable: str, values: dict[str, Any], unknown: dict[str, str]
+) -> None:  # fmt: skip
+    live = part.values.get(tunable)
+    if live is not None and live.status == "known" and live.value is not None:
+        values[name] = live.value
+    elif live is not None and live.status == "commanded":
+        unknown[name] = f"{name} was commanded, and never read back"
+    elif live is not None and declared.axis and declared.axis.kind == "homed":
+        unknown[name] = f"nobody knows {name}: its axis must be homed"
+    else:
+        unknown[name] = f"nobody knows {name}"
+
+
+def functions_of(setup: Setup, seen: Observation | None = None) -> tuple[Function, ...]:
+    """Return the functions of the language over a bench as observed; without `seen`, to check expressions only.
+
+    `distance(a, b)`: between two components [mm]; `turned(a, b)`: from angle a to b, -180 to 180 [deg]; `abs(x)`;
+    `inside(component, region)`: whether its origin lies in a region of the lab.
+    """
+
+    def pose(name: str) -> Pose:
+        if name not in setup.lab.inventory:
+            raise ValueError(f"there is no component `{name}`")
+        part = (seen.components if seen else {}).get(name) or ObservedComponent(presence="missing")
+        why = _unplaced(setup, name, part)
+        if why or part.pose is None:
+            raise ValueError(why)
+        return part.pose
+
+    return (
+        Function("distance", ("text", "text"), "number", lambda a, b: pose(a).distance(pose(b))),
+        Function("turned", ("number", "number"), "number", angle_between),
+        Function("abs", ("number",), "number", abs),
+        Function("inside", ("text", "text"), "bool", _inside(setup, pose)),
+    )
+
+
+def _inside(setup: Setup, pose: Callable[[str], Pose]) -> Callable[[str, str], bool]:
+    def inside(name: str, region: str) -> bool:
+        if region not in setup.lab.regions:
+            raise ValueError(f"there is no region `{region}`")
+        area, at = setup.lab.regions[region].area, pose(name)
+        return area.x[0] <= at.x <= area.x[1] and area.y[0] <= at.y <= area.y[1]
+
+    return inside

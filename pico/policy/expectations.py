@@ -1,0 +1,46 @@
+"""Expectations against the bench as observed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pico.expressions import ExpressionError, Language, UnknownValue
+from pico.model.expectation import Expected
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.state import Expectation
+from pico.model.vocabulary import functions_of, names_of, spoken_of, values_of
+
+
+def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> tuple[Expected, ...]:
+    """Return what became of each expectation; one that can't be told is unknown, and says why."""
+    if not expect:
+        return ()
+    names = spoken_of(setup, (e.that for e in expect))
+    values, unknown = values_of(setup, seen, names)
+    language = Language(names_of(setup, names), functions_of(setup, seen))
+    found = []
+    for one in expect:
+        holds, why = None, ""
+        try:
+            holds = bool(language.compile(one.that).evaluate(values))
+        except UnknownValue as exc:
+            why = unknown.get(exc.name, str(exc))
+        except ExpressionError as exc:
+            why = str(exc)
+        if holds is False:
+            why = shown(one.that, values)
+        found.append(Expected(that=one.that, message=one.message, holds=holds, why=why))
+    return tuple(found)
+
+
+def shown(text: str, values: dict[str, object]) -> str:
+    """Return the values that an expression speaks of: `p2.angle is 30, p2.pose.x is 520`."""
+    spoken = [n for n in sorted(values) if "." in n and n in text]
+    return ", ".join(f"{n} is {_value(values[n])}" for n in spoken)
+
+
+def _value(value: object) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value:.6g}" if isinstance(value, float | int) else f"`{value}`"

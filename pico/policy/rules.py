@@ -1,0 +1,65 @@
+"""The rules of a lab against a plan, before anything moves. What can't be told is denied."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.expressions import ExpressionError, Language, UnknownValue
+from pico.model.lab import PolicyRule, Setup
+from pico.model.observation import Observation
+from pico.model.plan import Plan
+from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, spoken_of, values_of
+from pico.policy.context import policy_values
+from pico.policy.expectations import shown
+
+_NOBODY = "nothing tells whether somebody is at the table"
+
+
+def judged(setup: Setup, plan: Plan, seen: Observation) -> Plan:
+    """Return the plan with the verdict of each rule in its `policy`, sealed anew; none for a plan that does nothing."""
+    if not setup.lab.policy.rules or not plan.operations:
+        return plan
+    own = tuple(entry for entry in plan.policy if "level" not in entry)
+    return replace(plan, policy=(*verdicts(setup, plan, seen), *own)).sealed()
+
+
+def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
+    """Raise PicoError (exit code DENIED) where a mandatory rule does not hold of a plan on the bench as it is now."""
+    if setup.lab.policy.rules and plan.operations:
+        found = [_denied(v) for v in verdicts(setup, plan, seen) if not v["holds"] and v["level"] == "mandatory"]
+        if found:
+            raise PicoError(found, ExitCode.DENIED)
+
+
+def verdicts(setup: Setup, plan: Plan, seen: Observation) -> tuple[Mapping[str, Any], ...]:
+    """Return for each rule of the lab `rule` (its name), `level`, `holds` and, where it does not hold, `text`."""
+    rules = setup.lab.policy.rules
+    spoken = [n for n in spoken_of(setup, (rule.that for rule in rules)) if n not in POLICY_NAMES]
+    values, unknown = values_of(setup, seen, spoken)
+    values |= policy_values(setup, plan, seen)
+    if seen.person is not None:
+        values["human_present"] = seen.person
+    language = Language({**names_of(setup, spoken), **POLICY_NAMES}, functions_of(setup, seen))
+    return tuple(_verdict(language, rule, values, {**unknown, "human_present": _NOBODY}) for rule in rules)
+
+
+def _verdict(
+    language: Language, rule: PolicyRule, values: dict[str, Any], unknown: Mapping[str, str]
+) -> Mapping[str, Any]:  # fmt: skip
+    try:
+        holds = bool(language.compile(rule.that).evaluate(values))
+        why = "" if holds else shown(rule.that, {n: v for n, v in values.items() if not isinstance(v, dict | list)})
+    except UnknownValue as exc:
+        holds, why = False, f"can't be told: {unknown.get(exc.name, exc)}"
+    except ExpressionError as exc:
+        holds, why = False, f"can't be told: {exc}"
+    text = "; ".join(words for words in (rule.message or f"`{rule.that}` does not hold", why) if words)
+    return {"rule": rule.name, "level": rule.level, "holds": holds, "text": "" if holds else text}
+
+
+def _denied(verdict: Mapping[str, Any]) -> Diagnostic:
+    hint = "the rule stands under `policy:` in the lab; `pico plan --json` shows what it was asked about"
+    return error("denied", f"the policy of this lab denies it: {verdict['rule']}: {verdict['text']}", hint=hint)
