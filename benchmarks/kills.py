@@ -23,12 +23,12 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "execution")]
 REVISIONS = ("C1", "C3", "E1-1", "E1-3", "E2-3", "E3-2")
 
 
-def instant(kills: int) -> int:
+def instant(kills: int, first: int) -> int:
     """Kill processes on the instant bench; return how many were wrong."""
     from killing import kill_many
 
     done = wrong = checked = ended = 0
-    began, batch = time.monotonic(), 0
+    began, batch = time.monotonic(), first
     while done < kills:
         batch += 1
         with tempfile.TemporaryDirectory() as folder:
@@ -149,10 +149,11 @@ def main() -> int:
     """Kill."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, default=10_000)
+    parser.add_argument("--first", type=int, default=0, help="first batch of seeds, so that several can run at once")
     parser.add_argument("--applies", type=int, default=300)
     parser.add_argument("--fidelity", default="kinematic")
     given = parser.parse_args()
-    wrong = instant(given.kills) if given.kills else 0
+    wrong = instant(given.kills, given.first) if given.kills else 0
     wrong += applies(given.applies, given.fidelity) if given.applies else 0
     return 1 if wrong else 0
 

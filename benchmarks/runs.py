@@ -39,13 +39,14 @@ def faulty(runs: int, rate: float) -> int:
         folder = Path(temporary) / "shel"
         new_lab(folder, "shel")
         bench = Bench.open(folder)
-        for number in range(runs):
+        number = 0
+        while sum(count[k] for k in ("done", "failed", "interrupted")) < runs:
+            number += 1
             bench.sim.faults([f"all={rate}", f"seed={number}"])
             goal = draw.choice(REVISIONS)
             before = bench.observe()
             plan = bench.plan(goal)
             if not plan.operations:
-                count["nothing to do"] += 1
                 continue
             report = bench.apply(plan)
             after = bench.observe()
