@@ -50,16 +50,22 @@ def forked(folder: Path, *words: str, out: str = "out.txt") -> int:
     """Start a command of PICO in a process of its own, and return its number."""
     from pico_cli.main import main
 
+    (folder / out).write_text("")
     child = os.fork()
-    if child == 0:
-        to = os.open(folder / out, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+    if child:
+        return child
+    code = 1
+    try:
+        to = os.open(folder / out, os.O_WRONLY)
         os.dup2(to, 1)
         os.dup2(to, 2)
         os.chdir(folder)
         code = main(words)
         sys.stdout.flush()
+    except KeyboardInterrupt:
+        code = 130  # before the command itself had begun
+    finally:
         os._exit(code)
-    return child
 
 
 def command(folder: Path, *words: str, kill_after: float = 0.0) -> int | None:
