@@ -44,17 +44,18 @@ def _documents(content: str, documents: list[Document]) -> str:
         state = kind_of(document)[0] == "LabState"
         head, entries = layout.entries(document, spread=frozenset({"components"} if state else ()))
         tail = layout.tail(entries, len(content)) if i == len(documents) - 1 else []
-        lines = _stripped(head) + _lines(_in_order(entries, state), 0) + _stripped(tail, foot=True)
-        blocks.append("\n".join(lines) + "\n")
+        text = stripped(head) + lines(_in_order(entries, state), 0) + stripped(tail, foot=True)
+        blocks.append("\n".join(text) + "\n")
     return "---\n".join(blocks)
 
 
-def _stripped(lines: list[str], *, foot: bool = False) -> list[str]:
-    while lines and not lines[-1]:
-        lines = lines[:-1]
-    while lines and not lines[0] and not foot:
-        lines = lines[1:]
-    return lines
+def stripped(text: list[str], *, foot: bool = False) -> list[str]:
+    """Return lines without the blank ones at the end, and, unless it is a `foot`, at the beginning."""
+    while text and not text[-1]:
+        text = text[:-1]
+    while text and not text[0] and not foot:
+        text = text[1:]
+    return text
 
 
 def _in_order(entries: list[Entry], state: bool) -> list[Entry]:
@@ -81,20 +82,21 @@ def _name(entry: Entry) -> str:
     return (entry.key or "").strip("'\"")
 
 
-def _lines(entries: list[Entry], indent: int) -> list[str]:
-    lines: list[str] = []
+def lines(entries: list[Entry], indent: int) -> list[str]:
+    """Return the lines of entries in the normal form, `indent` spaces deep."""
+    text: list[str] = []
     for i, entry in enumerate(entries):
-        lead = entry.lead if i else _stripped(entry.lead[:1]) + entry.lead[1:]  # no blank line above the first
-        lines += [f"{' ' * indent}{line}" if line else "" for line in lead]
-        lines += _item(entry, indent) if entry.key is None else _entry(entry, indent)
-        lines += [f"{' ' * (indent + _STEP)}{line}" for line in entry.foot]
-    return lines
+        lead = entry.lead if i else stripped(entry.lead[:1]) + entry.lead[1:]  # no blank line above the first
+        text += [f"{' ' * indent}{line}" if line else "" for line in lead]
+        text += _item(entry, indent) if entry.key is None else _entry(entry, indent)
+        text += [f"{' ' * (indent + _STEP)}{line}" for line in entry.foot]
+    return text
 
 
 def _entry(entry: Entry, indent: int) -> list[str]:
     pad = " " * indent
     if entry.below:
-        return [f"{pad}{entry.key}:{entry.trail}", *_lines(entry.below, indent + _STEP)]
+        return [f"{pad}{entry.key}:{entry.trail}", *lines(entry.below, indent + _STEP)]
     first, *more = entry.value.split("\n")
     head = f"{pad}{entry.key}: {first}" if first else f"{pad}{entry.key}:"
     return [head + entry.trail, *(f"{pad}  {line}" if line else "" for line in more)]
@@ -103,7 +105,7 @@ def _entry(entry: Entry, indent: int) -> list[str]:
 def _item(entry: Entry, indent: int) -> list[str]:
     pad = " " * indent
     if entry.below:
-        first, *more = _lines(entry.below, indent + _STEP)
+        first, *more = lines(entry.below, indent + _STEP)
         return [f"{pad}- {first.lstrip(' ')}", *more]
     first, *more = entry.value.split("\n")
     return [f"{pad}- {first}".rstrip() + entry.trail, *(f"{pad}  {line}" if line else "" for line in more)]

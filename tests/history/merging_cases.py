@@ -1,0 +1,148 @@
+"""Random manifests and random edits of two sides, each with what must come out of their merge."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass, field
+
+VALUES = ("angle", "exposure", "tip", "tilt")
+COMMENTS = ("# beam walks here", "# glued", "# 2 a.m.", "# x: 3, not a value", "# ± 0.1 mm")
+Leaf = tuple[str, str]
+"""A component, and one of its tunables: `angle`, `pose.x`."""
+
+
+@dataclass
+class Part:
+    """A component as the case writes it: comments above it, values, comments behind values."""
+
+    values: dict[str, float | str]
+    above: list[str] = field(default_factory=list)
+    behind: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Case:
+    """Three versions; the values of the merged state, leaves that must conflict, comments that must survive."""
+
+    base: str
+    ours: str
+    theirs: str
+    expected: dict[Leaf, float | str]
+    conflicting: frozenset[Leaf]
+    comments: tuple[str, ...]
+
+
+State = dict[str, Part]
+
+
+def text(state: State, flow: bool) -> str:
+    """Write a state as a person would; `flow`: each pose on one line."""
+    lines = ["apiVersion: pico/v1", "kind: LabState", "metadata: {lab: bench}", "components:"]
+    for name in sorted(state):
+        part = state[name]
+        lines += [*(f"  {c}" for c in part.above), f"  {name}:"]
+        pose = {k.partition(".")[2]: v for k, v in part.values.items() if k.startswith("pose.")}
+        if "slot" in part.values:
+            lines.append(f"    slot: {part.values['slot']}")
+        elif flow:
+            lines.append("    pose: {" + ", ".join(f"{k}: {v}" for k, v in pose.items()) + "}")
+        else:
+            lines += ["    pose:", *(f"      {k}: {v}{part.behind.get('pose.' + k, '')}" for k, v in pose.items())]
+        lines += [f"    {k}: {part.values[k]}{part.behind.get(k, '')}" for k in VALUES if k in part.values]
+    return "\n".join(lines) + "\n"
+
+
+def case(seed: int) -> Case:
+    """Return the case of a seed: up to 12 components, up to 8 edits a side, some of the same tunable."""
+    rng = random.Random(seed)
+    base = {f"c{i:02d}": _part(rng, i) for i in range(rng.randint(1, 12))}
+    flow = rng.random() < 0.3
+    ours, theirs = _copy(base), _copy(base)
+    leaves = [(n, k) for n in sorted(base) for k in base[n].values]
+    rng.shuffle(leaves)
+    conflicting: set[Leaf] = set()
+    expected = {(n, k): base[n].values[k] for n, k in leaves}
+    for n, k in leaves[: rng.randint(0, min(16, len(leaves)))]:
+        old = expected[n, k]
+        kind = rng.random()
+        if kind < 0.12:
+            mine, other = _other(rng, old, 1), _other(rng, old, 2)
+            ours[n].values[k], theirs[n].values[k] = mine, other
+            conflicting.add((n, k))
+        elif kind < 0.2:
+            ours[n].values[k] = theirs[n].values[k] = expected[n, k] = _other(rng, old, 1)
+        else:
+            side = ours if rng.random() < 0.5 else theirs
+            side[n].values[k] = expected[n, k] = _other(rng, old, 1)
+    comments = _remark(rng, base, ours, theirs, flow)
+    for side, word in ((ours, "new_a"), (theirs, "new_b")):
+        if rng.random() < 0.3:
+            name = f"{rng.choice(sorted(base))}_{word}"
+            side[name] = _part(rng, 40 + len(word))
+            expected |= {(name, k): v for k, v in side[name].values.items()}
+        _add_value(rng, base, side, (ours, theirs), expected)
+    if rng.random() < 0.2:
+        _remove(rng, base, ours, theirs, expected)
+    comments = tuple(c for c in comments if c in text(ours, flow) or c in text(theirs, flow))
+    return Case(text(base, flow), text(ours, flow), text(theirs, flow), expected, frozenset(conflicting), comments)
+
+
+def _part(rng: random.Random, i: int) -> Part:
+    place: dict[str, float | str] = (
+        {"slot": f"storage/a{i}"} if rng.random() < 0.3 else {"pose.x": 40 * i, "pose.y": 300, "pose.yaw": 0.0}
+    )
+    part = Part(place | {k: rng.randint(0, 900) / 10 for k in VALUES if rng.random() < 0.5})
+    if rng.random() < 0.3:
+        part.above.append(rng.choice(COMMENTS) + f" {i}")
+    return part
+
+
+def _copy(state: State) -> State:
+    return {n: Part(dict(p.values), list(p.above), dict(p.behind)) for n, p in state.items()}
+
+
+def _other(rng: random.Random, old: float | str, step: int) -> float | str:
+    """Return another value; of another `step`, a different one."""
+    if isinstance(old, str):
+        return f"storage/{'xyz'[step]}{rng.randint(1, 99)}"
+    return round(old + step / 10 + rng.randint(1, 400), 3)
+
+
+def _remark(rng: random.Random, base: State, ours: State, theirs: State, flow: bool) -> tuple[str, ...]:
+    """Add comments to either side, above components and behind values, even both at one place; return them."""
+    made = []
+    for side, word in ((ours, "ours"), (theirs, "theirs")):
+        for number in range(rng.randint(0, 3)):
+            name = rng.choice(sorted(base))
+            comment = f"{rng.choice(COMMENTS)} by {word} {number}"
+            keys = [k for k in side[name].values if k in VALUES or (k != "slot" and not flow)]
+            if keys and rng.random() < 0.5:
+                key = rng.choice(keys)
+                if side[name].behind.get(key):
+                    continue
+                side[name].behind[key] = f"  {comment}"
+            else:
+                side[name].above.append(comment)
+            made.append(comment)
+    return tuple(made)
+
+
+def _add_value(
+    rng: random.Random, base: State, side: State, both: tuple[State, State], expected: dict[Leaf, float | str]
+) -> None:
+    """Let a side give a component a tunable that nobody has given it."""
+    name = rng.choice(sorted(base))
+    free = [k for k in VALUES if all(k not in state[name].values for state in both)]
+    if free and rng.random() < 0.5:
+        key = rng.choice(free)
+        side[name].values[key] = expected[name, key] = rng.randint(0, 99)
+
+
+def _remove(rng: random.Random, base: State, ours: State, theirs: State, expected: dict[Leaf, float | str]) -> None:
+    """Let a side take out a component that nobody touched."""
+    same = [n for n in sorted(base) if base[n] == ours[n] == theirs[n]]
+    if same and len(base) > 1:
+        name = rng.choice(same)
+        del rng.choice((ours, theirs))[name]
+        for key in base[name].values:
+            del expected[name, key]
