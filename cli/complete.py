@@ -45,6 +45,8 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "diff": ("--picture",),
     "render": ("--out", "--view", "--manifest", "--plan", "--size"),
     "ruler": ("--picture",),
+    "scan": ("--picture",),
+    "find": ("--picture",),
     "calibrate": (),
     "markers": ("--out", "--paper"),
     "sim reset": (),
@@ -70,7 +72,7 @@ FIXED = {
     "--example": ("minimal", "shel", "crowded", "two_arms"),
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
-_COMPONENT = ("ruler", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
+_COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
 _REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 

@@ -44,6 +44,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "sim": "Act on the simulated world: reset it, nudge or remove a component, bump a camera, view it.",
         "render": "Draw the bench: a picture as PNG, or a drawing with its parts list as SVG.",
         "ruler": "Measure between two things on the bench.",
+        "scan": "Look at the table through the cameras: where every part is, how surely, and what can't be told.",
+        "find": "Show where a part is, as the cameras see it now.",
         "calibrate": "Find out where the cameras are and how their lenses draw.",
         "markers": "Write the markers of the lab as a PDF, to print and stick on.",
         "completion": "Print the completion script of a shell; its first line says how to install it.",

@@ -11,7 +11,8 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.drawings import Drawings
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
-from pico.model.diff import Change, diff_observed
+from pico.model.diff import Change
+from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
@@ -263,7 +264,7 @@ class AsyncBench(Drawings):
 
     async def drift(self) -> tuple[Change, ...]:
         """Return where the bench differs from HEAD: `before` is live, `after` committed; raises PicoError."""
-        return diff_observed(self.setup, await self.observe(), self.state_at("HEAD"))
+        return drift_of(self.setup, await self.observe(), self.state_at("HEAD"))
 
     async def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
         """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""

@@ -20,6 +20,7 @@ from pico.model.report import Captured, Committed, PartRow, RunReport
 from pico.model.status import Status
 
 if TYPE_CHECKING:
+    from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
@@ -65,6 +66,18 @@ class Bench(Reader):
     def observe(self) -> Observation:
         """Look, and return what was seen."""
         return self._thread.wait(self._bench.observe())
+
+    def scan(self) -> Look:
+        """Look at the table through its cameras; see `pico.scans.scan`."""
+        from pico import scans
+
+        return self._thread.wait(scans.scan(self._bench))
+
+    def scan_picture(self, look: Look, *, out: Path | None = None, component: str | None = None) -> Image:
+        """Return a camera's picture of a scan, with names drawn in; see `pico.scans.picture`."""
+        from pico import scans
+
+        return scans.picture(self._bench, look, out, component)
 
     def plan(
         self,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from pico.backends.cover import Cover
@@ -16,7 +16,7 @@ from pico.backends.memory import Seen
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, UnknownObject
+from pico.model.observation import Observation, ObservedComponent, ObservedRobot, UnknownObject
 from pico.model.observation import Uncertainty as Sigma
 from pico.model.pose import Pose
 from pico.vision.anchor import Drifting, anchored
@@ -51,28 +51,23 @@ class Look:
     calibration: Calibration
 
 
-@dataclass(frozen=True)
-class Known:
-    """What is known without pictures: the clocks, the robots, the tunables, and where parts were last."""
-
-    backend: str
-    time: float
-    observed_at: str
-    robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
-    values: Mapping[str, Mapping[str, ObservedValue]] = field(default_factory=dict)
-    last: Mapping[str, Seen] = field(default_factory=dict)
-
-
-def look(setup: Setup, frames: Sequence[Frame], calibration: Calibration | None, known: Known) -> Look:
+def look(
+    setup: Setup,
+    frames: Sequence[Frame],
+    calibration: Calibration | None,
+    known: Observation,
+    last: Mapping[str, Seen],
+) -> Look:
     """Return what `frames`, one a camera that stands over the table, show of a bench.
 
-    `calibration`: None where the cameras were never calibrated; then they are where the lab says, about.
+    `calibration`: None where the cameras were never calibrated; then they are where the lab says, about. `known`: what
+    is known without them, clocks, robots and the values of tunables; no pose is taken from it. `last`: where parts were
+    seen or put down before.
     """
     held = {robot.holding for robot in known.robots.values() if robot.holding}
     sighting, cameras = seen_by(setup, frames, calibration, held)
-    return Look(
-        _observation(setup, sighting, cameras, known, calibration is not None), sighting, tuple(frames), cameras
-    )
+    seen = _observation(setup, sighting, cameras, known, last, calibration is not None)
+    return Look(seen, sighting, tuple(frames), cameras)
 
 
 def require_trusted(seen: Observation) -> Observation:
@@ -128,7 +123,14 @@ def _displaced(setup: Setup, pictures: Sequence[Markers], basis: Calibration, ri
     return tuple(found)
 
 
-def _observation(setup: Setup, sighting: Sighting, cameras: Calibration, known: Known, calibrated: bool) -> Observation:
+def _observation(
+    setup: Setup,
+    sighting: Sighting,
+    cameras: Calibration,
+    known: Observation,
+    last: Mapping[str, Seen],
+    calibrated: bool,
+) -> Observation:
     places = {name: seen.pose for name, seen in sighting.components.items()}
     cover = Cover(setup, places, {n: r.joints for n, r in known.robots.items()}, cameras.cameras, sighting.dark)
     components: dict[str, ObservedComponent] = {}
@@ -136,18 +138,12 @@ def _observation(setup: Setup, sighting: Sighting, cameras: Calibration, known: 
     problems += [_finding(f) for f in sighting.findings if f.kind not in ("hidden", "datums")]
     problems += [_unwatched(f, calibrated) for f in sighting.of("datums")]
     for name in setup.lab.inventory:
-        part, problem = _component(setup, name, sighting, known, cover)
-        components[name] = replace(part, values=known.values.get(name, {}))
+        part, problem = _component(setup, name, sighting, known, last.get(name), cover)
+        values = known.components[name].values if name in known.components else {}
+        components[name] = replace(part, values=values)
         problems += [problem] if problem else []
-    return Observation(
-        backend=known.backend,
-        time=known.time,
-        observed_at=known.observed_at,
-        components=components,
-        unknown=_strangers(setup, sighting, components),
-        robots=known.robots,
-        problems=tuple(problems),
-    )
+    unknown = _strangers(setup, sighting, components)
+    return replace(known, components=components, unknown=unknown, problems=tuple(problems))
 
 
 def _finding(finding: Finding) -> Diagnostic:
@@ -162,7 +158,7 @@ def _unwatched(finding: Finding, calibrated: bool) -> Diagnostic:
 
 
 def _component(
-    setup: Setup, name: str, sighting: Sighting, known: Known, cover: Cover
+    setup: Setup, name: str, sighting: Sighting, known: Observation, last: Seen | None, cover: Cover
 ) -> tuple[ObservedComponent, Diagnostic | None]:
     part, plate = setup.lab.inventory[name], setup.type_of(name).geometry.marker
     holder = next((key for key, robot in known.robots.items() if robot.holding == name), None)
@@ -184,18 +180,20 @@ def _component(
         sigma = Sigma(position=setup.type_of(name).geometry.height, yaw=180.0)
         lying = ObservedComponent(presence="toppled", pose=pose, uncertainty=sigma)
         return (lying if lies else ObservedComponent(presence="missing")), None
-    return _hidden(setup, name, known, cover)
+    return _hidden(setup, name, known.time, last, cover)
 
 
-def _hidden(setup: Setup, name: str, known: Known, cover: Cover) -> tuple[ObservedComponent, Diagnostic | None]:
+def _hidden(
+    setup: Setup, name: str, now: float, last: Seen | None, cover: Cover
+) -> tuple[ObservedComponent, Diagnostic | None]:
     """A part whose marker nobody sees: still where it was, if something hides that place; else it is gone."""
-    last, fixed, marker = known.last.get(name), setup.lab.inventory[name].pose, setup.lab.inventory[name].marker
+    fixed, marker = setup.lab.inventory[name].pose, setup.lab.inventory[name].marker
     pose = last.pose if last else fixed
     unseen = f"{name}: no camera sees its marker {marker}"
     if pose is None:
         hint = "put it where a camera sees it, or look behind what hides the view"
         return ObservedComponent(presence="missing"), warning("marker-hidden", unseen, hint=hint, address=name)
-    age = max(0.0, known.time - last.time) if last else 0.0
+    age = max(0.0, now - last.time) if last else 0.0
     when = f"it was last at {pose}, {duration(age)} ago" if last else f"the lab has it fixed at {pose}"
     behind = cover.hides(name, pose)
     if behind is None:

@@ -14,7 +14,7 @@ from pico.execution.run import run
 from pico.model.diff import Change, diff_observed
 from pico.model.event import Event
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, doubtful
 from pico.model.plan import Plan
 from pico.model.report import RunReport
 from pico.model.state import state_from_json
@@ -127,9 +127,11 @@ def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
 
 
 def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
-    """Return the components of the goal that do not stand where they are seen."""
+    """Return the components of the goal that do not stand where they are seen, or not surely."""
     parts = {n: seen.components.get(n) for n in setup.lab.inventory if n in plan.target.state}
-    return tuple(sorted(n for n, part in parts.items() if part is None or part.presence != "seen"))
+    return tuple(
+        sorted(n for n, part in parts.items() if not part or part.presence != "seen" or doubtful(setup, n, part))
+    )
 
 
 def _diagnostics(result: RunResult) -> Sequence[Diagnostic]:

@@ -9,7 +9,7 @@ from typing import Any
 from pico.diagnostics import PicoError, error
 from pico.model.diff import Change, diff_observed, place_json, show_value
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between
 from pico.model.record import record
 from pico.model.state import LabState, place_of
@@ -21,7 +21,8 @@ class StatusRow:
 
     `edited`: desired differs from committed. `off`: live differs from desired by more than the tolerance. `drifted`:
     it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
-    deviation; `near` says what a tolerated deviation is. `unit`: of the values. `note`: missing, held or toppled.
+    deviation; `near` says what a tolerated deviation is. `unit`: of the values. `note`: missing, held, toppled or
+    uncertain.
     """
 
     component: str
@@ -95,7 +96,7 @@ def _pose_row(
     before = place_json(*place_of(setup, committed, name)) if committed else None
     after = place_json(slot, goal)
     part = seen.components.get(name)
-    note = _note(part)
+    note = _note(setup, name, part)
     live = part.pose if part and not note else None
     in_slot = slot_at(setup, live) if live and setup.movable(name) else None
     return StatusRow(
@@ -150,10 +151,12 @@ def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes) -> dict[str, 
     }
 
 
-def _note(part: ObservedComponent | None) -> str:
+def _note(setup: Setup, name: str, part: ObservedComponent | None) -> str:
     if part is None or (part.pose is None and part.presence == "seen"):
         return "missing"
-    return "" if part.presence == "seen" else part.presence
+    if part.presence != "seen":
+        return part.presence
+    return "uncertain" if doubtful(setup, name, part) else ""
 
 
 def _deviation(goal: Pose, live: Pose) -> str:

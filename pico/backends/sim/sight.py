@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.backends.memory import Seen
-from pico.backends.sight import Known, Look, look, no_cameras
+from pico.backends.sight import Look, look, no_cameras
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.eyes import eyes_of
-from pico.backends.sim.world import World
+from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
 from pico.vision.calibration import read_calibration
@@ -34,15 +34,8 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
     if not names:
         raise no_cameras(setup)
     eyes = eyes_of(setup, world, *scene_of(setup, world))
-    known = Known(
-        backend=backend,
-        time=world.clock,
-        observed_at=observed_at,
-        robots=world.robots,
-        values={name: body.values for name, body in world.components.items()},
-        last=last,
-    )
-    return look(setup, [_picture(eyes, name) for name in names], read_calibration(root), known)
+    pictures = [_picture(eyes, name) for name in names]
+    return look(setup, pictures, read_calibration(root), observe(world, backend, observed_at), last)
 
 
 def _picture(eyes: Eyes, name: str) -> Frame:

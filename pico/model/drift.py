@@ -1,0 +1,43 @@
+"""Where the bench has left a state: what stands elsewhere, what nobody sees, and what can't be told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pico.model.diff import Change, diff_observed, place_json
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
+from pico.model.state import LabState, place_of
+
+
+def drift_of(setup: Setup, seen: Observation, wanted: LabState) -> tuple[Change, ...]:
+    """Return where the bench as observed differs from `wanted`, sorted by component: `before` is live.
+
+    A part that is missing, held or lies is a difference of its own; so is one that was seen less exactly than it must
+    stand and of which nobody can therefore say that it is right.
+    """
+    found = list(diff_observed(setup, seen, wanted))
+    beyond = {c.component for c in found if c.tunable == "pose" and not c.tolerated}
+    found += [change for change in _unsure(setup, seen, wanted) if change.component not in beyond]
+    return tuple(sorted(found, key=lambda c: (c.component, c.tunable)))
+
+
+def _unsure(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Change]:
+    for name in sorted(setup.lab.inventory):
+        text = _text(setup, name, seen.components.get(name))
+        if text:
+            slot, goal = place_of(setup, wanted, name)
+            where = f"in {slot}" if slot else f"at {goal}"
+            yield Change(
+                component=name, tunable="pose", after=place_json(slot, goal), text=f"{text}; it belongs {where}"
+            )
+
+
+def _text(setup: Setup, name: str, part: ObservedComponent | None) -> str:
+    if part is None or part.presence == "missing" or (part.pose is None and part.presence == "seen"):
+        return "nobody sees it"
+    if part.presence != "seen" or part.pose is None:
+        return {"held": "is in a gripper", "toppled": "lies on its side"}.get(part.presence, part.presence)
+    if not doubtful(setup, name, part) or (setup.movable(name) and slot_at(setup, part.pose)):
+        return ""
+    return f"uncertain: seen at {part.pose} ± {part.uncertainty.position:.2g} mm, {part.uncertainty.yaw:.2g}°"

@@ -1,0 +1,42 @@
+"""Looking at a bench through its cameras: where everything is, in numbers and as a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import PicoError, error
+from pico.model.request import require_component
+
+if TYPE_CHECKING:
+    from pico.async_bench import AsyncBench
+    from pico.backends.sight import Look
+    from pico.twin.picture import Image
+
+
+async def scan(bench: AsyncBench) -> Look:
+    """Return what the cameras over the table see, also what is wrong with them; raises PicoError where there are none.
+
+    Observes by sight, whether or not the lab otherwise observes exactly.
+    """
+    look = getattr(bench.backend, "scan", None)
+    if look is None:
+        raise PicoError(error("capability", f"{bench.backend_name} has no cameras that PICO can look through"))
+    found: Look = await look()
+    return found
+
+
+def picture(bench: AsyncBench, look: Look, out: Path | None = None, component: str | None = None) -> Image:
+    """Return the picture (height, width, 3) of a camera over the table with names and outlines drawn in.
+
+    `component`: only the part of the picture around it, large. `out`: write it there, too, as PNG. Raises PicoError.
+    """
+    from pico.twin.picture import write_png
+    from pico.twin.sighted import annotated
+
+    if component is not None:
+        require_component(bench.setup, component)
+    image = annotated(bench.setup, look.frames, look.calibration.cameras, look.observation, look.sighting, component)
+    if out is not None:
+        write_png(image, out)
+    return image
