@@ -73,7 +73,7 @@ FIXED = {
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
-_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render")
+_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render", "verify")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 

@@ -28,6 +28,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "log": "List commits with what each changed on the table.",
         "diff": "Show what differs between two states, as motions.",
         "show": "Show a revision or a saved plan.",
+        "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
     },
     "One operation at a time": {

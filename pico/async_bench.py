@@ -13,6 +13,7 @@ from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
 from pico.model.diff import Change
 from pico.model.drift import drift_of
+from pico.model.expectation import Verified
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
@@ -265,6 +266,25 @@ class AsyncBench(Drawings):
     async def drift(self) -> tuple[Change, ...]:
         """Return where the bench differs from HEAD: `before` is live, `after` committed; raises PicoError."""
         return drift_of(self.setup, await self.observe(), self.state_at("HEAD"))
+
+    async def verify(self, revision: str | None = None) -> Verified:
+        """Return how the bench as observed stands against a revision, or the manifest, and its expectations."""
+        from pico.policy.expectations import check_expectations
+
+        wanted = self.state_at(revision) if revision else self.state
+        seen = await self.observe()
+        return Verified(
+            goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(self.setup, seen, wanted),
+            expectations=check_expectations(self.setup, seen, wanted.expect),
+        )  # fmt: skip
+
+    async def expected(self, plan: Plan) -> Verified:
+        """Return what became of the expectations of a plan's goal, which the bench has reached already."""
+        from pico.policy.expectations import check_expectations
+
+        seen = await self.observe()
+        found = check_expectations(self.setup, seen, plan.target.expect or ())
+        return Verified(goal=plan.target.name, observed_at=seen.observed_at, expectations=found)
 
     async def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
         """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""

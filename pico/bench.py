@@ -14,6 +14,7 @@ from pico.diagnostics import Diagnostic
 from pico.execution.blocking import LoopThread, Run
 from pico.history.reader import Reader
 from pico.model.diff import Change
+from pico.model.expectation import Verified
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.report import Captured, Committed, PartRow, RunReport
@@ -174,6 +175,14 @@ class Bench(Reader):
     def drift(self) -> tuple[Change, ...]:
         """Return where the bench as observed differs from HEAD."""
         return self._thread.wait(self._bench.drift())
+
+    def verify(self, revision: str | None = None) -> Verified:
+        """Return how the bench stands against a revision, or the manifest, and its expectations."""
+        return self._thread.wait(self._bench.verify(revision))
+
+    def expected(self, plan: Plan) -> Verified:
+        """Return what became of the expectations of a plan's goal, which the bench has reached already."""
+        return self._thread.wait(self._bench.expected(plan))
 
     def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
         """Return the inventory with where each part is."""

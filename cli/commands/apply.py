@@ -13,6 +13,8 @@ from ..arguments import Exact, Exclude, Fidelity, PlanOrRevision, Prefer, Target
 from ..running import execute, question
 from ..session import Session
 from ..views import plan as view
+from ..views import verified
+from ..views.report import expectations
 
 if TYPE_CHECKING:
     from pico.bench import Bench
@@ -56,6 +58,17 @@ def apply(
     return approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
 
 
+def _expected(session: Session, bench: Bench, plan: Plan) -> int:
+    """Check the expectations of a goal that the bench has reached already."""
+    if not plan.target.expect or plan.target.scope:
+        return ExitCode.DONE
+    found = bench.expected(plan)
+    if session.json:
+        session.document(verified.data(found))
+    session.say("\n".join(expectations(found.expectations)))
+    return found.exit_code
+
+
 def approve(
     session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
 ) -> int:
@@ -71,7 +84,7 @@ def approve(
         return ExitCode.DENIED
     if not plan.operations:
         bench.settle()
-        return ExitCode.ERROR if plan.absent else ExitCode.DONE
+        return ExitCode.ERROR if plan.absent else _expected(session, bench, plan)
     session.say("")
     if not auto_approve and not session.confirm(question(plan)):
         session.say("Nothing moved.")

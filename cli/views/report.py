@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from pico.model.expectation import Expected
 from pico.model.record import as_json
 from pico.model.report import RunReport
 
@@ -28,7 +30,23 @@ def text(report: RunReport) -> str:
     took = f"{seconds(report.seconds)} {report.clock}, {seconds(report.wall)} here"
     said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
     lines = [f"{head[report.outcome]}: {said} · {took}"]
+    lines += expectations(report.expectations)
     return "\n".join(lines + [part for line in _bench(report) for part in wrap(line, "")])
+
+
+def expectations(found: Sequence[Expected]) -> list[str]:
+    """Return `3 of 3 expectations hold.`, and lines for each that does not, or of which nobody knows."""
+    if not found:
+        return []
+    lines = []
+    for one in found:
+        if not one.holds:
+            verb = "fails" if one.holds is False else "is unknown, which is a failure"
+            said = f"{one.message}: " if one.message else ""
+            lines += wrap(f"{paint('red', '✗')} {said}`{one.that}` {verb}{': ' if one.why else ''}{one.why}", "  ")
+    holding = sum(bool(one.holds) for one in found)
+    verb = "holds" if len(found) == 1 else "hold"
+    return [*lines, f"{holding} of {count(len(found), 'expectation')} {verb}."]
 
 
 def _bench(report: RunReport) -> list[str]:

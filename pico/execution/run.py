@@ -30,8 +30,8 @@ async def run(
 
     The bench is locked for `holder` meanwhile. `setup` says the tolerances. Before the first operation
     raises PicoError: exit code IMPOSSIBLE for a plan with errors, STALE where the bench or the lab
-    changed since it was made, DENIED by the lab's policy, LOCKED where somebody else has the bench, ERROR where the backend can't do what the plan
-    asks. A failure of an operation is an event.
+    changed since it was made, DENIED by the lab's policy, LOCKED where somebody else has the bench, ERROR where the
+    backend can't do what the plan asks. A failure of an operation is an event.
 
     Where an operation fails, what depends on it is skipped and the rest goes on, unless `stop_on_error`. `resumed`: the
     journal knows the run, which goes on under its id.

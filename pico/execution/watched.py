@@ -13,6 +13,7 @@ from pico.execution.result import RunResult
 from pico.execution.run import run
 from pico.model.diff import Change, diff_observed
 from pico.model.event import Event
+from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.observation import Observation, doubtful
 from pico.model.plan import Plan
@@ -103,6 +104,7 @@ def run_report(
         left=_left(setup, plan, seen) if plan.target.scope else (),
         remaining=_remaining(setup, plan, seen, whole),
         absent=_absent(setup, plan, seen) if whole else (),
+        expectations=_expectations(setup, plan, seen) if whole else (),
         diagnostics=tuple(_diagnostics(result)),
     )
 
@@ -132,6 +134,14 @@ def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
     return tuple(
         sorted(n for n, part in parts.items() if not part or part.presence != "seen" or doubtful(setup, n, part))
     )
+
+
+def _expectations(setup: Setup, plan: Plan, seen: Observation) -> tuple[Expected, ...]:
+    if not plan.target.expect:
+        return ()
+    from pico.policy.expectations import check_expectations
+
+    return check_expectations(setup, seen, plan.target.expect)
 
 
 def _diagnostics(result: RunResult) -> Sequence[Diagnostic]:

@@ -1,7 +1,9 @@
-"""What became of the expectations of a state."""
+"""What became of the expectations of a state, and whether the bench is as it says."""
 
 from __future__ import annotations
 
+from pico.diagnostics import ExitCode
+from pico.model.diff import Change
 from pico.model.record import record
 
 
@@ -14,3 +16,27 @@ class Expected:
     message: str = ""
     holds: bool | None = None
     why: str = ""
+
+
+@record
+class Verified:
+    """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `before` is live),
+    and the expectations of the state."""
+
+    schema: str = "pico.verified/v1"
+    goal: str
+    observed_at: str = ""
+    changes: tuple[Change, ...] = ()
+    expectations: tuple[Expected, ...] = ()
+
+    @property
+    def off(self) -> tuple[Change, ...]:
+        """What differs beyond tolerance, is not seen, or not surely."""
+        return tuple(c for c in self.changes if not c.tolerated)
+
+    @property
+    def exit_code(self) -> ExitCode:
+        """EXPECTATION where one does not hold or is unknown, ERROR where the bench differs, else DONE."""
+        if not all(e.holds for e in self.expectations):
+            return ExitCode.EXPECTATION
+        return ExitCode.ERROR if self.off else ExitCode.DONE

@@ -8,6 +8,7 @@ from typing import Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
 from pico.model.diff import Change
+from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.observation import Observation, slot_at
 from pico.model.record import record
@@ -21,7 +22,8 @@ class RunReport:
     `seconds`: on the backend's clock, `clock` says whose; `wall`: here. `remaining`: what differs from the goal beyond
     tolerance, observed after the run; `absent`: components that are missing, held or toppled; `held`: what each robot
     still has in its gripper. `whole`: the plan was for the whole bench, not for one operation or for some components;
-    `scope`: for which (`only p2`), and `left`: what else differs from the goal. `evidence`: what the run counts as.
+    `scope`: for which (`only p2`), and `left`: what else differs from the goal. `expectations`: of the
+    goal, against the bench after a whole run. `evidence`: what the run counts as.
     """
 
     schema: str = "pico.report/v1"
@@ -42,6 +44,7 @@ class RunReport:
     left: tuple[str, ...] = ()
     remaining: tuple[Change, ...] = ()
     absent: tuple[str, ...] = ()
+    expectations: tuple[Expected, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -49,8 +52,9 @@ class RunReport:
         """What a command ends with."""
         if self.outcome == "interrupted":
             return ExitCode.INTERRUPTED
-        reached = self.outcome == "done" and not self.remaining and not self.absent
-        return ExitCode.DONE if reached else ExitCode.ERROR
+        if self.outcome != "done" or self.remaining or self.absent:
+            return ExitCode.ERROR
+        return ExitCode.DONE if all(e.holds for e in self.expectations) else ExitCode.EXPECTATION
 
 
 @record

@@ -1,0 +1,75 @@
+"""Expectations: true, false, or unknown, which is a failure that says why."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from pico.diagnostics import ExitCode
+from pico.manifest.load import load_folder
+from pico.model.expectation import Expected, Verified
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, ObservedValue, Uncertainty
+from pico.model.pose import Pose
+from pico.model.report import RunReport
+from pico.model.state import Expectation
+from pico.policy.expectations import check_expectations
+from pico.resources import labs_dir
+
+
+@pytest.fixture(scope="module")
+def shel() -> Setup:
+    return load_folder(labs_dir() / "shel").require()[0]
+
+
+def expected(setup: Setup, that: str, **parts: ObservedComponent) -> Expected:
+    seen: dict[str, Any] = {
+        "p1": ObservedComponent(pose=Pose(290, 420, 0), values={"angle": ObservedValue(value=90.0)}),
+        "p2": ObservedComponent(pose=Pose(520, 420, 350), values={"angle": ObservedValue(value=1.0)}),
+        "lx_100": ObservedComponent(pose=Pose(112, 310, 77)),
+        **parts,
+    }
+    return check_expectations(setup, Observation(backend="sim", components=seen), [Expectation(that=that)])[0]
+
+
+@pytest.mark.parametrize("that", [
+    "p2.pose.x == 520 && distance(p1, p2) == 230", "turned(p2.pose.yaw, 10) == 20", "p1.angle > p2.angle",
+    "lx_100.slot == 'storage/a1' && p2.slot == ''", "inside(p1, 'beam_line') && !inside(lx_100, 'beam_line')",
+    "cam.presence == 'missing' && abs(p2.angle - 2) <= 1", "p1.angle == 90 || cam.peak > 200",
+])  # fmt: skip
+def test_poses_slots_and_set_points_can_be_expected(shel: Setup, that: str) -> None:
+    assert expected(shel, that) == Expected(that=that, holds=True)
+
+
+def test_a_failing_expectation_shows_what_the_bench_shows(shel: Setup) -> None:
+    found = expected(shel, "p1.angle < 45 && p2.pose.x > 0")
+    assert found.holds is False
+    assert found.why == "p1.angle is 90, p2.pose.x is 520"
+
+
+@pytest.mark.parametrize(("that", "part", "why"), [
+    ("cam.peak > 200", None, "light is not simulated yet"),
+    ("p2.pose.x > 0", ObservedComponent(presence="missing"), "p2 is missing"),
+    ("distance(p1, p2) > 0", ObservedComponent(presence="toppled", pose=Pose(1, 1, 0)), "p2 is toppled"),
+    ("p2.pose.x > 0", ObservedComponent(pose=Pose(520, 420, 0), uncertainty=Uncertainty(position=3)), "seen to 3 mm"),
+    ("distance(p1, p2) > 0", ObservedComponent(pose=Pose(5, 4, 0), uncertainty=Uncertainty(yaw=9)), "9 deg only"),
+    ("p2.angle > 0", ObservedComponent(values={"angle": ObservedValue(value=1.0, status="commanded")}), "read back"),
+    ("p2.angle > 0", ObservedComponent(values={"angle": ObservedValue(value=None, status="unknown")}), "nobody knows"),
+    ("p2.angel > 0", None, "did you mean `p2.angle`?"),
+    ("inside(p1, 'kitchen')", None, "there is no region `kitchen`"),
+])  # fmt: skip
+def test_what_is_not_assured_is_unknown_and_says_why(
+    shel: Setup, that: str, part: ObservedComponent | None, why: str
+) -> None:
+    found = expected(shel, that, **({"p2": part} if part else {}))
+    assert found.holds is None
+    assert why in found.why
+
+
+@pytest.mark.parametrize(("holds", "code"), [(True, 0), (False, 6), (None, 6)])
+def test_an_expectation_that_does_not_hold_or_is_unknown_ends_a_command_with_6(holds: bool | None, code: int) -> None:
+    found = (Expected(that="x", holds=True), Expected(that="y", holds=holds))
+    assert Verified(goal="e1", expectations=found).exit_code == code
+    assert RunReport(run="r", goal="e1", outcome="done", expectations=found).exit_code == code
+    assert RunReport(run="r", goal="e1", outcome="failed", expectations=found).exit_code == ExitCode.ERROR
