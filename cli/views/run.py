@@ -30,10 +30,12 @@ class Progress:
             "operation_failed": paint("red", "✗"),
             "operation_unknown": paint("red", "?"),
             "operation_skipped": paint("dim", "-"),
+            "operation_retried": paint("yellow", "↻"),
         }
         if event.kind not in marks:
             return ""
-        return f"  {marks[event.kind]} {self._head(event)}  {self._tail(event)}".rstrip()
+        mark = paint("yellow", "↩") if _put_back(event) else marks[event.kind]
+        return f"  {mark} {self._head(event)}  {self._tail(event)}".rstrip()
 
     def live(self, event: Event) -> str:
         """Return the line that stands while an operation is under way; empty for none.
@@ -64,7 +66,17 @@ class Progress:
             return f"skipped: {address(because)} did not get there" if because else "not started"
         found = data.get("diagnostic")
         summary = found.get("summary", "") if isinstance(found, dict) else getattr(found, "summary", "")
+        if event.kind == "operation_retried":
+            return f"tried again: {summary}"
+        if _put_back(event):
+            return str(summary)
         return f"{'failed' if event.kind == 'operation_failed' else 'outcome unknown'}: {summary}".rstrip(": ")
+
+
+def _put_back(event: Event) -> bool:
+    """Return whether a part was brought back, or left, because the run was interrupted: no failure."""
+    found = event.data.get("diagnostic")
+    return isinstance(found, dict) and found.get("code") == "put-back"
 
 
 def placement(data: Any) -> str:
