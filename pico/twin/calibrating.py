@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-SHOTS = 24
+SHOTS = 40
 """Poses of the board before the fixed cameras."""
 GLANCES = 14
 """Poses from which a hand looks at the board."""
@@ -79,10 +79,10 @@ def _shot(
 
     tell("board", number, count)
     width, depth = setup.lab.table.size
-    around, lean = random.uniform(0, 2 * math.pi), random.uniform(0.25, 0.75)
+    around, lean = random.uniform(0, 2 * math.pi), random.uniform(0.4, 0.85)
     turn = rotation(np.array([math.cos(around), math.sin(around), 0.0]) * lean)
     turn = turn @ rotation(np.array([0.0, 0.0, random.uniform(0, 2 * math.pi)]))
-    across, along, above = random.uniform(0.15, 0.85), random.uniform(0.15, 0.85), random.uniform(100, 600)
+    across, along, above = random.uniform(0.15, 0.85), random.uniform(0.15, 0.85), random.uniform(100, 700)
     pose = motion(turn, np.array([across * width, along * depth, above]))
     views = {name: find_board(_photo(setup, camera, pose, random)) for name, camera in cameras.items()}
     return {name: view for name, view in views.items() if view is not None}

@@ -30,7 +30,7 @@ LENS = 9
 LENS_STEPS = (1e-2, 1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-6, 1e-6, 1e-5)
 POSE_STEPS = (1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-5)  # mm, rad
 _OUTLIER = 4.0  # times the median distance, from which a corner is left out
-CORNER_NOISE = 0.05
+CORNER_NOISE = 0.025
 """One standard deviation of a corner of the board [pixels]."""
 
 Shot = Mapping[str, BoardView]

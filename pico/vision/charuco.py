@@ -72,8 +72,8 @@ def find_board(frame: Frame, board: Board = BOARD) -> BoardView | None:
         return None
     pixels: Any = np.asarray(corners, np.float32).reshape(-1, 1, 2)
     points = np.asarray(charuco(board).getChessboardCorners(), np.float64)[np.ravel(numbers)]
-    side = _pixels_a_mm(points, pixels.reshape(-1, 2)) * (board.square - board.marker) / 2
-    half = int(max(2, min(10, side * 0.9)))  # no more than the white between marker and corner
+    side = _pixels_a_mm(points, pixels.reshape(-1, 2), board.square) * (board.square - board.marker) / 2
+    half = int(max(2, min(10, side * 0.8)))  # no more than the white between marker and corner
     done = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 60, 1e-4)
     pixels = cv2.cornerSubPix(frame.gray, pixels.copy(), (half, half), (-1, -1), done)
     width, height = board.size
@@ -84,11 +84,13 @@ def find_board(frame: Frame, board: Board = BOARD) -> BoardView | None:
     )
 
 
-def _pixels_a_mm(points: Array, pixels: Any) -> float:
+def _pixels_a_mm(points: Array, pixels: Any, square: float) -> float:
+    """The least scale of the picture between neighboring corners: along the way that a leaning board is foreshortened."""
     import numpy as np
 
-    spread, seen = np.ptp(points[:, :2], axis=0), np.ptp(pixels, axis=0)
-    return float(np.hypot(*seen) / np.hypot(*spread))
+    apart = np.linalg.norm(points[:, None, :2] - points[None, :, :2], axis=2)
+    seen = np.linalg.norm(pixels[:, None] - pixels[None], axis=2)
+    return float(seen[(apart > 0) & (apart < 1.1 * square)].min(initial=np.inf) / square)
 
 
 def board_image(board: Board, pixels_a_mm: float) -> NDArray[np.uint8]:
