@@ -85,7 +85,7 @@ def find_board(frame: Frame, board: Board = BOARD) -> BoardView | None:
 
 
 def _pixels_a_mm(points: Array, pixels: Any, square: float) -> float:
-    """The least scale of the picture between neighboring corners: along the way that a leaning board is foreshortened."""
+    """The least scale of the picture between neighboring corners: a leaning board is foreshortened one way."""
     import numpy as np
 
     apart = np.linalg.norm(points[:, None, :2] - points[None, :, :2], axis=2)
