@@ -248,7 +248,8 @@ class Repeatability:
 
 @record
 class ComponentType:
-    """The definition of a component in the catalog."""
+    """The definition of a component in the catalog. `coupled`: groups of tunables that mean something only together,
+    such as the tip and the tilt that steer one beam; a merge says where both sides changed parts of one."""
 
     name: str
     title: str
@@ -263,6 +264,12 @@ class ComponentType:
     optics: OpticalElement = OpticalElement(element="none")
     seating: SeatingKind = "free"
     repeatability: Repeatability = Repeatability()
+    coupled: tuple[tuple[str, ...], ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in (name for group in self.coupled for name in group):
+            if name not in self.tunables:
+                raise ValueError(f"`coupled` names `{name}`, which is none of the tunables")
 
 
 Catalog = Mapping[str, ComponentType]
