@@ -119,3 +119,23 @@ def test_the_lab_can_say_the_faults(tmp_path: Path) -> None:
     assert told(result, {"failed"}) >= {"dropped"}
     with pytest.raises(ValueError, match="share from 0 to 1"):
         replace(SETUP.lab.sim, faults={"drop": 5.0})
+
+
+def test_what_slipped_is_told_as_tried_again_and_what_stops_everything_leaves_the_rest(tmp_path: Path) -> None:
+    from pico.execution import run
+
+    save_faults(tmp_path, Faults(rates={"slip": 1.0}))
+    bench = sim(SETUP, tmp_path)
+
+    async def go():  # type: ignore[no-untyped-def]
+        planned = await plan_to(bench, C3)
+        events = run(planned, bench, run_id="r1", holder="test", setup=SETUP, stop_on_error=True)
+        return [e async for e in events]
+
+    events = asyncio.run(go())
+    again = [e.data["attempt"] for e in events if e.kind == "operation_retried"]
+    assert again[:2] == [2, 3]
+    stopped = [e for e in events if e.kind == "operation_skipped" and e.data.get("stopped")]
+    assert stopped
+    begun_after = [e.kind for e in events[[e.kind for e in events].index("operation_failed") :]]
+    assert "operation_started" not in begun_after
