@@ -6,6 +6,7 @@ import math
 import random
 from collections.abc import Callable, Generator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from pico.backends.sim.bodies import body_placement
@@ -133,17 +134,23 @@ class PhysicsWorld:
         raise MoveFailed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
 
 
-def seeing(setup: Setup, world: World) -> Callable[[Twin], Sight] | None:
-    """Return what makes the sight that the lab asks for: `sim.sight`."""
+def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], Sight] | None:
+    """Return what makes the sight that the lab asks for: `sim.sight`.
+
+    The eyes trust the calibration in the folder `root`, and what the lab says of its cameras where there is none.
+    """
     if setup.lab.sim.sight != "pixels":
         return Exact if setup.lab.sim.sight == "exact" else None
 
     def eyes(twin: Twin) -> Sight:
         from pico.backends.sim.eyes import eyes_of
         from pico.twin.eye import EyeInHand
+        from pico.vision.calibration import read_calibration
         from pico.vision.nominal import camera_models
 
-        return EyeInHand(setup, twin, eyes_of(setup, world, twin.model, twin.data), camera_models(setup))
+        found = read_calibration(root)
+        trusted = camera_models(setup) | dict(found.cameras if found else {})
+        return EyeInHand(setup, twin, eyes_of(setup, world, twin.model, twin.data), trusted)
 
     return eyes
 

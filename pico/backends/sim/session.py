@@ -13,9 +13,10 @@ from typing import Any
 from pico.backends.attempt import Attempts
 from pico.backends.sim import judge
 from pico.backends.sim.bodies import snapshot
-from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
+from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
+from pico.backends.sim.mishaps import REST, Mishaps, driven_badly
 from pico.backends.sim.mover import InProgress, MoveFailed, Mover
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
@@ -24,7 +25,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.journal import Journal, run_of
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
-from pico.model.observation import ObservedComponent, ObservedValue, Presence, slot_at
+from pico.model.observation import ObservedComponent, ObservedValue, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.quantities import Value
@@ -39,10 +40,6 @@ PROGRESS = 0.25
 WATCHED = 0.05
 """Simulated seconds between two looks at a run that is recorded, at most."""
 
-UPRIGHT = 0.7
-"""Share of the parts that are dropped and come to stand where there is room."""
-REST = 0.3
-"""Seconds until an arm that is told to hold is at rest."""
 KEPT = 0.05
 """Seconds of wall time after which the world is stored again while something moves."""
 
@@ -66,12 +63,12 @@ class Session:
         self.token = token
         self._setup, self._root, self._world = setup, root, world
         self._motion, self._tell_all = motion, tell
-        self._mover, self._began_at = new_mover(setup, world, fidelity), world.clock
+        self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
         self._attempts = Attempts(journal, self, token, self._began)
         self._told, self._halting, self._kept = 0, False, 0.0
-        self._faults, self._unseen = faults or Faults(), set[str]()
+        self._mishaps = Mishaps(setup, faults or Faults(), token, self._mover, self.world)
 
     def watch(self, look: Callable[[Snapshot], None]) -> None:
         """Let `look` see the table now, and at least every WATCHED simulated seconds while something moves."""
@@ -131,8 +128,8 @@ class Session:
 
     def look(self, component: str) -> ObservedComponent | None:
         """Return a component as it is; None where no camera saw it."""
-        if component in self._unseen:
-            self._unseen.remove(component)
+        if component in self._mishaps.unseen:
+            self._mishaps.unseen.remove(component)
             return None
         return observe(self.world(), "sim", "").components.get(component)
 
@@ -163,71 +160,12 @@ class Session:
             raise judge.blocked(name, path)
         judge.require_dark(self._setup, self.world(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
-        fault = self._fault(operation, key)
+        fault = self._mishaps.of(operation, key)
         data = yield from self._reported(actual, key, path, self._mover.move(actual, path), fault)
-        if fault is not None and fault.kind == "slip":
-            self._slipped(name, fault)
-        seen = yield from self._looked_at(name, fault)
+        self._mishaps.slipped(name, fault)
+        seen = yield from self._mishaps.looked_at(name, fault)
         judge.require_placed(self._setup, self.world().with_body(name, pose=seen), name, goal, slot)
         return data
-
-    def _fault(self, operation: Operation, key: str) -> Fault | None:
-        """Return what goes wrong with an operation, by the lease and by what it is, so that a seed repeats itself."""
-        return self._faults.of(operation.primitive, f"{self.token}/{key.partition('/')[2]}")
-
-    def _slipped(self, name: str, fault: Fault) -> None:
-        """Let a part stand where it was put down after it slipped in the hand; in physics friction decides that."""
-        pose = judge.standing_pose(self.world(), name)
-        where, world = beside(pose, fault.draw), self.world()
-        others = {n: b.pose for n, b in world.components.items() if b.pose and b.presence == "seen"}
-        if isinstance(self._mover, KinematicWorld) and room_at(self._setup, name, where, others):
-            self._mover.let_go(name, where, "seen")
-
-    def _looked_at(self, name: str, fault: Fault | None) -> Generator[float, None, Pose]:
-        """Return where a part that was put down is seen: two looks that agree are believed.
-
-        Raises MoveFailed, outcome unknown, where no look shows it.
-        """
-        pose = judge.standing_pose(self.world(), name)
-        if fault is None or fault.kind not in ("camera", "reading"):
-            return pose
-        blind = fault.draw.randint(1, LOOKS + 1) if fault.kind == "camera" else 0
-        first = Pose(pose.x + fault.draw.uniform(5, 20), pose.y, pose.yaw) if fault.kind == "reading" else pose
-        readings = [None if n < blind else first if n == 0 else pose for n in range(LOOKS)]
-        believed: list[Pose] = []
-        for reading in readings:
-            if reading is not None and any(reading.distance(other) < 0.5 for other in believed):
-                return reading
-            believed += [reading] if reading is not None else []
-            yield LOOK
-        if believed:
-            return believed[-1]
-        self._unseen.add(name)
-        raise MoveFailed(judge.unseen(name), "unknown")
-
-    def _strike(
-        self, fault: Fault, operation: Operation, path: MovePath, work: InProgress
-    ) -> Generator[float, None, None]:
-        """Let a part drop out of the hand on its way, or the arm stop with it; raises MoveFailed."""
-        name, pose = operation.component, self._mover.carried(path.robot)
-        if pose is None:
-            return
-        twin = getattr(self._mover, "twin", None)
-        if fault.kind == "drop" and twin is not None:
-            twin.grip(path.robot, self._setup.lab.robots[path.robot].gripper.stroke)
-            return  # the mover sees that the hand is empty, and says so
-        self._drop_work(work)
-        yield REST
-        if fault.kind == "jam":
-            raise MoveFailed(judge.jammed(path.robot, name))
-        assert isinstance(self._mover, KinematicWorld)
-        others = {n: b.pose for n, b in self.world().components.items() if b.pose and b.presence != "held"}
-        pose = self._mover.carried(path.robot) or pose
-        room = room_at(self._setup, name, pose, others)
-        upright = room and fault.draw.random() < UPRIGHT
-        presence: Presence = "missing" if room is None else "seen" if upright else "toppled"
-        self._mover.let_go(name, pose, presence)
-        raise MoveFailed(judge.dropped(path.robot, name, pose, presence))
 
     def _way(self, operation: Operation, planned: Pose, goal: Pose) -> tuple[Pose, MovePath | Blocked]:
         """Return where a part stands, or is in the hand, and the path that takes it from there to its goal."""
@@ -263,7 +201,7 @@ class Session:
         """Drive a tunable to a value, or its axis to its home; while it moves nobody knows its value."""
         name, (tunable, kind) = operation.component, judge.setpoint(self._setup, operation)
         judge.standing_pose(self.world(), name)
-        live, fault = self._world.components[name].values[tunable], self._fault(operation, key)
+        live, fault = self._world.components[name].values[tunable], self._mishaps.of(operation, key)
         before = None if live.status == "unknown" else live.value
         if operation.primitive == "home":
             goal: Value = kind.axis.home if kind.axis else 0.0
@@ -275,25 +213,10 @@ class Session:
                 seconds = home_seconds(kind, None) + set_seconds(kind, kind.axis.home, goal)
         self._world = self._world.with_value(name, tunable, ObservedValue(value=None, status="unknown"))
         self._keep()
-        if fault is not None:
-            yield from self._driven_badly(fault, f"{name}.{tunable}", seconds)
+        yield from driven_badly(fault, f"{name}.{tunable}", seconds)
         yield seconds
         self._world = self._world.with_value(name, tunable, ObservedValue(value=goal))
         return {"value": goal}
-
-    def _driven_badly(self, fault: Fault, address: str, seconds: float) -> Generator[float, None, None]:
-        """Let what is wrong with an axis take its time; raises MoveFailed where it does not get there."""
-        if fault.kind == "slow":
-            yield 3 * seconds
-        elif fault.kind == "reading":
-            yield LOOK  # the first reading is wrong, so it is read again, and again
-        elif fault.kind == "jam":
-            yield seconds * fault.at
-            raise MoveFailed(judge.axis_jammed(address))
-        elif fault.kind == "timeout":
-            yield 2 * seconds
-            if fault.draw.random() < 0.5:  # it did nothing; else it did, and only its answer was lost
-                raise MoveFailed(judge.no_answer(address))
 
     def _reported(
         self, operation: Operation, key: str, path: MovePath, work: InProgress, fault: Fault | None = None
@@ -309,7 +232,9 @@ class Session:
                     self._tell("operation_progress", operation, key, self._progress(path, elapsed))
                 if fault is not None and strikes(fault, path, elapsed):
                     struck, fault = fault, None
-                    yield from self._strike(struck, operation, path, work)
+                    yield from self._mishaps.strike(
+                        struck, path.robot, operation.component, lambda: self._drop_work(work)
+                    )
                 if self._halting and not decided:
                     decided = yield from self._way_out(operation, path, elapsed, work)
                 phase, before = phase_at(path, elapsed), phase
@@ -401,10 +326,10 @@ class Session:
         self._tell_all(event)
 
 
-def new_mover(setup: Setup, world: World, fidelity: str) -> Mover:
-    """Return what moves the bodies of `world` at a fidelity: `kinematic` or `physics`."""
+def new_mover(setup: Setup, root: Path, world: World, fidelity: str) -> Mover:
+    """Return what moves the bodies of `world` of the lab in `root` at a fidelity: `kinematic` or `physics`."""
     if fidelity == "kinematic":
         return KinematicWorld(setup, world)
     from pico.backends.sim.physics import PhysicsWorld, seeing
 
-    return PhysicsWorld(setup, world, sight=seeing(setup, world))
+    return PhysicsWorld(setup, world, sight=seeing(setup, world, root))
