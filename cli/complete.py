@@ -22,7 +22,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "init": ("--example",),
     "status": ("--all",),
     "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", "--picture", *_CHOICE),
-    "apply": (*_APPLY, "--record", "--stop-on-error"),
+    "apply": (*_APPLY, "--record", "--refresh", "--stop-on-error"),
     "stop": ("--now",),
     "resume": ("--auto-approve", "--fidelity", "--stop-on-error"),
     "undo": ("--auto-approve", "--fidelity"),

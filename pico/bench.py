@@ -107,6 +107,18 @@ class Bench(Reader):
         return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
 
     def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
+    def require_fresh(self, plan: Plan) -> None:
+        """Raise PicoError (exit code STALE) where a saved plan does not fit any more; see `pico.saved`."""
+        from pico import saved
+
+        self._thread.wait(saved.require_fresh(self._bench, plan))
+
+    def refreshed(self, plan: Plan) -> Plan:
+        """Return a new plan to the goal of a saved one; see `pico.saved`."""
+        from pico import saved
+
+        return self._thread.wait(saved.refreshed(self._bench, plan))
+
         """Check a revision out with git. Moves nothing; see `AsyncBench.checkout_files`."""
         return self._bench.checkout_files(revision)
 

@@ -31,13 +31,14 @@ LAYERS: dict[str, set[str]] = {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },
     "async_bench": {
+    "saved": {"diagnostics", "model", "execution", "vision", "async_bench"},
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "policy", "vision", "twin", "backends", "execution", "pictures", "drawings",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup",
-        "scans",
+        "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "saved",
+        "scans", "imports",
     },
 }  # fmt: skip
 

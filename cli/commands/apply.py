@@ -29,6 +29,10 @@ StopOnError = Annotated[
     bool, typer.Option("--stop-on-error", help="Start nothing more once an operation fails, not even beside it.")
 ]
 
+Refresh = Annotated[
+    bool, typer.Option("--refresh", help="Plan anew to the goal of the saved plan, from what stands there now.")
+]
+
 
 def apply(
     context: typer.Context,
@@ -41,11 +45,13 @@ def apply(
     prefer: Prefer = "fewest-moves",
     record: Record = None,
     stop_on_error: StopOnError = False,
+    refresh: Refresh = False,
 ) -> int:
     """Move what the plan says.
 
     Without an argument the bench becomes equal to the manifest. A name that is both a file and a revision is an
-    error; ./NAME is the file. With --json: the plan, each event and the report, a line each.
+    error; ./NAME is the file. A saved plan is refused (exit code 4) where what it stands on has changed since. With
+    --json: the plan, each event and the report, a line each.
     """
     session = Session.of(context)
     if record:
@@ -55,7 +61,18 @@ def apply(
     bench = session.bench(fidelity)
     options = {"exact": exact, "prefer": prefer, "targets": target or (), "exclude": exclude or ()}
     plan = bench.plan_of(what, folder=session.folder, **options)
+    if is_saved(bench, what, session.folder):
+        if refresh:
+            plan = bench.refreshed(plan)
+        bench.require_fresh(plan)
+    elif refresh:
+        raise PicoError(error("usage", "--refresh is for a saved plan", hint="without one every plan is a new one"))
     return approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
+
+
+def is_saved(bench: Bench, what: str | None, folder: Path) -> bool:
+    """Return whether a word means a saved plan."""
+    return what is not None and not isinstance(bench.find(what, folder), str)
 
 
 def _expected(session: Session, bench: Bench, plan: Plan) -> int:

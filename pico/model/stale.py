@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from typing import Any
+
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.model.diff import diff_observed
+from pico.model.diff import Change, diff_observed, show_value, value_distance
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
+from pico.model.pose import angle_between
 from pico.model.state import LabState, state_from_json
+
+MOST_PATHS = 6
+"""So many differences of a lab are named."""
 
 
 def require_fresh(setup: Setup, plan: Plan, seen: Observation) -> None:
@@ -16,13 +23,33 @@ def require_fresh(setup: Setup, plan: Plan, seen: Observation) -> None:
     A tunable counts as changed beyond its tolerance: |observed - base| > tolerance.
     """
     if plan.lab.digest != setup.digest():
-        reason = error(
-            "stale", "the plan is stale: the lab or its component types were edited since", hint="plan again"
-        )
-        raise PicoError(reason, ExitCode.STALE)
+        raise PicoError(stale("", "the lab or its component types were edited since"), ExitCode.STALE)
     changed = _changed(setup, state_from_json(plan.lab.name, plan.base.state), seen)
     if changed:
         raise PicoError(changed, ExitCode.STALE)
+
+
+def stale(address: str, summary: str) -> Diagnostic:
+    """Return the diagnostic that a plan is stale, and why."""
+    hint = "plan again; `--refresh` plans anew for the same goal"
+    return error("stale", f"the plan is stale: {summary}", address=address, hint=hint)
+
+
+def differing(a: Any, b: Any, path: str = "") -> list[str]:
+    """Return the paths at which JSON data differ: `table.beam_height 70 → 75`; the first few, and how many more."""
+    found = list(_differing(a, b, path))
+    more = len(found) - MOST_PATHS
+    return found[:MOST_PATHS] + ([f"and {more} more"] if more > 0 else [])
+
+
+def _differing(a: Any, b: Any, path: str) -> Iterator[str]:
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        for key in sorted(a.keys() | b.keys()):
+            yield from _differing(a.get(key), b.get(key), f"{path}.{key}" if path else key)
+    elif a != b:
+        plain = all(isinstance(v, str | int | float | bool) for v in (a, b))
+        what = f" {show_value(a)} → {show_value(b)}" if plain else " added" if a is None else ""
+        yield path + (" removed" if b is None else what)
 
 
 def _changed(setup: Setup, base: LabState, seen: Observation) -> list[Diagnostic]:
@@ -31,27 +58,37 @@ def _changed(setup: Setup, base: LabState, seen: Observation) -> list[Diagnostic
         part = seen.components.get(name)
         if name in setup.lab.inventory and (part is None or part.presence != "seen"):
             what = part.presence if part else "missing"
-            found.append(_stale(name, f"{name} is {what} now"))
+            found.append(stale(name, f"{name} is {what} now"))
     for change in diff_observed(setup, seen, base):
         if change.component in base.components and not change.tolerated:
             subject = change.component if change.tunable == "pose" else f"{change.component}.{change.tunable}"
-            found.append(
-                _stale(subject, f"{subject} changed: {_back(change.before)}, planned from {_back(change.after)}")
-            )
+            found.append(stale(subject, f"{subject} changed {_much(setup, change)}"))
     appeared = sorted(
         name for name in setup.lab.inventory
         if name not in base.components and name in seen.components and seen.components[name].presence == "seen"
     )  # fmt: skip
-    return found + [_stale(name, f"{name} was not seen then and is now") for name in appeared]
+    return found + [stale(name, f"{name} was not seen then and is now") for name in appeared]
+
+
+def _much(setup: Setup, change: Change) -> str:
+    """Return by how much a tunable is off what the plan starts from, beside its tolerance."""
+    kind, live, base = setup.type_of(change.component), change.before, change.after
+    where = f"{_back(live)}, planned from {_back(base)}"
+    if change.tunable != "pose":
+        tunable = kind.tunables[change.tunable]
+        if tunable.datatype == "float" and live is not None:
+            apart = f"{value_distance(tunable, live, base):.4g} {tunable.unit}".rstrip()
+            return f"by {apart}, tolerance {tunable.tolerance:g}: {where}"
+        return f": {where}"
+    if not isinstance(live, dict) or not isinstance(base, dict):
+        return f": {where}"
+    away = ((live["x"] - base["x"]) ** 2 + (live["y"] - base["y"]) ** 2) ** 0.5
+    turned = abs(angle_between(live.get("yaw", 0.0), base.get("yaw", 0.0)))
+    tolerance = f"{kind.pose.tolerance.position:g} mm, {kind.pose.tolerance.yaw:g}°"
+    return f"by {away:.3g} mm, {turned:.3g}°, tolerance {tolerance}: {where}"
 
 
 def _back(value: object) -> str:
     if isinstance(value, dict) and "x" in value:
         return f"({value['x']:.5g}, {value['y']:.5g}, {value.get('yaw', 0):.4g}°)"
-    return str(value)
-
-
-def _stale(address: str, summary: str) -> Diagnostic:
-    return error(
-        "stale", f"the plan is stale: {summary}", address=address, hint="plan again; what moved it is not known"
-    )
+    return show_value(value) if isinstance(value, str | float | bool | int) or value is None else str(value)
