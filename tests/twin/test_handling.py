@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from physical import bench, finish, fresh, path_to, to
@@ -58,18 +59,18 @@ def test_a_sight_takes_the_error_of_the_pick_out(setup: Setup) -> None:
     assert data["correction_mm"] == pytest.approx(2.0, abs=0.5)
 
 
-def test_pictures_of_cameras_that_are_wrong_place_within_half_a_millimetre(setup: Setup) -> None:
+def test_pictures_of_cameras_that_are_wrong_place_within_half_a_millimetre(setup: Setup, tmp_path: Path) -> None:
     errors = SimErrors(camera_position=0.2, camera_rotation=0.05, focal_length=0.005)
     wrong = changed(setup, errors=errors, sight="pixels")
-    data, _ = placed(wrong, 2.0, seeing(wrong, new_world(wrong)))
+    data, _ = placed(wrong, 2.0, seeing(wrong, new_world(wrong), tmp_path))
     assert data["error_mm"] < 0.3
     assert data["error_deg"] < 0.2
 
 
-def test_black_pictures_make_it_leave_the_part_alone(setup: Setup) -> None:
+def test_black_pictures_make_it_leave_the_part_alone(setup: Setup, tmp_path: Path) -> None:
     dark = changed(setup, errors=SimErrors(lost_frames=1.0), sight="pixels")
     world = new_world(dark)
-    physics = PhysicsWorld(dark, world, sight=seeing(dark, world))
+    physics = PhysicsWorld(dark, world, sight=seeing(dark, world, tmp_path))
     with pytest.raises(MoveFailed, match=f"no camera sees {PART} in the hand of arm1: it was left there") as caught:
         finish(physics, physics.move(to(PART, GOAL), path_to(dark, world, PART, GOAL)))
     assert caught.value.diagnostic.code == "unseen"

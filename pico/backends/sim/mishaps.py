@@ -1,0 +1,117 @@
+"""What a fault does to the simulated table: to the part in the hand, to what is seen of it, to an axis on its way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+
+from pico.backends.sim import judge
+from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
+from pico.backends.sim.kinematic import KinematicWorld
+from pico.backends.sim.mover import MoveFailed, Mover
+from pico.backends.sim.world import World
+from pico.model.lab import Setup
+from pico.model.observation import Presence
+from pico.model.operation import Operation
+from pico.model.pose import Pose
+
+Steps = Generator[float, None, None]
+UPRIGHT = 0.7
+"""Share of the parts that are dropped and come to stand where there is room."""
+REST = 0.3
+"""Seconds until an arm that is told to hold is at rest."""
+
+
+class Mishaps:
+    """What goes wrong during one lease. `world` gives the table as it is; `unseen`: what no look showed."""
+
+    def __init__(self, setup: Setup, faults: Faults, token: int, mover: Mover, world: Callable[[], World]) -> None:
+        self._setup, self._faults, self._token, self._mover, self._world = setup, faults, token, mover, world
+        self.unseen: set[str] = set()
+
+    def of(self, operation: Operation, key: str) -> Fault | None:
+        """Return what goes wrong with an operation, by the lease and by what it is, so that a seed repeats itself."""
+        return self._faults.of(operation.primitive, f"{self._token}/{key.partition('/')[2]}")
+
+    def slipped(self, name: str, fault: Fault | None) -> None:
+        """Let a part stand where it was put down after it slipped in the hand; in physics friction decides that."""
+        if fault is None or fault.kind != "slip" or not isinstance(self._mover, KinematicWorld):
+            return
+        world = self._world()
+        where = beside(judge.standing_pose(world, name), fault.draw)
+        if room_at(self._setup, name, where, _standing(world)):
+            self._mover.let_go(name, where, "seen")
+
+    def looked_at(self, name: str, fault: Fault | None) -> Generator[float, None, Pose]:
+        """Return where a part that was put down is seen: two looks that agree are believed.
+
+        Raises MoveFailed, outcome unknown, where no look shows it.
+        """
+        pose = judge.standing_pose(self._world(), name)
+        if fault is None or fault.kind not in ("camera", "reading"):
+            return pose
+        believed: list[Pose] = []
+        for reading in _readings(pose, fault):
+            if reading is not None and any(reading.distance(other) < 0.5 for other in believed):
+                return reading
+            believed += [reading] if reading is not None else []
+            yield LOOK
+        if believed:
+            return believed[-1]
+        self.unseen.add(name)
+        raise MoveFailed(judge.unseen(name), "unknown")
+
+    def strike(self, fault: Fault, robot: str, name: str, let_rest: Callable[[], None]) -> Steps:
+        """Let a part drop out of the hand on its way, or the arm stop with it; raises MoveFailed.
+
+        `let_rest` ends what the arm does, so that it holds where it is.
+        """
+        if self._mover.carried(robot) is None:
+            return
+        twin = getattr(self._mover, "twin", None)
+        if fault.kind == "drop" and twin is not None:
+            twin.grip(robot, self._setup.lab.robots[robot].gripper.stroke)
+            return  # the mover sees that the hand is empty, and says so
+        let_rest()
+        yield REST
+        pose = self._mover.carried(robot)
+        if fault.kind == "jam" or pose is None:
+            raise MoveFailed(judge.jammed(robot, name))
+        presence = self._fallen(name, pose, fault)
+        assert isinstance(self._mover, KinematicWorld)  # else it has a twin
+        self._mover.let_go(name, pose, presence)
+        raise MoveFailed(judge.dropped(robot, name, pose, presence))
+
+    def _fallen(self, name: str, pose: Pose, fault: Fault) -> Presence:
+        room = room_at(self._setup, name, pose, _standing(self._world()))
+        if room is None:
+            return "missing"
+        return "seen" if room and fault.draw.random() < UPRIGHT else "toppled"
+
+
+def driven_badly(fault: Fault | None, address: str, seconds: float) -> Steps:
+    """Let what is wrong with an axis take its time; raises MoveFailed where it does not get there."""
+    if fault is None:
+        return
+    if fault.kind == "slow":
+        yield 3 * seconds
+    elif fault.kind == "reading":
+        yield LOOK  # the first reading is wrong, so it is read again, and again
+    elif fault.kind == "jam":
+        yield seconds * fault.at
+        raise MoveFailed(judge.axis_jammed(address))
+    elif fault.kind == "timeout":
+        yield 2 * seconds
+        if fault.draw.random() < 0.5:  # it did nothing; else it did, and only its answer was lost
+            raise MoveFailed(judge.no_answer(address))
+
+
+def _readings(pose: Pose, fault: Fault) -> list[Pose | None]:
+    """What the looks at a part show one after the other: nothing, something wrong, or where it is."""
+    blind = fault.draw.randint(1, LOOKS + 1) if fault.kind == "camera" else 0
+    wrong = Pose(pose.x + fault.draw.uniform(5, 20), pose.y, pose.yaw)
+    first = wrong if fault.kind == "reading" else pose
+    return [None if n < blind else first if n == 0 else pose for n in range(LOOKS)]
+
+
+def _standing(world: World) -> dict[str, Pose]:
+    return {n: b.pose for n, b in world.components.items() if b.pose and b.presence != "held"}
