@@ -7,6 +7,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.history.attributes import GITATTRIBUTES
 from pico.history.replay import replay
 from pico.history.repository import Repository
 from pico.history.skeleton import SKELETON
@@ -62,8 +63,9 @@ def init_empty(folder: Path) -> Repository:
             raise PicoError(error("exists", f"{folder / path} exists already", hint=hint))
     _make_folder(folder)
     repository = Repository.discover(folder) or Repository.init(folder)
-    ignored = {} if (folder / ".gitignore").exists() else {".gitignore": GITIGNORE}
-    for path, text in (SKELETON | ignored).items():
+    beside = {".gitignore": GITIGNORE, ".gitattributes": GITATTRIBUTES}
+    missing = {path: text for path, text in beside.items() if not (folder / path).exists()}
+    for path, text in (SKELETON | missing).items():
         _make_folder((folder / path).parent)
         (folder / path).write_text(text.replace("NAME", name), encoding="utf-8")
     return repository
@@ -82,4 +84,4 @@ def _files(source: Path) -> dict[str, bytes]:
     """Return the files of an example lab by path, as they are at HEAD of its repository."""
     found = {p.relative_to(source).as_posix(): p.read_bytes() for p in sorted(source.rglob("*")) if p.is_file()}
     del found[_HISTORY]
-    return found | {".gitignore": GITIGNORE.encode()}
+    return found | {".gitignore": GITIGNORE.encode(), ".gitattributes": GITATTRIBUTES.encode()}

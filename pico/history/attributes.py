@@ -1,0 +1,162 @@
+"""How git comes to call PICO: `.gitattributes`, which travels with the repository, and local configuration.
+
+A repository can't configure what runs on somebody's machine, so that part is set by the first `pico` command in it.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.history import git
+
+CLEAN, CONFLICT, FAILED = 40, 41, 42
+"""What the driver ends with; nothing else ends with these by accident."""
+
+LINE = "*.yaml merge=pico"
+GITATTRIBUTES = f"# manifests merge value by value; without PICO, git merges their lines\n{LINE}\n"
+_NAME = "PICO: manifests merge value by value"
+_SECTION = re.compile(rb'^\[merge "pico"\]\s*$', re.MULTILINE)
+_OFF = re.compile(rb"^\[pico\]\s*\n\s*mergedriver = false\s*$", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Wiring:
+    """How a repository stands: whether its attributes name the driver, whether git knows it, as this PICO sets it, and
+    whether somebody asked for it not to be set."""
+
+    attributed: bool
+    known: bool
+    current: bool
+    refused: bool
+
+
+def command() -> str:
+    """Return the shell command that git runs: PICO's driver, or where that fails in any way, git's own merge.
+
+    %A is replaced only by a finished result, so that a driver that is missing or killed loses nothing.
+    """
+    python = shlex.quote(sys.executable).replace("%", "%%")
+    return (
+        f"{python} -P -m pico.history.driver %A %A.pico %O %B %L %P %S %X %Y; s=$?; "
+        f"test $s -eq {CLEAN} && mv -f %A.pico %A && exit 0; "
+        f"test $s -eq {CONFLICT} && mv -f %A.pico %A && exit 1; "
+        "rm -f %A.pico; git merge-file --marker-size=%L -L ours -L base -L theirs %A %O %B"
+    )
+
+
+def wiring(folder: Path) -> Wiring | None:
+    """Return how the repository around `folder` is wired, read from its files alone; None outside of one."""
+    found = _git_folder(folder)
+    if found is None:
+        return None
+    top, common = found
+    config = _read(common / "config")
+    below = [p for p in (folder.resolve(), *folder.resolve().parents) if p.is_relative_to(top)]
+    return Wiring(
+        attributed=any(_names_driver(p / ".gitattributes") for p in below),
+        known=bool(_SECTION.search(config)),
+        current=_escaped(command()).encode() in config,
+        refused=bool(_OFF.search(config)),
+    )
+
+
+def wire(folder: Path) -> bool:
+    """Tell git about the driver where the attributes name it and git does not know it; return whether that was so.
+
+    Nothing happens where somebody asked for that, and where the configuration can't be written.
+    """
+    found = wiring(folder)
+    if found is None or not found.attributed or found.current or found.refused:
+        return False
+    try:
+        install(folder)
+    except PicoError:
+        return False
+    return not found.known
+
+
+def install(folder: Path) -> None:
+    """Set the driver in the repository's own configuration; raises PicoError."""
+    for key, value in {"name": _NAME, "driver": command(), "recursive": "binary"}.items():
+        git.run(folder, ["config", "--local", f"merge.pico.{key}", value], doing="set the merge driver")
+    _unset(folder, "--unset", "pico.mergedriver")
+
+
+def uninstall(folder: Path) -> None:
+    """Take the driver out of the repository's own configuration, and remember not to set it again; raises PicoError."""
+    _unset(folder, "--remove-section", "merge.pico")
+    git.run(folder, ["config", "--local", "pico.mergedriver", "false"], doing="remember that")
+
+
+def checkup(folder: Path) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with the wiring of the repository around `folder`; nothing where all is well."""
+    found = wiring(folder)
+    if found is None:
+        return (warning("git-none", f"{folder} is in no Git repository", hint="`git init` makes one"),)
+    wrong = []
+    if not found.attributed:
+        hint = f"`echo '{LINE}' >> .gitattributes`, and commit that"
+        wrong.append(warning("git-attributes", "no .gitattributes says that manifests merge by PICO", hint=hint))
+    if found.refused:
+        hint = "`pico git install` sets it again"
+        wrong.append(warning("git-driver", "git does not know the merge driver: it was taken out here", hint=hint))
+    elif not found.current:
+        what = "names another PICO than this one" if found.known else "does not know the merge driver"
+        wrong.append(warning("git-driver", f"git {what}", hint="`pico git install` sets it"))
+    elif not _runs():
+        hint = "`pico git install` with the PICO that is to be used; until then git merges lines"
+        wrong.append(error("git-driver", "the merge driver does not start", hint=hint))
+    return tuple(wrong)
+
+
+def _runs() -> bool:
+    """Whether the driver starts: without files to merge it ends in its own way."""
+    asked = [sys.executable, "-P", "-m", "pico.history.driver"]
+    try:
+        return b"pico:" in subprocess.run(asked, capture_output=True, check=False, timeout=60).stderr
+    except (OSError, subprocess.SubprocessError):
+        return False
+
+
+def _unset(folder: Path, how: str, name: str) -> None:
+    """Take out what may not be there."""
+    try:
+        git.run(folder, ["config", "--local", how, name], doing="change its configuration")
+    except PicoError:
+        if name in ("merge.pico",) and (found := wiring(folder)) and found.known:
+            raise
+
+
+def _git_folder(folder: Path) -> tuple[Path, Path] | None:
+    """Return the top of the working tree around `folder` and the folder of its shared configuration."""
+    for top in (folder.resolve(), *folder.resolve().parents):
+        place = top / ".git"
+        if place.is_file():  # a worktree or a submodule: a file that names the folder
+            named = _read(place).decode(errors="surrogateescape").removeprefix("gitdir:").strip()
+            place = (top / named).resolve()
+        if place.is_dir():
+            shared = _read(place / "commondir").decode(errors="surrogateescape").strip()
+            return top, (place / shared).resolve() if shared else place
+    return None
+
+
+def _names_driver(path: Path) -> bool:
+    return any(b"merge=pico" in line.split(b"#")[0].split() for line in _read(path).splitlines())
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes() if path.stat().st_size < 1_000_000 else b""
+    except OSError:
+        return b""
+
+
+def _escaped(value: str) -> str:
+    """Return a value as git writes it into a configuration file."""
+    return value.replace("\\", "\\\\").replace('"', '\\"')
