@@ -116,15 +116,23 @@ def places(folder: Path) -> dict[str, object]:
     return {n: (body.presence, body.pose) for n, body in world.components.items()}
 
 
-def applies(kills: int, fidelity: str) -> int:
-    """Kill whole commands; return how many were wrong."""
-    import mujoco  # noqa: F401 (loaded once, before the processes are forked)
+def preload() -> None:
+    """Load what a run needs, once, before processes are forked."""
+    import mujoco  # noqa: F401
 
+    import pico.bench
+    import pico.execution
+    import pico.journal
     import pico.motion.moves
     import pico.motion.recheck
     import pico.planning  # noqa: F401
+
+
+def applies(kills: int, fidelity: str) -> int:
+    """Kill whole commands; return how many were wrong."""
     from pico.history.example import make_example
 
+    preload()
     draw, count = random.Random(1), Counter[str]()
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as temporary:

@@ -88,10 +88,11 @@ def untrue(bench: Any, plan: Any, report: Any, before: Any, after: Any) -> Any:
 
 def interrupts(count_: int, fidelity: str) -> int:
     """Press Ctrl-C; return how many did not end well."""
-    from kills import REVISIONS, forked
+    from kills import REVISIONS, forked, preload
 
     from pico.bench import Bench, new_lab
 
+    preload()
     draw, count = random.Random(2), Counter[str]()
     walls, spent = [], []
     with tempfile.TemporaryDirectory() as temporary:
@@ -100,7 +101,8 @@ def interrupts(count_: int, fidelity: str) -> int:
         while count["pressed"] < count_:
             goal = draw.choice(REVISIONS)
             child = forked(folder, "apply", goal, "--auto-approve", "--fidelity", fidelity)
-            time.sleep(draw.uniform(0.15, 0.8 if fidelity == "kinematic" else 6.0))
+            until_it_moves(folder, child)
+            time.sleep(draw.uniform(0.0, 0.5 if fidelity == "kinematic" else 5.0))
             before = cpu(child)
             pressed = time.monotonic()
             with suppress(ProcessLookupError):
@@ -111,7 +113,7 @@ def interrupts(count_: int, fidelity: str) -> int:
                 count["ended before"] += 1
                 continue
             count["pressed"] += 1
-            count["while planning"] += "Interrupted" not in (folder / "out.txt").read_text()
+            count["before anything moved"] += "Interrupted" not in (folder / "out.txt").read_text()
             walls.append(time.monotonic() - pressed)
             spent.append(usage.ru_utime + usage.ru_stime - before)
             with Bench.open(folder) as bench:
@@ -130,6 +132,14 @@ def interrupts(count_: int, fidelity: str) -> int:
         f"{max(walls):.2f} s (greatest); {statistics.median(spent):.2f} and {max(spent):.2f} CPU s", flush=True,
     )  # fmt: skip
     return count["not well"]
+
+
+def until_it_moves(folder: Path, process: int) -> None:
+    """Wait until a process has taken the bench, or is over."""
+    while not (folder / ".pico" / "holder.json").exists() and cpu(process) < 60:
+        if os.waitid(os.P_PID, process, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None:
+            return
+        time.sleep(0.002)
 
 
 def cpu(process: int) -> float:
