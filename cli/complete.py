@@ -13,7 +13,7 @@ SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
-    "--exclude", "--prefer", "--picture", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
+    "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
 _CHOICE = ("--target", "--exclude", "--prefer")
 _APPLY = ("--auto-approve", "--exact", "--fidelity", *_CHOICE)
@@ -47,6 +47,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "ruler": ("--picture",),
     "scan": ("--picture",),
     "find": ("--picture",),
+    "import": ("--types", "--dry-run"),
     "calibrate": (),
     "markers": ("--out", "--paper"),
     "sim reset": (),

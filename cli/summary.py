@@ -47,6 +47,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "ruler": "Measure between two things on the bench.",
         "scan": "Look at the table through the cameras: where every part is, how surely, and what can't be told.",
         "find": "Show where a part is, as the cameras see it now.",
+        "import": "Take what stands on the table and is not in the inventory into it, as the cameras see it.",
         "calibrate": "Find out where the cameras are and how their lenses draw.",
         "markers": "Write the markers of the lab as a PDF, to print and stick on.",
         "completion": "Print the completion script of a shell; its first line says how to install it.",

@@ -23,6 +23,7 @@ from pico.model.status import Status
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
+    from pico.imports import Imported
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
@@ -73,6 +74,14 @@ class Bench(Reader):
         from pico import scans
 
         return self._thread.wait(scans.scan(self._bench))
+
+    def import_parts(self, types: Sequence[str] = (), *, write: bool = True) -> Imported:
+        """Take what stands on the table and is not in the inventory into it; see `pico.imports`."""
+        from pico import imports
+
+        wanted = imports.read_types(types)
+        parts = imports.importable(self._bench, self.scan(), wanted)
+        return imports.take_in(self._bench, parts, write=write)
 
     def scan_picture(self, look: Look, *, out: Path | None = None, component: str | None = None) -> Image:
         """Return a camera's picture of a scan, with names drawn in; see `pico.scans.picture`."""

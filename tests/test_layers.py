@@ -26,7 +26,8 @@ LAYERS: dict[str, set[str]] = {
     "execution": {"diagnostics", "model", "journal", "policy", "backends"},
     "pictures": {"diagnostics", "model", "planning", "twin"},
     "drawings": {"model", "history", "motion", "twin", "pictures"},
-    "scans": {"diagnostics", "model", "manifest", "backends", "twin", "async_bench"},
+    "scans": {"diagnostics", "model", "backends", "twin", "async_bench"},
+    "imports": {"diagnostics", "model", "manifest", "vision", "backends", "async_bench"},
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },

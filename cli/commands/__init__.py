@@ -27,8 +27,9 @@ def register(app: typer.Typer, asked: str | None) -> None:
 
 
 def _function(name: str) -> Callable[..., int]:
-    module = import_module(".single" if name in SINGLE and name != "get" else f".{name}", __name__)
-    function: Callable[..., int] = getattr(module, "set_" if name == "set" else name)
+    name = f"{name}_" if name in ("import", "set") else name  # words of Python
+    module = import_module(".single" if name.rstrip("_") in SINGLE and name != "get" else f".{name}", __name__)
+    function: Callable[..., int] = getattr(module, name)
     return function
 
 

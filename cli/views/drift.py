@@ -9,7 +9,7 @@ from pico.model.diff import Change
 from pico.model.record import as_json
 
 from .diff import lines
-from .style import count
+from .style import count, listed
 
 
 def text(changes: Sequence[Change], *, head: str) -> str:
@@ -20,7 +20,11 @@ def text(changes: Sequence[Change], *, head: str) -> str:
     if not beyond:
         return "\n".join(x for x in (f"No drift: the bench is as {head} says.", within) if x)
     title = f"{count(len(beyond), 'tunable')} of the bench {'has' if len(beyond) == 1 else 'have'} left {head}:"
+    unseen = [c for c in beyond if c.tunable == "pose" and c.before is None]
     hint = f"`pico apply {head}` brings {'it' if len(beyond) == 1 else 'them'} back; `pico capture` keeps what is."
+    if unseen:
+        by_hand = f"What nobody sees, or not surely, only you can put right: {listed([c.component for c in unseen])}."
+        hint = f"{hint}\n{by_hand}" if len(unseen) < len(beyond) else by_hand
     return "\n".join([title, "", *lines(beyond), "", *([within] if within else []), hint])
 
 

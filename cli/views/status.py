@@ -23,7 +23,7 @@ def text(status: Status, *, every: bool = False) -> str:
     ]
     table = [[paint("dim", cell) for cell in head], *map(_cells, rows)]
     table += [
-        [f"unknown/{name}", "-", "-", f"{place(as_json(pose))}  {paint('yellow', 'an obstacle, not in the inventory')}"]
+        [name, "-", "-", f"{place(as_json(pose))}  {paint('yellow', 'an obstacle, not in the inventory')}"]
         for name, pose in sorted(status.unknown.items())
     ]
     lines = columns(table) if len(table) > 1 else []

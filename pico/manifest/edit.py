@@ -71,6 +71,14 @@ def capture(files: Mapping[str, bytes], setup: Setup, wanted: LabState, live: La
     return {path: set_values(texts[path], part).encode("utf-8") for path, part in by_file.items()}
 
 
+def largest_state(files: Mapping[str, bytes]) -> str:
+    """Return the path of the LabState that names most components; raises PicoError where there is none."""
+    texts = {path: data.decode("utf-8") for path, data in sorted(files.items()) if _is_state(path, data)}
+    if not texts:
+        raise PicoError(error("no-state", "the lab has no LabState", hint="add a file with `kind: LabState`"))
+    return max(texts, key=lambda path: len(_named(texts[path])))
+
+
 def _is_state(path: str, data: bytes) -> bool:
     source = decode(path, data)[0] if b"LabState" in data else None
     return source is not None and any(kind_of(d)[0] == "LabState" for d in parse(source)[0])

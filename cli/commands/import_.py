@@ -1,0 +1,35 @@
+"""`pico import`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..session import Session
+from ..views import imported as view
+from ..waiting import waiting
+
+Types = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--types",
+        metavar="MARKER=TYPE[:NAME],...",
+        help="What the part with a marker is, and what it is to be called; may be given again.",
+    ),
+]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be written, and write nothing.")]
+
+
+def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False) -> int:
+    """Take what stands on the table and is not in the inventory into it, as the cameras see it.
+
+    Writes an entry into `inventory` and where it stands into the state: `pico plan` then has nothing to do. What is
+    written there stays. A marker of which nothing says the type is asked for, and nothing is written.
+    """
+    session = Session.of(context)
+    bench = session.bench()
+    with waiting("Looking"):
+        found = bench.import_parts(types or [], write=not dry_run)
+    session.show(view, found, dry_run=dry_run)
+    return 0
