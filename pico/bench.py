@@ -107,15 +107,6 @@ class Bench(Reader):
         """Return the saved plan that `word` names, or the plan to the revision that it names."""
         return self._thread.wait(self._bench.plan_of(word, folder=folder, **options))
 
-    def explain(self, plan: Plan, component: str | None = None) -> Explanation:
-        """Return why a plan is as it is; see `AsyncBench.explain`."""
-        return self._bench.explain(plan, component)
-
-    def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
-        """Return the plan to a revision that is about to be checked out; refused where edits would be lost."""
-        return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
-
-    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
     def require_fresh(self, plan: Plan) -> None:
         """Raise PicoError (exit code STALE) where a saved plan does not fit any more; see `pico.saved`."""
         from pico import saved
@@ -128,6 +119,15 @@ class Bench(Reader):
 
         return self._thread.wait(saved.refreshed(self._bench, plan))
 
+    def explain(self, plan: Plan, component: str | None = None) -> Explanation:
+        """Return why a plan is as it is; see `AsyncBench.explain`."""
+        return self._bench.explain(plan, component)
+
+    def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision that is about to be checked out; refused where edits would be lost."""
+        return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
+
+    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
         """Check a revision out with git. Moves nothing; see `AsyncBench.checkout_files`."""
         return self._bench.checkout_files(revision)
 
