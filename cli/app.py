@@ -15,8 +15,9 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
 from .commands import register
 from .session import Session, write
-from .summary import COMMANDS
+from .summary import COMMANDS, MOVERS
 
+LOCK_TIMEOUT = "--lock-timeout"
 PREFIX = "session_"  # so that a command may have an argument called `folder` of its own
 
 
@@ -47,6 +48,17 @@ def root(
         str | None,
         typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=_remember),
     ] = None,
+    session_lock_timeout: Annotated[
+        float | None,
+        typer.Option(
+            LOCK_TIMEOUT,
+            metavar="SECONDS",
+            help="Wait so long for who has the bench.",
+            min=0,
+            hidden=True,
+            callback=_remember,
+        ),
+    ] = None,
     version: Annotated[bool, typer.Option("--version", help="Show the version.", callback=_version)] = False,
 ) -> None:
     """Version control for the optical table."""
@@ -67,7 +79,7 @@ def build(words: Sequence[str]) -> Any:
 
 def asked(words: Sequence[str]) -> str | None:
     """Return the command that `words` begin with, after options."""
-    values = ("-C", "--backend")
+    values = ("-C", "--backend", LOCK_TIMEOUT)
     names = [w for i, w in enumerate(words) if not w.startswith("-") and (i == 0 or words[i - 1] not in values)]
     return names[0] if names and names[0] in COMMANDS else None
 
@@ -76,12 +88,13 @@ def _hidden_from_function(option: Any) -> Any:
     """Return the option as a command takes it: its callback remembers the value, the function never sees it."""
     own = copy.copy(option)
     own.expose_value = False
+    own.hidden = False
     return own
 
 
 def _share(group: Any, options: list[Any]) -> None:
-    for command in group.commands.values():
-        taken = {word for p in command.params for word in p.opts}
+    for name, command in group.commands.items():
+        taken = {word for p in command.params for word in p.opts} | (set() if name in MOVERS else {LOCK_TIMEOUT})
         command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
         if hasattr(command, "commands"):
             _share(command, options)

@@ -7,11 +7,12 @@ import subprocess
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from .summary import COMMANDS
+from .summary import COMMANDS, MOVERS
 
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
-    "-C", "--backend", "--out", "--fidelity", "--view", "--format", "--speed", "--example", "-m", "--message",
+    "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
+    "-m", "--message",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -59,6 +60,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "sim power-cycle": (),
     "sim faults": (),
 }
+OPTIONS |= {name: (*OPTIONS.get(name, ()), "--lock-timeout") for name in MOVERS}
 GROUPS = {
     "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
     "catalog": ("list", "show"),

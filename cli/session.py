@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TextIO
 import typer
 
 from .views.style import plain
+from .waiting import waiting
 
 if TYPE_CHECKING:
     from pico.bench import Bench
@@ -35,6 +36,7 @@ class Session:
     json: bool = False
     debug: bool = False
     backend: str = "sim"
+    lock_timeout: float = 0.0
 
     @classmethod
     def of(cls, context: typer.Context) -> Session:
@@ -48,6 +50,9 @@ class Session:
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
         if self.context is not None:
             self.context.call_on_close(bench.close)
+        if self.lock_timeout:
+            with waiting("Waiting for the bench"):
+                bench.wait_until_free(self.lock_timeout)
         return bench
 
     def show(self, view: View, *args: Any, **options: Any) -> None:

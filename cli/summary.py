@@ -60,6 +60,11 @@ COMMANDS: dict[str, str] = {name: line for group in GROUPS.values() for name, li
 OPTIONS = {
     "-C DIR": "Work as if started in DIR.",
     "--json": "Answer with JSON.",
+MOVERS = (
+    "apply", "resume", "undo", "recover", "checkout", "do", "move", "rotate", "place", "stow", "set", "home",
+)  # fmt: skip
+"""Commands that take the bench: these wait for it with --lock-timeout."""
+
     "--debug": "Show the traceback of an internal error.",
     "--backend NAME": "What executes operations: sim (default) or hardware.",
     "--version": "Show the version.",

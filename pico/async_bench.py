@@ -42,6 +42,7 @@ class AsyncBench(Drawings):
         self.backend_name = "sim"
         self.fidelity = fidelity or folder.setup.lab.sim.fidelity
         self._backend: Backend | None = None
+        self.lock_timeout = 0.0
 
     @classmethod
     def open(
@@ -75,7 +76,18 @@ class AsyncBench(Drawings):
             from pico.backends.sim.backend import SimBackend
 
             self._backend = SimBackend(self.setup, self.root, self.fidelity)
+            self._backend.lock_timeout = self.lock_timeout
         return self._backend
+
+    async def wait_until_free(self, seconds: float) -> None:
+        """Wait until nobody moves the bench, at most so long here and again when it is taken.
+
+        Raises PicoError (exit code LOCKED), naming who has it.
+        """
+        from pico.backends.lease import wait_until_free
+
+        self.lock_timeout = seconds
+        await wait_until_free(self.root, seconds)
 
     async def close(self) -> None:
         """Let go of the backend."""

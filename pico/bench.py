@@ -65,6 +65,10 @@ class Bench(Reader):
         """The simulated world, to be changed as a hand would."""
         return self._bench.sim
 
+    def wait_until_free(self, seconds: float) -> None:
+        """Wait until nobody moves the bench; raises PicoError (exit code LOCKED) where that takes longer."""
+        self._thread.wait(self._bench.wait_until_free(seconds))
+
     def observe(self) -> Observation:
         """Look, and return what was seen."""
         return self._thread.wait(self._bench.observe())

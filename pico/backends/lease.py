@@ -30,6 +30,10 @@ NAMED_WITHIN = 20
 """Hundredths of a second in which who takes the lock writes its name beside it."""
 
 
+RETRY = 0.05
+"""Seconds between two attempts of who waits for the lock."""
+
+
 @record
 class Holder:
     """Who has the bench: the lease's token, the user, the process, since when, and what for."""
@@ -52,15 +56,43 @@ class BenchLock:
     def acquire(self, holder: str) -> Lease:
         """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for."""
         file = self._open()
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+        if not self._locked(file):
             os.close(file)
-            raise PicoError(self._taken(), ExitCode.LOCKED) from None
+            raise PicoError(self._taken(), ExitCode.LOCKED)
         self._file = file
         lease = Lease(token=self._last_token() + 1, holder=holder, since=self._clock())
         self._write_holder(lease)
         return lease
+
+    def _locked(self, file: int) -> bool:
+        """Try to lock; who only asks for the holder has the lock for an instant, too, and does not count."""
+        for _ in range(NAMED_WITHIN):
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                who = self._read_holder()
+                if who.pid and _alive(who.pid):
+                    return False
+                time.sleep(0.01)
+            else:
+                return True
+        return False
+
+    async def acquire_within(self, holder: str, seconds: float, given_up: Callable[[], bool]) -> Lease:
+        """Take the lock as soon as it is free, at most `seconds` from now; raises PicoError as `acquire` does, and with
+        exit code INTERRUPTED once `given_up()` is true."""
+        import asyncio
+
+        deadline = time.monotonic() + seconds
+        while True:
+            if given_up():
+                raise PicoError(error("interrupted", "interrupted; nothing has moved"), ExitCode.INTERRUPTED)
+            try:
+                return self.acquire(holder)
+            except PicoError as exc:
+                if exc.exit_code != ExitCode.LOCKED or time.monotonic() >= deadline:
+                    raise
+            await asyncio.sleep(RETRY)
 
     def release(self) -> None:
         """Let go of the lock; nothing happens where it is not held."""
@@ -132,9 +164,24 @@ class BenchLock:
                 break
             time.sleep(0.01)  # it has just taken the lock, and its name is not there yet
             who = self._read_holder()
-        by = f"{who.user} (process {who.pid}, since {who.since}): {who.what}" if who.pid else "another process"
-        hint = "wait until it is done; looking (`pico status`, `pico plan`) is always possible"
-        return error("locked", f"the bench is in use by {by}", hint=hint)
+        return _in_use(who)
+
+
+async def wait_until_free(root: Path, seconds: float) -> None:
+    """Wait until nobody has the lock of a lab, at most so long; raises PicoError (exit code LOCKED), naming who has."""
+    import asyncio
+
+    lock, deadline = BenchLock(root), time.monotonic() + seconds
+    while (who := lock.holder()) is not None:
+        if time.monotonic() >= deadline:
+            raise PicoError(_in_use(who, f"it was waited for {seconds:g} s"), ExitCode.LOCKED)
+        await asyncio.sleep(RETRY)
+
+
+def _in_use(who: Holder, more: str = "") -> Diagnostic:
+    by = f"{who.user} (process {who.pid}, since {who.since}): {who.what}" if who.pid else "another process"
+    hint = "wait with `--lock-timeout SECONDS`, or end it with `pico stop`; looking is always possible"
+    return error("locked", f"the bench is in use by {by}{'; ' if more else ''}{more}", hint=hint)
 
 
 def _alive(process: int) -> bool:

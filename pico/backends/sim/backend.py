@@ -42,7 +42,7 @@ class SimBackend:
 
     `motion` finds the paths (that of the lab's arms where None); `clock` gives the wall time as ISO 8601, UTC. Without
     a lease it reads the table as it is stored; with one it is the only one that changes it. `settled`: what had begun
-    and was found out about when the bench was taken.
+    and was found out about when the bench was taken. `lock_timeout`: so long it waits for who has the bench [s].
     """
 
     def __init__(
@@ -61,6 +61,7 @@ class SimBackend:
         self._motion = motion or DeferredMotion(setup)
         self._session: Session | None = None
         self._halted = False
+        self.lock_timeout = 0.0
         self._obeying: asyncio.Task[None] | None = None
         self._journal: Journal | None = None
         self._listeners: list[asyncio.Queue[Event | None]] = []
@@ -173,7 +174,8 @@ class SimBackend:
         from pico.backends.sim.faults import faults_of
         from pico.backends.sim.session import Session
 
-        lease = self._lock.acquire(holder)
+        self._halted = False
+        lease = await self._lock.acquire_within(holder, self.lock_timeout, lambda: self._halted)
         try:
             world, self.diagnostics = load_world(self.setup, self.root)
             self._session = Session(
@@ -190,7 +192,6 @@ class SimBackend:
             self._session = None
             self._lock.release()
             raise
-        self._halted = False
         self._obeying = asyncio.create_task(self._obey(lease))
         return lease
 
