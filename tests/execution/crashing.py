@@ -32,7 +32,7 @@ TURNING = ("p1", "p2")
 GLUED = "ly_150"
 ARMS = ("arm1", "arm2")
 TABLE = (Pose(420, 420), Pose(520, 420), Pose(620, 420), Pose(720, 420))
-STEPS = 4000
+STEPS = 600
 APPLIES = 3
 """How often a plan must be applied at most, once nothing is wrong any more, until the goal is reached."""
 
