@@ -18,7 +18,9 @@ def drift_of(setup: Setup, seen: Observation, wanted: LabState) -> tuple[Change,
     """
     found = list(diff_observed(setup, seen, wanted))
     beyond = {c.component for c in found if c.tunable == "pose" and not c.tolerated}
-    found += [change for change in _unsure(setup, seen, wanted) if change.component not in beyond]
+    unsure = [change for change in _unsure(setup, seen, wanted) if change.component not in beyond]
+    names = {change.component for change in unsure}
+    found = [c for c in found if c.tunable != "pose" or c.component not in names] + unsure
     return tuple(sorted(found, key=lambda c: (c.component, c.tunable)))
 
 
