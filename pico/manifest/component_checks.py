@@ -10,6 +10,7 @@ from pico.manifest.names import check_names, check_own_name
 from pico.manifest.places import where, where_key
 from pico.manifest.tree import Document
 from pico.model.catalog import Body, ComponentType, Footprint, Tunable
+from pico.model.setpoint import refusal
 
 OBSERVATION_POSITION = 0.02
 """One standard deviation of an observed position [mm], until a calibration gives one."""
@@ -43,6 +44,11 @@ def _tunable(document: Document, name: str, tunable: Tunable) -> Iterator[Diagno
         hint = "expected [least, greatest]"
         source = where(document, "tunables", name, "range")
         yield error("value", f"the range of `{name}` is empty", hint=hint, source=source)
+    why = "" if tunable.initial is None else refusal(tunable, tunable.initial)
+    if why:
+        source = where(document, "tunables", name, "initial")
+        hint = "the value after power-up, as a state would give it"
+        yield error("value", f"tunable `{name}` {why}", hint=hint, source=source)
     for key, value in (
         ("tolerance", tunable.tolerance),
         ("resolution", tunable.resolution),

@@ -55,7 +55,8 @@ class Tunable:
     """A directly controllable value other than the pose.
 
     `unit`, `range`, `period`, `tolerance` and `resolution` belong to datatype `float`; `choices` to `choice`.
-    `settle` is how long the value takes beyond the motion of its axis.
+    `settle` is how long the value takes beyond the motion of its axis. `initial`: the value after power-up on the
+    simulated bench; without it the home of an axis, the low end of the range, false, `closed`, or the first choice.
     """
 
     datatype: Literal["float", "bool", "choice"] = "float"
@@ -68,6 +69,7 @@ class Tunable:
     mover: Mover = "electronics"
     axis: Axis | None = None
     settle: Milliseconds = 10.0
+    initial: Value | None = None
     restore: Restore = Restore()
     description: str = ""
 

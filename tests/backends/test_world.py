@@ -14,11 +14,13 @@ from hypothesis import strategies as st
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.store import load_world, reset_world, save_world, world_from_json, world_path
-from pico.backends.sim.world import FreePose, World, new_world
+from pico.backends.sim.world import FreePose, World, initial_value, new_world
 from pico.diagnostics import ExitCode, PicoError
+from pico.model.catalog import Axis, Tunable
 from pico.model.lab import Part, Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
 from pico.model.pose import Pose
+from pico.model.quantities import Value
 from pico.model.record import as_json
 
 SETUP, _ = shel()
@@ -36,8 +38,24 @@ def test_a_new_world_has_every_part_at_home_every_axis_homed_and_the_arm_parked(
     assert world.components["laser"].pose == Pose(120, 420, 0)
     assert world.components["p1"].values["angle"] == ObservedValue(value=0.0)
     assert world.components["laser"].values["emission"].value is False
+    assert world.components["laser"].values["shutter"].value == "closed"
     assert world.robots["arm1"].holding is None
     assert {b.presence for b in world.components.values()} == {"seen"}
+
+
+@pytest.mark.parametrize(
+    ("kind", "first"),
+    [
+        (Tunable(range=(2, 9)), 2), (Tunable(range=(2, 9), initial=5.0), 5.0),
+        (Tunable(datatype="bool"), False), (Tunable(datatype="bool", initial=True), True),
+        (Tunable(datatype="choice", choices=("a", "b")), "a"),
+        (Tunable(datatype="choice", choices=("a", "b"), initial="b"), "b"),
+        (Tunable(datatype="choice", choices=("open", "closed")), "closed"),
+        (Tunable(range=(2, 9), axis=Axis(kind="homed", speed=1, home=4)), 4),
+    ],
+)  # fmt: skip
+def test_a_value_starts_as_its_type_says_or_where_it_is_safest(kind: Tunable, first: Value) -> None:
+    assert initial_value(kind) == first
 
 
 def test_a_lab_without_a_stored_world_gets_a_new_one_and_looking_writes_nothing(tmp_path: Path) -> None:

@@ -57,7 +57,7 @@ def _powered_up(kind: Tunable, live: ObservedValue) -> ObservedValue:
         return live if kind.axis.kind == "absolute" or live.value is None else replace(live, status="commanded")
     if kind.mover != "electronics":
         return live
-    return ObservedValue(value="closed" if "closed" in kind.choices else initial_value(kind))
+    return ObservedValue(value=initial_value(kind))
 
 
 def _body(world: World, name: str) -> Body:

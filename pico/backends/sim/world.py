@@ -125,11 +125,14 @@ def initial_values(kind: ComponentType) -> dict[str, ObservedValue]:
 
 
 def initial_value(tunable: Tunable) -> Value:
-    """Return the home of an axis, the low end of a range, false, or the first choice."""
+    """Return the `initial` value, else the home of an axis, the low end of a range, false, `closed`, or the
+    first choice."""
+    if tunable.initial is not None:
+        return tunable.initial
     if tunable.datatype == "bool":
         return False
     if tunable.datatype == "choice":
-        return tunable.choices[0] if tunable.choices else ""
+        return "closed" if "closed" in tunable.choices else tunable.choices[0] if tunable.choices else ""
     if tunable.axis is not None:
         return tunable.axis.home
     return tunable.range[0] if tunable.range else 0.0
