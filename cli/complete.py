@@ -12,7 +12,7 @@ from .summary import COMMANDS, MOVERS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "-m", "--message",
+    "-m", "--message", "--interval", "--looks",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -36,6 +36,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "commit": ("-m", "--message", "--capture", "--planned"),
     "log": ("--graph", "--oneline", "--all", "-n", "--number"),
     "drift": ("--detailed-exitcode",),
+    "watch": ("--interval", "--looks", "--heal"),
     "do": ("--speed", *_ONE),
     "move": ("--speed", *_ONE),
     "rotate": ("--speed", *_ONE),

@@ -30,6 +30,9 @@ GROUPS: dict[str, dict[str, str]] = {
         "show": "Show a revision or a saved plan.",
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
+        "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
+        "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
+        "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
     },
     "One operation at a time": {
         "do": "Run one primitive of a component, through the same checks as a plan.",

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from pico.twin.picture import Image, View
     from pico.twin.ruler import Measured
     from pico.twin.snapshot import Recording
+    from pico.watching import Drifted
 
 __all__ = ["AsyncBench", "Bench", "CommitMode", "new_lab"]
 
@@ -200,6 +201,18 @@ class Bench(Reader):
     def drift(self) -> tuple[Change, ...]:
         """Return where the bench as observed differs from HEAD."""
         return self._thread.wait(self._bench.drift())
+
+    def look(self) -> Drifted:
+        """Return where the bench has left HEAD, by how much, how surely and who did it; see `pico.watching`."""
+        from pico import watching
+
+        return self._thread.wait(watching.look(self._bench))
+
+    def heal(self, found: Drifted) -> RunReport | None:
+        """Bring back what drifted, where the lab's policy allows it; see `pico.watching`."""
+        from pico import watching
+
+        return self._thread.wait(watching.heal(self._bench, found))
 
     def verify(self, revision: str | None = None) -> Verified:
         """Return how the bench stands against a revision, or the manifest, and its expectations."""

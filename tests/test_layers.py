@@ -31,14 +31,14 @@ LAYERS: dict[str, set[str]] = {
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },
-    "async_bench": {
+    "watching": {"diagnostics", "model", "journal", "backends", "async_bench"},
     "saved": {"diagnostics", "model", "execution", "vision", "async_bench"},
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "policy", "vision", "twin", "backends", "execution", "pictures", "drawings",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "saved",
+        "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "saved", "watching",
         "scans", "imports",
     },
 }  # fmt: skip

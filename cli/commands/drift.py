@@ -14,11 +14,10 @@ from ..views import drift as view
 def drift(context: typer.Context, detailed_exitcode: DetailedExit = False) -> int:
     """Show where the bench has left the last commit. Moves nothing.
 
-    With --detailed-exitcode exits with 2 where something has drifted beyond its tolerance.
+    Each tunable with its tolerance, how surely it was seen, and who changed it last as far as the journal knows. With
+    --detailed-exitcode exits with 2 where something has drifted beyond its tolerance.
     """
     session = Session.of(context)
-    bench = session.bench()
-    changes = bench.drift()
-    session.show(view, changes, head=bench.head_name())
-    beyond = any(not c.tolerated for c in changes)
-    return ExitCode.CHANGES if detailed_exitcode and beyond else ExitCode.DONE
+    found = session.bench().look()
+    session.show(view, found)
+    return ExitCode.CHANGES if detailed_exitcode and found.beyond else ExitCode.DONE

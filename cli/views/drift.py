@@ -5,29 +5,63 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.model.diff import Change
 from pico.model.record import as_json
+from pico.watching import Drift, Drifted
 
 from .diff import lines
-from .style import count, listed
+from .style import count, listed, paint, wrap
 
 
-def text(changes: Sequence[Change], *, head: str) -> str:
+def text(found: Drifted) -> str:
     """Return what drifted beyond tolerance, and how much within it."""
-    beyond = [c for c in changes if not c.tolerated]
-    near = len(changes) - len(beyond)
+    beyond, near, head = found.beyond, len(found.within), found.head
     within = f"{count(near, 'tunable')} {'deviates' if near == 1 else 'deviate'} within tolerance." if near else ""
+    ignored = f"Ignored by the policy of the lab: {listed(found.ignored)}." if found.ignored else ""
     if not beyond:
-        return "\n".join(x for x in (f"No drift: the bench is as {head} says.", within) if x)
+        return "\n".join(x for x in (f"No drift: the bench is as {head} says.", within, ignored) if x)
     title = f"{count(len(beyond), 'tunable')} of the bench {'has' if len(beyond) == 1 else 'have'} left {head}:"
-    unseen = [c for c in beyond if c.tunable == "pose" and c.before is None]
+    rest = [*([within] if within else []), *([ignored] if ignored else []), _hint(found)]
+    return "\n".join([title, "", *(line for one in _ordered(beyond) for line in _entry(one)), "", *rest])
+
+
+def _hint(found: Drifted) -> str:
+    beyond, head = found.beyond, found.head
+    unseen = [d.change.component for d in beyond if d.change.tunable == "pose" and d.change.before is None]
     hint = f"`pico apply {head}` brings {'it' if len(beyond) == 1 else 'them'} back; `pico capture` keeps what is."
-    if unseen:
-        by_hand = f"What nobody sees, or not surely, only you can put right: {listed([c.component for c in unseen])}."
-        hint = f"{hint}\n{by_hand}" if len(unseen) < len(beyond) else by_hand
-    return "\n".join([title, "", *lines(beyond), "", *([within] if within else []), hint])
+    if not unseen:
+        return hint
+    by_hand = f"What nobody sees, or not surely, only you can put right: {listed(unseen)}."
+    return f"{hint}\n{by_hand}" if len(unseen) < len(beyond) else by_hand
 
 
-def data(changes: Sequence[Change], *, head: str) -> dict[str, Any]:
-    """Return schema `pico.drift/v1`: `head` and `changes`, from committed to live turned around: `before` is live."""
-    return {"schema": "pico.drift/v1", "head": head, "changes": as_json(changes)}
+def _ordered(found: Sequence[Drift]) -> list[Drift]:
+    return sorted(found, key=lambda d: d.change.tunable != "pose")
+
+
+def _entry(one: Drift) -> list[str]:
+    return [*lines([one.change]), *(paint("dim", line) for line in wrap(about(one), "      "))]
+
+
+def about(one: Drift) -> str:
+    """Return `tolerance 0.5 mm, 0.5°; seen to 0.02 mm, 2 s ago; moved by hand: no operation did it`."""
+    words = [] if one.tolerance == "none" else [f"tolerance {one.tolerance}"]
+    seen = one.uncertainty
+    sure = f" to {seen.position:.2g} mm, {seen.yaw:.2g}°" if seen and (seen.position or seen.yaw) else ""
+    if sure or one.age >= 1:
+        words.append(f"seen{sure}" + (f" {one.age:.0f} s ago" if one.age >= 1 else ""))
+    said = {"operation": "by an operation", "person": "by hand", "unknown": "by whom is not known"}
+    return "; ".join([*words, said[one.by] + (f": {one.how}" if one.how else "")])
+
+
+def data(found: Drifted) -> dict[str, Any]:
+    """Return schema `pico.drift/v1`: `head`, `changes` (`before` is live, `after` committed; `tolerance`, `age`,
+    `uncertainty`, `by`, `how`), `ignored`, `held`."""
+    changes = [entry(d) for d in (*found.beyond, *found.within)]
+    own = {"head": found.head, "observed_at": found.observed_at, "ignored": list(found.ignored), "held": found.held}
+    return {"schema": "pico.drift/v1", **own, "changes": changes}
+
+
+def entry(one: Drift) -> dict[str, Any]:
+    """Return one change as JSON data."""
+    rest = as_json(one)
+    return {**rest.pop("change"), **rest}

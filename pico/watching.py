@@ -1,0 +1,242 @@
+"""Where the bench has left the last commit: by how much, how surely, and who did it; and bringing it back."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.model.diff import Change, value_distance
+from pico.model.drift import drift_of
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, Uncertainty
+from pico.model.pose import Pose, angle_between
+from pico.model.record import record
+
+if TYPE_CHECKING:
+    from pico.async_bench import AsyncBench
+    from pico.journal import JournalRecord
+    from pico.model.report import RunReport
+
+Who = Literal["operation", "person", "unknown"]
+ALIKE = 0.3
+"""Displacements that differ by no more than this are one, that of what measures them [mm]."""
+
+
+@record
+class Drift:
+    """One tunable that has left HEAD: the change from live back to committed, and `tolerance` in words.
+
+    `age` of the observation [s], and its `uncertainty` for a pose. `by`: who changed it last; `how`: the run that left
+    it so, or the last that left it otherwise.
+    """
+
+    change: Change
+    tolerance: str = ""
+    age: float = 0.0
+    uncertainty: Uncertainty | None = None
+    by: Who = "unknown"
+    how: str = ""
+
+    @property
+    def address(self) -> str:
+        """`p2`, or `p1.angle`."""
+        own = self.change
+        return own.component if own.tunable == "pose" else f"{own.component}.{own.tunable}"
+
+
+@record
+class Drifted:
+    """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address.
+
+    `held`: why nothing may be healed now; empty where that is allowed.
+    """
+
+    head: str
+    observed_at: str
+    beyond: tuple[Drift, ...] = ()
+    within: tuple[Drift, ...] = ()
+    ignored: tuple[str, ...] = ()
+    held: str = ""
+
+
+async def look(bench: AsyncBench) -> Drifted:
+    """Look at the bench and return where it has left HEAD. Moves nothing, needs no lock; raises PicoError."""
+    seen = await bench.observe()
+    changes = drift_of(bench.setup, seen, bench.state_at("HEAD"))
+    rules = set(bench.setup.lab.policy.ignore)
+    ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
+    kept = [c for c in changes if c not in ignored]
+    records = _records(bench) if any(not c.tolerated for c in kept) else ()
+    found = [drift(bench.setup, seen, change, records) for change in kept]
+    beyond = tuple(d for d in found if not d.change.tolerated)
+    return Drifted(
+        head=bench.head_name(), observed_at=seen.observed_at, beyond=beyond,
+        within=tuple(d for d in found if d.change.tolerated),
+        ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=_held(bench, seen, beyond),
+    )  # fmt: skip
+
+
+def news(before: Sequence[Drift], now: Sequence[Drift]) -> tuple[list[Drift], list[str]]:
+    """Return what has drifted, or drifted on, since an earlier look, and the addresses of what is right again."""
+    known = {d.address: d.change for d in before}
+    fresh = [d for d in now if d.address not in known or _moved_on(known[d.address], d.change)]
+    return fresh, sorted(known.keys() - {d.address for d in now})
+
+
+def _moved_on(before: Change, now: Change) -> bool:
+    return before.text != now.text
+
+
+async def heal(bench: AsyncBench, found: Drifted) -> RunReport | None:
+    """Bring back what drifted and no operation put where it is; None where there is nothing to bring back.
+
+    Raises PicoError: DENIED where the lab's policy does not allow it, and where the plan can't or must not be run.
+    """
+    require_heal(bench.setup)
+    names = sorted({d.change.component for d in found.beyond if d.by != "operation"})
+    if found.held or not names:
+        return None
+    plan = await bench.plan("HEAD", targets=names)
+    if plan.errored:
+        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
+    return await bench.apply(plan) if plan.operations else None
+
+
+def require_heal(setup: Setup) -> None:
+    """Raise PicoError (exit code DENIED) unless the lab allows that what drifted is brought back unasked."""
+    if not setup.lab.policy.heal:
+        hint = "`policy: {heal: true}` in the lab allows it; without --heal `pico watch` only tells"
+        raise PicoError(
+            error("denied", f"the policy of {setup.lab.name} does not allow to heal", hint=hint), ExitCode.DENIED
+        )
+
+
+def _held(bench: AsyncBench, seen: Observation, beyond: Sequence[Drift]) -> str:
+    """Return why nothing may be brought back now."""
+    from pico.backends.lease import BenchLock
+
+    holder = BenchLock(bench.root).holder()
+    if holder is not None:
+        return f"a run goes on: {holder.user} (process {holder.pid}): {holder.what}"
+    if seen.person is not False:
+        return "somebody is at the table" if seen.person else "nothing tells whether somebody is at the table"
+    hands = [name for name, robot in sorted(seen.robots.items()) if robot.holding]
+    if hands:
+        return f"{hands[0]} holds {seen.robots[hands[0]].holding}: `pico recover` first"
+    wrong = next((p for p in seen.problems if p.severity == "error"), None)
+    return wrong.summary if wrong else calibration_drift(bench.setup, beyond)
+
+
+def calibration_drift(setup: Setup, beyond: Sequence[Drift]) -> str:
+    """Return why drift looks like that of the cameras' calibration and not of the parts; empty where it doesn't.
+
+    What can't move is displaced, or three parts and more are displaced alike: then what measures has moved.
+    """
+    moved = {d.change.component: _displacement(d.change) for d in beyond if d.change.tunable == "pose"}
+    shifts = {name: by for name, by in moved.items() if by is not None}
+    fixed = sorted(name for name in shifts if setup.lab.inventory[name].pose is not None)
+    if fixed:
+        return f"{fixed[0]} is fixed and seems moved: check the calibration, `pico calibrate`"
+    if len(shifts) < 3:
+        return ""
+    dx, dy = (statistics.median(by[axis] for by in shifts.values()) for axis in (0, 1))
+    alike = [n for n, by in shifts.items() if abs(by[0] - dx) <= ALIKE and abs(by[1] - dy) <= ALIKE]
+    if len(alike) >= 3 and 2 * len(alike) > len(shifts):
+        return (
+            f"{len(alike)} parts seem moved alike, by ({dx:.2g}, {dy:.2g}) mm: check the calibration, `pico calibrate`"
+        )
+    return ""
+
+
+def _displacement(change: Change) -> tuple[float, float] | None:
+    live, base = change.before, change.after
+    if isinstance(live, Mapping) and isinstance(base, Mapping):
+        return live["x"] - base["x"], live["y"] - base["y"]
+    return None
+
+
+def drift(setup: Setup, seen: Observation, change: Change, records: Iterable[JournalRecord]) -> Drift:
+    """Return a change with how surely it was seen, and who made it as far as the journal knows."""
+    part = seen.components.get(change.component) or ObservedComponent(presence="missing")
+    kind = setup.type_of(change.component)
+    if change.tunable == "pose":
+        tolerance = f"{kind.pose.tolerance.position:g} mm, {kind.pose.tolerance.yaw:g}°"
+    else:
+        tunable = kind.tunables[change.tunable]
+        tolerance = f"{tunable.tolerance:g} {tunable.unit}".rstrip() if tunable.datatype == "float" else "none"
+    by: Who = "unknown"
+    by, how = (by, "") if change.tolerated else who(setup, part, change, records)
+    return Drift(
+        change=change, tolerance=tolerance, age=part.age, by=by, how=how,
+        uncertainty=part.uncertainty if change.tunable == "pose" and part.pose else None,
+    )  # fmt: skip
+
+
+def who(
+    setup: Setup, part: ObservedComponent, change: Change, records: Iterable[JournalRecord]
+) -> tuple[Who, str]:  # fmt: skip
+    """Return who changed a tunable last, and how that is known.
+
+    `operation` where the last one that touched it left it as it is now, or nobody knows how that one ended; `person`
+    where a part stands elsewhere than any left it; `unknown` for what else can change by itself.
+    """
+    touched = [r for r in _touching(records, change) if r.kind in ("done", "failed", "unknown", "resolved")]
+    last = touched[-1] if touched else None
+    run = last.key.split("/")[0] if last else ""
+    if last and last.kind == "unknown":
+        return "operation", f"run {run}, of which nobody knows how it ended"
+    if last and _as_left(setup, change, part, last.data.get("after") or {}):
+        return "operation", f"run {run}, {last.at}"
+    since = f"; run {run} left it elsewhere, {last.at}" if last else ""
+    if change.tunable == "pose":
+        return "person", f"no operation did it{since}"
+    return "unknown", f"no operation set it{since}"
+
+
+def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalRecord]:
+    wanted, found = set(), []
+    for r in records:
+        if r.component != change.component:
+            continue
+        if r.kind == "intent":
+            own = r.data.get("arguments", {}).get("tunable")
+            moves = r.data.get("primitive") in ("move", "stow", "operator")
+            if own == change.tunable or (change.tunable == "pose" and moves):
+                wanted.add(r.key)
+        elif r.key in wanted:
+            found.append(r)
+    return found
+
+
+def _as_left(setup: Setup, change: Change, part: ObservedComponent, after: Mapping[str, Any]) -> bool:
+    kind = setup.type_of(change.component)
+    if change.tunable != "pose":
+        left = after.get("values", {}).get(change.tunable, {}).get("value")
+        live = part.values.get(change.tunable)
+        tunable = kind.tunables[change.tunable]
+        known = left is not None and live is not None and live.value is not None
+        return known and value_distance(tunable, live.value, left) <= tunable.tolerance  # type: ignore[union-attr,arg-type]
+    if "pose" not in after or part.pose is None:
+        return after.get("presence") == part.presence != "seen"
+    pose, tolerance = Pose(**after["pose"]), kind.pose.tolerance
+    turned = abs(angle_between(pose.yaw, part.pose.yaw))
+    return pose.distance(part.pose) <= tolerance.position and turned <= tolerance.yaw
+
+
+def _records(bench: AsyncBench) -> Sequence[JournalRecord]:
+    """Return what the journal knows; nothing where there is none, or it can't be read: looking must not fail for it."""
+    from pico.journal import Journal
+
+    path = bench.root / ".pico" / "journal.sqlite"
+    if not path.exists():
+        return ()
+    try:
+        journal = Journal(path)
+        try:
+            return journal.records()
+        finally:
+            journal.close()
+    except PicoError:
+        return ()
