@@ -14,47 +14,48 @@ from commanding import Pico
 from pico.bench import Bench
 from pico.journal import Journal
 
-
-def started(folder: Path, *words: str) -> subprocess.Popen[str]:
-    """Start `pico` as a process of its own, with an arm so slow in wall time that it can be caught."""
-    program = """
+PROGRAM = """
 import sys, time
+from pathlib import Path
 from pico.backends.sim import session
-tell = session.Session._tell
-def slowly(self, kind, *rest):
-    time.sleep(0.02)
-    tell(self, kind, *rest)
-session.Session._tell = slowly
+
+tell, notes = session.Session._tell, Path(".pico")
+
+def waits(self, kind, operation, key, data):
+    tell(self, kind, operation, key, data)
+    if data.get("phase") == "transit" and not (notes / "waits").exists():
+        (notes / "waits").write_text("")
+        until = time.monotonic() + 60
+        while time.monotonic() < until and not (notes / "stop.json").exists() and not (notes / "goes_on").exists():
+            time.sleep(0.01)
+
+session.Session._tell = waits
 from pico_cli.main import main
 sys.exit(main(sys.argv[1:]))
 """
-    return subprocess.Popen(
-        [sys.executable, "-c", program, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+
+
+def started(folder: Path, *words: str) -> subprocess.Popen[str]:
+    """Start `pico` as a process of its own, which waits with the first part in the hand until it is stopped."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
-
-
-def until_something_moves(folder: Path) -> None:
-    path = folder / ".pico" / "journal.sqlite"
-    for _ in range(1000):
-        if path.exists():
-            journal = Journal(path)
-            moving = any(r.kind == "started" and r.data for r in journal.records() if "laser" not in r.component)
-            journal.close()
-            if moving:
-                return
-        time.sleep(0.02)
+    for _ in range(6000):
+        if (folder / ".pico" / "waits").exists():
+            return process
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
     raise AssertionError("nothing moves")
 
 
 @pytest.mark.parametrize("how", [(), ("--now",)])
 def test_stop_needs_no_lock_and_the_run_can_be_resumed_and_undone(shel: Path, pico: Pico, how: tuple[str, ...]) -> None:
     process = started(shel, "apply", "e1", "--auto-approve")
-    until_something_moves(shel)
     locked = pico("apply", "e1", "--auto-approve")
     assert locked.code == 5 and f"process {process.pid}" in locked.err
     stopped = pico("stop", *how)
     assert stopped.code == 0 and f"process {process.pid}" in stopped.out and "pico resume" in stopped.out
-    out, _ = process.communicate(timeout=30)
+    out, _ = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Interrupted" in out and "pico resume" in out
     assert pico("resume", "--auto-approve").code == 0
@@ -67,9 +68,10 @@ def test_stop_needs_no_lock_and_the_run_can_be_resumed_and_undone(shel: Path, pi
 
 def test_sigterm_ends_a_run_as_ctrl_c_does(shel: Path, pico: Pico) -> None:
     process = started(shel, "apply", "e1", "--auto-approve")
-    until_something_moves(shel)
     process.send_signal(signal.SIGTERM)
-    out, err = process.communicate(timeout=30)
+    time.sleep(0.2)
+    (shel / ".pico" / "goes_on").write_text("")
+    out, err = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Stopping" in err and "Interrupted" in out
     seen = Bench.open(shel).observe()
@@ -78,13 +80,8 @@ def test_sigterm_ends_a_run_as_ctrl_c_does(shel: Path, pico: Pico) -> None:
 
 def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path, pico: Pico) -> None:
     process = started(shel, "apply", "e1", "--auto-approve")
-    until_something_moves(shel)
-    for _ in range(500):
-        if Bench.open(shel).observe().robots["arm1"].holding:
-            break
-        time.sleep(0.01)
     process.send_signal(signal.SIGKILL)
-    process.communicate(timeout=30)
+    process.communicate(timeout=120)
     held = Bench.open(shel).observe().robots["arm1"].holding
     assert held is not None
     assert pico("recover", "--auto-approve").code == 0
