@@ -30,9 +30,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "show": "Show a revision or a saved plan.",
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
-        "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
         "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
-        "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
     },
     "One operation at a time": {
         "do": "Run one primitive of a component, through the same checks as a plan.",
@@ -60,14 +58,14 @@ GROUPS: dict[str, dict[str, str]] = {
 
 COMMANDS: dict[str, str] = {name: line for group in GROUPS.values() for name, line in group.items()}
 
-OPTIONS = {
-    "-C DIR": "Work as if started in DIR.",
-    "--json": "Answer with JSON.",
 MOVERS = (
     "apply", "resume", "undo", "recover", "checkout", "do", "move", "rotate", "place", "stow", "set", "home",
 )  # fmt: skip
 """Commands that take the bench: these wait for it with --lock-timeout."""
 
+OPTIONS = {
+    "-C DIR": "Work as if started in DIR.",
+    "--json": "Answer with JSON.",
     "--debug": "Show the traceback of an internal error.",
     "--backend NAME": "What executes operations: sim (default) or hardware.",
     "--version": "Show the version.",

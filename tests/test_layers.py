@@ -28,11 +28,13 @@ LAYERS: dict[str, set[str]] = {
     "drawings": {"model", "history", "motion", "twin", "pictures"},
     "scans": {"diagnostics", "model", "backends", "twin", "async_bench"},
     "imports": {"diagnostics", "model", "manifest", "vision", "backends", "async_bench"},
+    "merging": {"diagnostics", "model", "manifest", "history", "motion", "planning"},
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },
     "watching": {"diagnostics", "model", "journal", "backends", "async_bench"},
     "saved": {"diagnostics", "model", "execution", "vision", "async_bench"},
+    "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "policy", "vision", "twin", "backends", "execution", "pictures", "drawings",
     },
