@@ -114,9 +114,9 @@ def _adopted(
     kind = _type(bench, wanted.type)
     plate = kind.geometry.marker
     if plate is None:
-        raise PicoError(error("no-type", f"{place} can't be a {wanted.type}: that carries no marker"))
+        raise PicoError(error("no-type", f"{place} is no {wanted.type}: that carries no marker"))
     if stranger.uncertainty.position < _OFF and abs(stranger.height - plate.at[2]) > _OFF:
-        text = f"{place} can't be a {wanted.type}: it is {stranger.height:.0f} mm high, and that {plate.at[2]:g} mm"
+        text = f"{place} is no {wanted.type}: it is {stranger.height:.0f} mm high, and that {plate.at[2]:g} mm"
         raise PicoError(error("wrong-type", text, hint="look at what it is, or at `geometry.marker` of its type"))
     step = kind.pose.resolution
     raw = component_pose(stranger.pose, plate)
