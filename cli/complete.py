@@ -45,6 +45,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "set": _ONE,
     "home": _ONE,
     "diff": ("--picture",),
+    "merge": ("-m", "--message"),
     "render": ("--out", "--view", "--manifest", "--plan", "--size"),
     "ruler": ("--picture",),
     "scan": ("--picture",),
@@ -65,6 +66,7 @@ OPTIONS |= {name: (*OPTIONS.get(name, ()), "--lock-timeout") for name in MOVERS}
 GROUPS = {
     "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
     "catalog": ("list", "show"),
+    "git": ("install", "uninstall"),
 }
 FIXED = {
     "--backend": ("sim", "hardware"),
@@ -77,7 +79,7 @@ FIXED = {
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
-_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "show", "render", "verify")
+_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "show", "render", "verify")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 

@@ -50,10 +50,20 @@ class Session:
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
         if self.context is not None:
             self.context.call_on_close(bench.close)
+        self.wire(bench.root)
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
         return bench
+
+    def wire(self, folder: Path) -> None:
+        """Let git merge the manifests by PICO where the repository asks for it; said once."""
+        from pico.history.attributes import wire
+
+        if wire(folder):
+            from .views.wired import SET
+
+            write(sys.stderr, SET)
 
     def show(self, view: View, *args: Any, **options: Any) -> None:
         """Print an answer, for people or as one JSON document."""

@@ -30,6 +30,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "show": "Show a revision or a saved plan.",
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
+        "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
         "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
     },
     "One operation at a time": {
@@ -51,6 +52,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "import": "Take what stands on the table and is not in the inventory into it, as the cameras see it.",
         "calibrate": "Find out where the cameras are and how their lenses draw.",
         "markers": "Write the markers of the lab as a PDF, to print and stick on.",
+        "git": "Let git merge manifests by PICO, or no longer.",
+        "doctor": "Check that git, its merge driver and the manifests are as PICO needs them.",
         "completion": "Print the completion script of a shell; its first line says how to install it.",
         "version": "Show the versions of PICO and what it stands on.",
     },

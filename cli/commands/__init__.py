@@ -10,7 +10,7 @@ import typer
 from ..summary import COMMANDS
 
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
-GROUPS = ("catalog", "sim")
+GROUPS = ("catalog", "git", "sim")
 LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option
 
 

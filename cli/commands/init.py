@@ -24,5 +24,6 @@ def init(
 
     session = Session.of(context)
     new_lab(session.folder / folder, example)
+    session.wire(session.folder / folder)
     session.show(view, session.folder / folder, example, shown=folder)
     return 0

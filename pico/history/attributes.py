@@ -22,13 +22,14 @@ LINE = "*.yaml merge=pico"
 GITATTRIBUTES = f"# manifests merge value by value; without PICO, git merges their lines\n{LINE}\n"
 _NAME = "PICO: manifests merge value by value"
 _SECTION = re.compile(rb'^\[merge "pico"\]\s*$', re.MULTILINE)
+_PYTHON = re.compile(rb'^\s*driver = "?(.+?) -P -m pico\.history\.driver ', re.MULTILINE)
 _OFF = re.compile(rb"^\[pico\]\s*\n\s*mergedriver = false\s*$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """How a repository stands: whether its attributes name the driver, whether git knows it, as this PICO sets it, and
-    whether somebody asked for it not to be set."""
+    """How a repository stands: whether its attributes name the driver, whether git knows one, as PICO sets it and of a
+    PICO that is there, and whether somebody asked for it not to be set."""
 
     attributed: bool
     known: bool
@@ -41,9 +42,12 @@ def command() -> str:
 
     %A is replaced only by a finished result, so that a driver that is missing or killed loses nothing.
     """
-    python = shlex.quote(sys.executable).replace("%", "%%")
+    return f"{shlex.quote(sys.executable).replace('%', '%%')} {_rest()}"
+
+
+def _rest() -> str:
     return (
-        f"{python} -P -m pico.history.driver %A %A.pico %O %B %L %P %S %X %Y; s=$?; "
+        "-P -m pico.history.driver %A %A.pico %O %B %L %P %S %X %Y; s=$?; "
         f"test $s -eq {CLEAN} && mv -f %A.pico %A && exit 0; "
         f"test $s -eq {CONFLICT} && mv -f %A.pico %A && exit 1; "
         "rm -f %A.pico; git merge-file --marker-size=%L -L ours -L base -L theirs %A %O %B"
@@ -61,7 +65,7 @@ def wiring(folder: Path) -> Wiring | None:
     return Wiring(
         attributed=any(_names_driver(p / ".gitattributes") for p in below),
         known=bool(_SECTION.search(config)),
-        current=_escaped(command()).encode() in config,
+        current=_escaped(_rest()).encode() in config and _python_exists(config),
         refused=bool(_OFF.search(config)),
     )
 
@@ -107,7 +111,7 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
         hint = "`pico git install` sets it again"
         wrong.append(warning("git-driver", "git does not know the merge driver: it was taken out here", hint=hint))
     elif not found.current:
-        what = "names another PICO than this one" if found.known else "does not know the merge driver"
+        what = "names a merge driver that is not there" if found.known else "does not know the merge driver"
         wrong.append(warning("git-driver", f"git {what}", hint="`pico git install` sets it"))
     elif not _runs():
         hint = "`pico git install` with the PICO that is to be used; until then git merges lines"
@@ -155,6 +159,14 @@ def _read(path: Path) -> bytes:
         return path.read_bytes() if path.stat().st_size < 1_000_000 else b""
     except OSError:
         return b""
+
+
+def _python_exists(config: bytes) -> bool:
+    found = _PYTHON.search(config)
+    try:
+        return found is not None and Path(shlex.split(found[1].decode())[0].replace("%%", "%")).is_file()
+    except (ValueError, IndexError, UnicodeDecodeError):
+        return False
 
 
 def _escaped(value: str) -> str:

@@ -10,6 +10,7 @@ import pytest
 from commanding import Answer, Pico
 from pico_cli.main import main
 
+from pico.history.attributes import install
 from pico.history.example import make_example
 
 
@@ -17,6 +18,7 @@ from pico.history.example import make_example
 def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("example") / "shel"
     make_example("shel", folder)
+    install(folder)
     return folder
 
 

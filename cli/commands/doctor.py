@@ -1,0 +1,24 @@
+"""`pico doctor`."""
+
+from __future__ import annotations
+
+import typer
+
+from pico.diagnostics import ExitCode
+
+from ..session import Session
+from ..views import doctor as view
+
+
+def doctor(context: typer.Context) -> int:
+    """Check that git, its merge driver and the manifests are as PICO needs them."""
+    from pico.history.attributes import checkup
+    from pico.manifest.folders import check_folder
+
+    session = Session.of(context)
+    checked = check_folder(session.folder)
+    found = (*checkup(session.folder), *checked.diagnostics)
+    if not session.json:
+        session.report(found)
+    session.show(view, found)
+    return ExitCode.ERROR if any(d.severity == "error" for d in found) else ExitCode.DONE

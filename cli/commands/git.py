@@ -1,0 +1,32 @@
+"""`pico git install` and `pico git uninstall`."""
+
+from __future__ import annotations
+
+import typer
+
+from ..session import Session
+from ..views import wired as view
+
+app = typer.Typer(rich_markup_mode=None, no_args_is_help=True, help="Let git merge manifests by PICO, or no longer.")
+
+
+@app.command()
+def install(context: typer.Context) -> int:
+    """Tell git about PICO's merge driver, in this repository only. The first command in a lab does that by itself."""
+    from pico.history.attributes import install
+
+    session = Session.of(context)
+    install(session.folder)
+    session.show(view, installed=True)
+    return 0
+
+
+@app.command()
+def uninstall(context: typer.Context) -> int:
+    """Take PICO's merge driver out of this repository's configuration; it is then not set again by itself."""
+    from pico.history.attributes import uninstall
+
+    session = Session.of(context)
+    uninstall(session.folder)
+    session.show(view, installed=False)
+    return 0

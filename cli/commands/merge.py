@@ -1,0 +1,31 @@
+"""`pico merge`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..session import Session
+from ..views import merge as view
+
+
+def merge(
+    context: typer.Context,
+    revision: Annotated[str, typer.Argument(metavar="REV", help="The commit, branch or tag to be merged.")],
+    message: Annotated[str, typer.Option("-m", "--message", help="Why.")] = "",
+) -> int:
+    """Merge another branch, value by value, and check that the result can stand on the table.
+
+    Nothing is written where a tunable was changed on both sides, or where the merged state is physically impossible
+    (exit 3). Nothing moves: `pico plan` then shows what would.
+    """
+    from pico.merging import merge
+
+    session = Session.of(context)
+    bench = session.bench()
+    made = merge(bench.folder, revision, message)
+    if not session.json:
+        session.report(made.diagnostics)
+    session.show(view, made)
+    return 0

@@ -1,0 +1,28 @@
+"""A merge that was made."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pico.history.merge_commits import MergeMade
+from pico.model.record import as_json
+
+from .diff import lines
+from .style import count
+
+
+def text(made: MergeMade) -> str:
+    """Return what came of it, with what it changed on the table against the branch as it was."""
+    if made.kind == "up-to-date":
+        return f"{made.name} holds nothing that is not here already."
+    head = f"Merged {made.name}" if made.kind == "merged" else f"Went on to {made.name}: nothing was to be united"
+    what = f"{count(len(made.changes), 'tunable')} changed here" if made.changes else "nothing changed on the table"
+    block = [f"{head} ({made.commit[:7]}); {what}.", *lines(made.changes)]
+    if made.kind == "merged":
+        block += ["", "This state was never on the bench. `pico plan` shows what would move to bring it there."]
+    return "\n".join(block)
+
+
+def data(made: MergeMade) -> dict[str, Any]:
+    """Return schema `pico.merge/v1`."""
+    return {"schema": "pico.merge/v1", **as_json(made)}

@@ -1,0 +1,19 @@
+"""That git merges manifests by PICO, or no longer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+SET = "git merges manifests by PICO here from now on (set once in .git/config; `pico git uninstall` takes it out)"
+
+
+def text(*, installed: bool) -> str:
+    """Return one line."""
+    if installed:
+        return "git merges manifests by PICO in this repository."
+    return "git merges manifests line by line in this repository; `pico git install` sets PICO's driver again."
+
+
+def data(*, installed: bool) -> dict[str, Any]:
+    """Return schema `pico.git/v1`: whether the driver is set."""
+    return {"schema": "pico.git/v1", "installed": installed}
