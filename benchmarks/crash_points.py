@@ -34,6 +34,8 @@ def main() -> int:
         crashes, points = crashes + found.crashes, points + found.points
         if crashes >= given.crashes:
             break
+        if count % 1000 == 0:
+            print(f"{count} histories, {crashes} crashes, {violations} violations", flush=True)
     spent = time.process_time() - began
     print(
         f"{count} histories, {crashes} crashes at {points} possible points, {spent:.0f} CPU s: {violations} violations"

@@ -470,7 +470,7 @@ class History:
         truth.plan, truth.may_start, truth.completed = plan.digest, True, set()
         executor = Executor(plan.operations, self.run_id, stop_on_error=draw.random() < 0.2)
         under_way: dict[str, tuple[Dispatch, Generator[float, None, OperationResult], float]] = {}
-        press = draw.randint(1, 400) if not self.chaos.healed else 0
+        press = draw.randint(1, 400) if not self.chaos.healed and draw.random() < 0.5 else 0
         try:
             while True:
                 self.chaos.point()
