@@ -308,7 +308,7 @@ class AsyncBench(Drawings):
 
     async def capture(self) -> Captured:
         """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest."""
-        return self.folder.capture(live_state(self.setup, await self.observe()))
+        return self.folder.capture(live_state(self.setup, await self.observe(), sure=True))
 
     async def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
         """Capture and commit the manifests.
@@ -323,7 +323,7 @@ class AsyncBench(Drawings):
         if mode == "planned":
             never = any(row.off or row.note for row in status.rows)
             return self.folder.commit(message, (), "planned" if never else self.fidelity)
-        captured = self.folder.capture(live_state(self.setup, seen))
+        captured = self.folder.capture(live_state(self.setup, seen, sure=True))
         return self.folder.commit(message, captured.changes, self.fidelity)
 
     async def _planned(self, revision: str | None) -> Plan:

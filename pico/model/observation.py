@@ -127,15 +127,19 @@ def _slot_cells(slots: Mapping[str, Slot]) -> dict[tuple[int, int], list[str]]:
     return _cells_of[1]
 
 
-def live_state(setup: Setup, seen: Observation) -> LabState:
+def live_state(setup: Setup, seen: Observation, *, sure: bool = False) -> LabState:
     """Return the live laboratory state: what the observation amounts to, as a manifest would hold it.
 
     Parts in a slot's capture radius are named by the slot. Missing, held and toppled parts and unknown values are
-    left out.
+    left out; with `sure` also what was seen less exactly than it must stand, or is only remembered.
     """
     components = {}
     for name, part in seen.components.items():
         if part.presence != "seen" or part.pose is None:
+            continue
+        if sure and (
+            part.how in ("remembered", "placed") or (name in setup.lab.inventory and doubtful(setup, name, part))
+        ):
             continue
         values = {k: v.value for k, v in part.values.items() if v.value is not None and v.status != "unknown"}
         slot = slot_at(setup, part.pose) if setup.movable(name) else None

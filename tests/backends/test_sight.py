@@ -21,7 +21,7 @@ from pico.diagnostics import PicoError
 from pico.model.catalog import Footprint
 from pico.model.drift import drift_of
 from pico.model.lab import Setup, SimErrors
-from pico.model.observation import Observation, Uncertainty, UnknownObject, doubtful
+from pico.model.observation import Observation, Uncertainty, UnknownObject, doubtful, live_state
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
 from pico.model.state import LabState, home_state
@@ -220,3 +220,11 @@ def test_a_lab_without_cameras_says_so(tmp_path: Path) -> None:
     blind = replace(SETUP, lab=replace(SETUP.lab, cameras={}))
     with pytest.raises(PicoError, match="no camera over its table"):
         observe(tmp_path, blind)
+
+
+def test_only_what_is_sure_is_captured(tmp_path: Path) -> None:
+    calibrated(tmp_path, 3.0)
+    change(tmp_path, lambda w: nudge(SETUP, w, "p2", dx=320, dy=200))
+    seen = observe(tmp_path)
+    assert "p2" in live_state(SETUP, seen).components
+    assert live_state(SETUP, seen, sure=True).components.keys() == {"laser", "cam"}
