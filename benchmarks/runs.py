@@ -4,7 +4,8 @@
 `--faults`: runs on the simulated bench of the case study with a fault in 5 % of the primitives; each must end at its
 goal or in a true report. `--interrupts`: Ctrl-C at random instants of whole `pico apply` commands; wall and CPU seconds
 until they ended. `--pairs`: two `pico apply` at once; exactly one may move. `--journal`: operations with and without
-records. `--scheduler`: trials of 200 operations of 0.1 s on 10 resources, beside the ideal 2.0 s.
+records. `--scheduler`: trials of 200 operations of 0.1 s on 10 resources, beside the ideal 2.0 s. Both on the disk of this
+repository, or in TMPDIR.
 """
 
 from __future__ import annotations
@@ -234,7 +235,7 @@ def journal_cost(operations: int) -> None:
             found.append(time.perf_counter() - began)
         return found
 
-    with tempfile.TemporaryDirectory(dir=ROOT) as folder:
+    with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR", ROOT)) as folder:
         written = seconds(Journal(Path(folder) / "journal.sqlite"))
         unwritten = seconds(Unwritten(Path(":memory:")))
     cost = statistics.median(written) - statistics.median(unwritten)
@@ -276,7 +277,7 @@ def scheduler(trials: int) -> None:
             return result
 
     async def once() -> tuple[float, float]:
-        with tempfile.TemporaryDirectory(dir=ROOT) as folder:
+        with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR", ROOT)) as folder:
             root = Path(folder)
             lay_out(root, 1)
             table = Table.load(root / "table.json", Chaos(random.Random(1), healed=True))
