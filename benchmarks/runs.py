@@ -4,8 +4,8 @@
 `--faults`: runs on the simulated bench of the case study with a fault in 5 % of the primitives; each must end at its
 goal or in a true report. `--interrupts`: Ctrl-C at random instants of whole `pico apply` commands; wall and CPU seconds
 until they ended. `--pairs`: two `pico apply` at once; exactly one may move. `--journal`: operations with and without
-records. `--scheduler`: trials of 200 operations of 0.1 s on 10 resources, beside the ideal 2.0 s. Both on the disk of this
-repository, or in TMPDIR.
+records. `--scheduler`: trials of 200 operations of 0.1 s on 10 resources, beside the ideal 2.0 s. Both on the disk of
+this repository, or in TMPDIR.
 """
 
 from __future__ import annotations
