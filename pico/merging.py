@@ -28,7 +28,7 @@ def impossible(merged: Manifests, before: LabState | None) -> tuple[Diagnostic, 
     from pico.planning import plan
 
     setup, wanted = merged.require()
-    standing = _overlapping(merged)
+    standing = overlapping(merged)
     if standing:
         return standing
     found = plan(
@@ -45,7 +45,7 @@ def impossible(merged: Manifests, before: LabState | None) -> tuple[Diagnostic, 
     return tuple(d for d in found.diagnostics if d.severity == "error")
 
 
-def _overlapping(merged: Manifests) -> tuple[Diagnostic, ...]:
+def overlapping(merged: Manifests) -> tuple[Diagnostic, ...]:
     """Return which parts can't stand where the state wants them, each with the part that it meets."""
     from pico.planning.actors import actors
     from pico.planning.request import Request

@@ -5,6 +5,10 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass, field
 
+import yaml
+
+from pico.history.merge_markers import view
+
 VALUES = ("angle", "exposure", "tip", "tilt")
 COMMENTS = ("# beam walks here", "# glued", "# 2 a.m.", "# x: 3, not a value", "# ± 0.1 mm")
 Leaf = tuple[str, str]
@@ -85,6 +89,37 @@ def case(seed: int) -> Case:
         _remove(rng, base, ours, theirs, expected)
     comments = tuple(c for c in comments if c in text(ours, flow) or c in text(theirs, flow))
     return Case(text(base, flow), text(ours, flow), text(theirs, flow), expected, frozenset(conflicting), comments)
+
+
+def state_of(manifest: str) -> dict[Leaf, float | str]:
+    """Return the values of a manifest."""
+    found: dict[Leaf, float | str] = {}
+    for name, part in yaml.safe_load(manifest)["components"].items():
+        for key, value in part.items():
+            found |= {(name, f"{key}.{k}"): v for k, v in value.items()} if key == "pose" else {(name, key): value}
+    return found
+
+
+def faults(c: Case, merged: str) -> list[str]:
+    """Return what is wrong with a merge of a case: a value lost or made up, a conflict too many or too few."""
+    found = []
+    for side, text_of_side in (("ours", c.ours), ("theirs", c.theirs)):
+        theirs = state_of(text_of_side)
+        if state_of(view(merged, side)) != c.expected | {leaf: theirs[leaf] for leaf in c.conflicting}:
+            found.append(f"{side}: not the values expected")
+    if ("<<<<<<<" in merged) != bool(c.conflicting):
+        found.append("markers without a conflict, or none where there is one")
+    return found + [f"lost: {comment}" for comment in c.comments if comment not in merged]
+
+
+def losses(c: Case, merged: str) -> list[Leaf]:
+    """Return the values that a side set and that are in no version of a merge, markers or not."""
+    was, lost = state_of(c.base), []
+    for side, text_of_side in (("ours", c.ours), ("theirs", c.theirs)):
+        seen = state_of(view(merged, side))
+        edited = {leaf: value for leaf, value in state_of(text_of_side).items() if value != was.get(leaf)}
+        lost += [leaf for leaf, value in edited.items() if seen.get(leaf) != value]
+    return sorted(set(lost))
 
 
 def _part(rng: random.Random, i: int) -> Part:

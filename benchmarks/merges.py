@@ -1,0 +1,246 @@
+"""Merges random edits of two branches, and counts what is lost: `python benchmarks/merges.py --cases 2000`.
+
+Every case goes through the merge itself, with either side called ours; `--git` cases go through each command of git,
+and through `git merge` with a driver that is missing, killed at random, or never set. `--impossible` merges are
+clean as text and can't stand on the table. Prints a line each; the exit code is 1 where anything is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "history")]
+
+from merging_cases import Case, case, faults, losses  # noqa: E402
+
+from pico.diagnostics import ExitCode, PicoError  # noqa: E402
+from pico.history.attributes import GITATTRIBUTES, command, install  # noqa: E402
+from pico.history.example import make_example  # noqa: E402
+from pico.history.folder import LabFolder  # noqa: E402
+from pico.history.merge import merge  # noqa: E402
+from pico.history.repository import Repository  # noqa: E402
+
+AUTHOR, TIME = ("A Physicist", "physicist@localhost"), datetime(2026, 1, 5, tzinfo=UTC)
+ENVIRONMENT = {
+    "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull, "GIT_EDITOR": "true",
+    "GIT_AUTHOR_NAME": AUTHOR[0], "GIT_AUTHOR_EMAIL": AUTHOR[1],
+    "GIT_COMMITTER_NAME": AUTHOR[0], "GIT_COMMITTER_EMAIL": AUTHOR[1],
+}  # fmt: skip
+
+
+def main() -> int:
+    """Run everything and return the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--cases", type=int, default=2000)
+    parser.add_argument("--git", type=int, default=50, help="cases for each command of git, and for each failure")
+    parser.add_argument("--impossible", type=int, default=200)
+    options = parser.parse_args()
+    os.environ.update(ENVIRONMENT)
+    wrong = pure(options.cases)
+    with tempfile.TemporaryDirectory() as folder:
+        box = Box(Path(folder))
+        for name, run in (
+            ("git merge", box.merge), ("git rebase", box.rebase), ("git cherry-pick", box.cherry_pick),
+            ("git revert", box.revert), ("git stash pop", box.stash_pop),
+        ):  # fmt: skip
+            wrong += told(name, options.git, lambda c, run=run: faults(c, run(c)))
+        for name in ("never set", "missing", "killed"):
+            box.break_driver(name)
+            wrong += told(f"driver {name}", options.git, lambda c: _unmarked(c, box.merge(c)))
+    with tempfile.TemporaryDirectory() as folder:
+        wrong += impossible(Path(folder), options.impossible)
+    return 1 if wrong else 0
+
+
+def pure(count: int) -> int:
+    """Merge every case in both directions, and return how many went wrong."""
+    start, wrong, conflicting = time.process_time(), 0, 0
+    for c in map(case, range(count)):
+        was, mine, other = (t.encode() for t in (c.base, c.ours, c.theirs))
+        forth, back = merge(was, mine, other), merge(was, other, mine)
+        conflicts = {(x.path[2], ".".join(x.path[3:])) for x in forth.conflicts}
+        same = forth.data == back.data or bool(c.conflicting)
+        alike = same and {x.path for x in forth.conflicts} == {x.path for x in back.conflicts}
+        wrong += bool(faults(c, forth.data.decode())) or conflicts != c.conflicting or not alike
+        conflicting += bool(c.conflicting)
+    seconds = (time.process_time() - start) / count / 2
+    print(f"{count} cases, both ways: {wrong} wrong; {conflicting} hold conflicts; {1000 * seconds:.1f} ms CPU a merge")
+    return wrong
+
+
+def told(name: str, count: int, judge: Callable[[Case], list[str]]) -> int:
+    """Put as many cases before a judge, print and return how many went wrong."""
+    wrong = 0
+    for seed, c in real(count):
+        found = judge(c)
+        wrong += bool(found)
+        if found:
+            print(f"  seed {seed}: {'; '.join(found[:3])}")
+    print(f"{name}: {count} cases, {wrong} wrong", flush=True)
+    return wrong
+
+
+def real(count: int) -> Iterator[tuple[int, Case]]:
+    """Yield cases in which both sides changed something."""
+    found = 0
+    for seed in range(10**6):
+        c = case(seed)
+        if len({c.base, c.ours, c.theirs}) == 3:
+            yield seed, c
+            found += 1
+            if found == count:
+                return
+
+
+def _unmarked(c: Case, merged: str) -> list[str]:
+    """Return what was lost in silence: a value of neither version, or a conflict without markers."""
+    missing = ["conflict without markers"] if c.conflicting and "<<<<<<<" not in merged else []
+    return [*(f"lost {'.'.join(leaf)}" for leaf in losses(c, merged)), *missing]
+
+
+class Box:
+    """A repository in which a case is played through a command of git; each returns what the file then holds."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.file = folder, folder / "table.yaml"
+        self.repository = Repository.init(folder)
+        self.git("checkout", "-q", "--detach", self.commit("", []))
+        install(folder)
+
+    def git(self, *arguments: str) -> None:
+        subprocess.run(["git", *arguments], cwd=self.folder, capture_output=True, check=False)
+
+    def commit(self, text: str, parents: list[str]) -> str:
+        files = {"table.yaml": text.encode(), ".gitattributes": GITATTRIBUTES.encode()}
+        return self.repository.write_commit(files, "edit", parents, author=AUTHOR, time=TIME)
+
+    def play(self, at: str, *arguments: str) -> str:
+        for name in ("rebase-merge", "sequencer", "CHERRY_PICK_HEAD", "REVERT_HEAD", "MERGE_HEAD"):
+            left = self.folder / ".git" / name
+            shutil.rmtree(left) if left.is_dir() else left.unlink(missing_ok=True)
+        self.git("checkout", "-q", "-f", "--detach", at)
+        self.git(*arguments)
+        return self.file.read_text()
+
+    def branches(self, c: Case) -> tuple[str, str, str]:
+        base = self.commit(c.base, [])
+        return base, self.commit(c.ours, [base]), self.commit(c.theirs, [base])
+
+    def merge(self, c: Case) -> str:
+        _, ours, theirs = self.branches(c)
+        return self.play(ours, "merge", "-q", "-m", "merge", theirs)
+
+    def rebase(self, c: Case) -> str:
+        _, ours, theirs = self.branches(c)
+        return self.play(theirs, "rebase", "-q", ours)
+
+    def cherry_pick(self, c: Case) -> str:
+        _, ours, theirs = self.branches(c)
+        return self.play(ours, "cherry-pick", theirs)
+
+    def revert(self, c: Case) -> str:
+        before = self.commit(c.theirs, [])
+        undone = self.commit(c.base, [before])
+        return self.play(self.commit(c.ours, [undone]), "revert", "--no-edit", undone)
+
+    def stash_pop(self, c: Case) -> str:
+        base, ours, _ = self.branches(c)
+        self.play(base)
+        self.file.write_text(c.theirs)
+        self.git("stash", "-q")
+        return self.play(ours, "stash", "pop", "-q")
+
+    def break_driver(self, how: str) -> None:
+        """Let the driver fail from now on: never set, missing, or killed after up to 0.4 s."""
+        if how == "never set":
+            self.git("config", "--remove-section", "merge.pico")
+            return
+        stand_in = self.folder / ".git" / "stand-in"
+        if how == "killed":
+            script = f'#!/bin/sh\nexec timeout -s KILL 0.$(($$ % 4))$(($$ % 10))1 {sys.executable} "$@"\n'
+            stand_in.write_text(script)
+            stand_in.chmod(0o755)
+        self.git("config", "merge.pico.driver", command().replace(sys.executable, str(stand_in)))
+
+
+def impossible(folder: Path, count: int) -> int:
+    """Merge branches that put two parts into one place, and return how many `pico merge` or `pico plan` let through."""
+    from pico.bench import Bench
+    from pico.merging import merge as merge_checked
+
+    root = make_example("shel", folder / "shel").root
+    rng, through, git = random.Random(1), 0, ["git", "-C", str(root)]
+    for number in range(count):
+        a, b = _two_places(root, rng)
+        for branch, (name, pose) in (("a", a), ("b", b)):
+            subprocess.run([*git, "checkout", "-q", "-f", "-B", branch, "main"], check=True)
+            _put(root, name, pose)
+            subprocess.run([*git, "commit", "-q", "-a", "-m", branch], check=True)
+        names = {a[0], b[0]}
+        refused = set()
+        try:
+            merge_checked(LabFolder(root), "a")
+        except PicoError as exc:
+            refused = _pairs(exc.diagnostics, names) if exc.exit_code == ExitCode.IMPOSSIBLE else set()
+        clean = subprocess.run([*git, "merge", "-q", "-m", "merge", "a"], check=False, capture_output=True)
+        assert clean.returncode == 0, clean.stderr
+        with Bench.open(root) as bench:
+            planned = bench.plan()
+        ok = names <= refused and planned.errored and names <= _pairs(planned.diagnostics, names)
+        through += not ok
+        if not ok:
+            print(f"  {number}: {a} and {b}")
+    print(
+        f"{count} merges clean as text and impossible on the table: {through} let through, or without the pair's names"
+    )
+    return through
+
+
+def _pairs(found: object, names: set[str]) -> set[str]:
+    """Return which of two names are in a diagnostic that has both."""
+    return next((names for d in found if d.severity == "error" and all(n in d.summary for n in names)), set())
+
+
+Place = tuple[str, tuple[float, float]]
+
+
+def _two_places(root: Path, rng: random.Random) -> tuple[Place, Place]:
+    """Return two parts, each with a free place on the beam, that have no room beside each other."""
+    from pico.merging import overlapping
+
+    while True:
+        a, b = rng.sample(("p1", "p2", "lx_100", "lx_125", "ly_150", "ly_200"), 2)
+        x, y = rng.randint(280, 900), rng.randint(380, 460)
+        at = {a: (x, y), b: (x + rng.randint(-50, 50), y + rng.randint(-50, 50))}
+        folders = []
+        for name, pose in at.items():
+            subprocess.run(["git", "-C", str(root), "checkout", "-q", "-f", "main"], check=True)
+            _put(root, name, pose)
+            folders.append(LabFolder(root).manifests)
+        subprocess.run(["git", "-C", str(root), "checkout", "-q", "-f", "main"], check=True)
+        if not any(overlapping(manifests) for manifests in folders):
+            return (a, at[a]), (b, at[b])
+
+
+def _put(root: Path, name: str, pose: tuple[float, float]) -> None:
+    """Put a part somewhere, as capture would write it."""
+    from pico.manifest.edit import set_values
+    from pico.model.pose import Pose
+
+    path = root / "state" / "table.yaml"
+    path.write_text(set_values(path.read_text(), {name: {"pose": Pose(*pose, 0.0)}}))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

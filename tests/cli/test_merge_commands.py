@@ -1,0 +1,66 @@
+"""`pico merge`, `pico doctor` and `pico git`, as a person types them."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+from commanding import Pico, edit
+
+
+def git(*arguments: str) -> str:
+    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def commit(branch: str, *edits: tuple[str, str]) -> None:
+    git("checkout", "-q", "-b", branch, "main")
+    for before, after in edits:
+        edit(Path("state/table.yaml"), before, after)
+    git("commit", "-q", "-a", "-m", branch)
+
+
+def test_a_merge_is_made_and_shown(shel: Path, pico: Pico) -> None:
+    commit("left", ("x: 290", "x: 300"))
+    commit("right", ("x: 520", "x: 530"))
+    made = pico("merge", "left", "-m", "both moved")
+    assert made.code == 0 and not made.err
+    assert made.out.startswith("Merged left (") and "p1  moved 10 mm" in made.out
+    assert git("show", "-s", "--format=%s").strip() == "both moved"
+    assert pico("merge", "left", "--json").data["kind"] == "up-to-date"
+
+
+@pytest.mark.parametrize(("mine", "code", "said"), [("x: 310", 1, "p1.pose.x"), ("x: 290", 3, "p2")])
+def test_a_refused_merge_says_why_and_writes_nothing(shel: Path, pico: Pico, mine: str, code: int, said: str) -> None:
+    commit("left", ("x: 290", "x: 300"))
+    commit("right", ("x: 290", mine) if code == 1 else ("x: 520", "x: 320"))
+    before = git("rev-parse", "HEAD")
+    answer = pico("merge", "left")
+    assert answer.code == code and "p1" in answer.err and said in answer.err
+    assert git("rev-parse", "HEAD") == before and not git("status", "--porcelain", "-uno")
+
+
+def test_parts_of_a_pose_from_both_sides_are_merged_with_a_warning(shel: Path, pico: Pico) -> None:
+    commit("left", ("x: 290", "x: 300"))
+    git("checkout", "-q", "-b", "right", "main")
+    text = Path("state/table.yaml").read_text()
+    head, name, tail = text.partition("  p1:\n")
+    Path("state/table.yaml").write_text(head + name + tail.replace("yaw: 0", "yaw: 5", 1))
+    git("commit", "-q", "-a", "-m", "right")
+    answer = pico("merge", "left")
+    assert answer.code == 0 and "warning[coupled]: p1: right changed pose.yaw, left pose.x" in answer.err
+
+
+def test_the_driver_is_taken_out_set_and_checked(shel: Path, pico: Pico) -> None:
+    assert pico("doctor").out.startswith("All is well")
+    assert pico("git", "uninstall").code == 0
+    assert "merge.pico" not in git("config", "--list", "--local")
+    assert pico("status").err == "" and "git-driver" in pico("doctor").err
+    assert pico("git", "install").code == 0 and pico("doctor", "--json").data["well"]
+
+
+def test_the_first_command_in_a_clone_sets_the_driver_and_says_so_once(shel: Path, pico: Pico) -> None:
+    git("clone", "-q", ".", "../clone")
+    first, second = pico("-C", "../clone", "status"), pico("-C", "../clone", "status")
+    assert "git merges manifests by PICO" in first.err and second.err == ""
+    assert "pico.history.driver" in git("-C", "../clone", "config", "merge.pico.driver")
