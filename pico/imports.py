@@ -70,14 +70,15 @@ def importable(bench: AsyncBench, look: Look, types: Mapping[int, Wanted]) -> tu
     problems = [_not_there(number) for number in sorted(types) if f"unknown/{number}" not in look.sighting.unknown]
     parts: list[Adopted] = []
     free = _free_slots(setup, look)
-    for stranger in sorted(look.sighting.unknown.values(), key=lambda s: s.marker):
+    # Those that stand in a slot first, so that it becomes their home and not that of another part.
+    for stranger in sorted(look.sighting.unknown.values(), key=lambda s: (slot_at(setup, s.pose) is None, s.marker)):
         try:
             parts.append(_adopted(bench, seen, stranger, types.get(stranger.marker), parts, free))
         except PicoError as exc:
             problems += exc.diagnostics
     if problems:
         raise PicoError(problems)
-    return tuple(parts)
+    return tuple(sorted(parts, key=lambda part: part.marker))
 
 
 def take_in(bench: AsyncBench, parts: Sequence[Adopted], *, write: bool = True) -> Imported:

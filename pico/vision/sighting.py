@@ -20,7 +20,7 @@ Kind = Literal[
 HINTS: Mapping[Kind, str] = {
     "duplicate": "each number may be on the table once: print another marker for one of them",
     "conflict": "look for a second marker with this number, or recalibrate with `pico calibrate`",
-    "unknown": "take it into `inventory`, or take it off the table",
+    "unknown": "`pico import` takes it into the inventory; or take it off the table",
     "half-seen": "clear the view of the cameras, clean the marker, or move the part by hand",
     "hidden": "clear the view of the cameras, or put the part back where they see it",
     "tilted": "stand it upright by hand",
