@@ -32,6 +32,11 @@ class Zone:
     robots: tuple[str, str]
     corners: tuple[tuple[float, float], ...]
 
+    @property
+    def name(self) -> str:
+        """The resource that an operation holds while its arm is in the zone."""
+        return "zone/" + "+".join(self.robots)
+
 
 def shared_zones(setup: Setup) -> tuple[Zone, ...]:
     """Return the zone of each pair of robots that meet, by name; a gantry meets every arm, all over its reach."""

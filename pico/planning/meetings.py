@@ -39,7 +39,7 @@ def items(setup: Setup, steps: Sequence[Step], paths: Paths | None) -> tuple[Ite
     last: dict[tuple[str, str], int] = {}
     for item in _listed(steps, parks):
         path = item.park.path if item.park else paths.moves[item.step or 0] if paths else None
-        inside = {_name(z): z.robots for z in zones if item.robot in z.robots and _enters(setup, z, path)}
+        inside = {z.name: z.robots for z in zones if item.robot in z.robots and _enters(setup, z, path)}
         if not paths and len(setup.lab.robots) > 1 and item.robot:
             inside = {"arms": tuple(sorted(setup.lab.robots))}
         waits = {last[n, r] for n, rs in inside.items() for r in rs if r != item.robot and (n, r) in last}
@@ -65,7 +65,3 @@ def _turns(steps: Sequence[Step]) -> tuple[Park, ...]:
 def _enters(setup: Setup, zone: Zone, path: MovePath | Blocked | None) -> bool:
     """A park that has no path, and so is not made, leaves the arm where it is: then it may be anywhere."""
     return enters(setup, zone, path, MARGIN) if isinstance(path, MovePath) else True
-
-
-def _name(zone: Zone) -> str:
-    return "zone/" + "+".join(zone.robots)

@@ -133,7 +133,9 @@ def after_set_downs(
     count, last = len(first), str(len(first) - 1)
     shifted = [replace(o, after=tuple(str(int(e) + count) for e in o.after) or (last,)) for o in rest]
     idle = sorted({o.robot or "" for o in first} - {o.robot for o in rest})
-    return [*first, *shifted, *(_park(setup, settled.seen, robot, last, motion) for robot in idle)]
+    waits = [last, *(str(count + len(rest) + i) for i in range(len(idle)))]  # one at a time: they may meet
+    parks = (_park(setup, settled.seen, robot, wait, motion) for robot, wait in zip(idle, waits, strict=False))
+    return [*first, *shifted, *parks]
 
 
 def _park(setup: Setup, seen: Observation, robot: str, after: str, motion: Motion | None) -> Operation:

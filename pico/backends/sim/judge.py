@@ -99,6 +99,12 @@ def blocked(name: str, why: Blocked) -> MoveFailed:
     return MoveFailed(error("blocked", f"{name} cannot be moved: {why.text}", hint=_AGAIN, address=name))
 
 
+def meets(name: str, robot: str, zone: str) -> MoveFailed:
+    """Return the failure of an arm whose way, found anew, comes where another one works."""
+    text = f"{name} cannot be moved now: its way on the table as it is leads through {zone}, where {robot} works"
+    return MoveFailed(error("blocked", text, hint=_AGAIN, address=name))
+
+
 def require_placed(setup: Setup, world: World, name: str, goal: Pose, slot: str | None) -> None:
     """Raise MoveFailed where a component that was put down does not stand where it should, within its tolerance."""
     pose, tolerance = standing_pose(world, name), setup.type_of(name).pose.tolerance

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Generator, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,7 @@ from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.motion.types import Blocked, Joints, Motion, MovePath
+from pico.motion.zones import enters, shared_zones
 from pico.twin.snapshot import Snapshot
 
 PROGRESS = 0.25
@@ -68,6 +69,7 @@ class Session:
         self._running: dict[str, asyncio.Future[OperationResult]] = {}
         self._attempts = Attempts(journal, self, token, self._began)
         self._told, self._halting, self._kept = 0, False, 0.0
+        self._zones: dict[str, set[str]] = {}  # by the arm that may be there now
         self._mishaps = Mishaps(setup, faults or Faults(), token, self._mover, self.world)
 
     def watch(self, look: Callable[[Snapshot], None]) -> None:
@@ -161,7 +163,8 @@ class Session:
         judge.require_dark(self._setup, self.world(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
         fault = self._mishaps.of(operation, key)
-        data = yield from self._reported(actual, key, path, self._mover.move(actual, path), fault)
+        with self._in_zones(operation, path):
+            data = yield from self._reported(actual, key, path, self._mover.move(actual, path), fault)
         self._mishaps.slipped(name, fault)
         seen = yield from self._mishaps.looked_at(name, fault)
         judge.require_placed(self._setup, self.world().with_body(name, pose=seen), name, goal, slot)
@@ -191,7 +194,25 @@ class Session:
         path = self._motion.park(robot, joints, judge.standing(self._setup, self.world()), self._elsewhere(robot))
         if isinstance(path, Blocked):
             raise judge.blocked(robot, path)
-        return (yield from self._reported(operation, key, path, self._mover.park(path)))
+        with self._in_zones(operation, path):
+            return (yield from self._reported(operation, key, path, self._mover.park(path)))
+
+    @contextmanager
+    def _in_zones(self, operation: Operation, path: MovePath) -> Iterator[None]:
+        """Keep others out of the zones that an operation holds, or comes into on the way found anew, while it runs.
+
+        Raises MoveFailed where that way comes into a zone of another arm at work: the plan let both run at once.
+        """
+        shared = [z for z in shared_zones(self._setup) if path.robot in z.robots]
+        inside = {z.name for z in shared if enters(self._setup, z, path)}
+        for robot, zones in self._zones.items():
+            if inside & zones:
+                raise judge.meets(operation.component, robot, min(inside & zones))
+        self._zones[path.robot] = inside | {z.name for z in shared if z.name in operation.resources}
+        try:
+            yield
+        finally:
+            del self._zones[path.robot]
 
     def _elsewhere(self, robot: str) -> dict[str, Joints]:
         """Return the joints of the other arms as they are now."""
