@@ -118,7 +118,9 @@ def _parsed(text: str) -> _Version | None:
 
 def _by_lines(base: bytes, ours: bytes, theirs: bytes, labels: Labels) -> Merged:
     data, clean = merge_lines(base, ours, theirs, labels)
-    if clean and all(_valid(side) for side in (ours, theirs)) and not _valid(data):
+    text = data.decode(errors="replace")
+    broken = not all(_valid(view(text, side, labels.size).encode()) for side in ("ours", "theirs"))
+    if broken and _valid(ours) and _valid(theirs):
         return Merged(_whole(ours, theirs, labels), False)
     return Merged(data, clean)
 
@@ -143,7 +145,10 @@ def _alike(was: _Version, mine: _Version, other: _Version, outcome: Outcome) -> 
     numbers = {c.path: i for i, c in enumerate(outcome.conflicts) if not c.keys}
     splices: list[list[Splice]] = [[], [], []]
     values: dict[int, tuple[str, str]] = {}
+    apart = {(*c.path[:-1], key) for c in outcome.conflicts for key in c.keys}  # each side keeps what it has there
     for path in at[1].keys() & at[2].keys():
+        if any(path[: len(above)] == above for above in apart):
+            continue
         nodes = [leaf.get(path) for leaf in at]
         raw = [_raw(v.text, node) for v, node in zip((was, mine, other), nodes, strict=True)]
         if raw[1] is None or raw[2] is None or (nodes[0] is not None and raw[0] is None):

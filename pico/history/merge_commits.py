@@ -178,7 +178,7 @@ def _refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, 
         for path, c in union.conflicts
     ]  # fmt: skip
     return found + [
-        error("merge-conflict", f"{path}: {ours} and {theirs} changed the same lines", hint=hint)
+        error("merge-conflict", f"{path}: {ours} and {theirs} changed it in ways that can't be united", hint=hint)
         for path in sorted(set(union.files))
     ]
 

@@ -95,6 +95,14 @@ def test_a_component_taken_out_here_and_changed_there_conflicts() -> None:
     assert state(view(found.data.decode(), "theirs"))["m1", "tilt"] == 3
 
 
+def test_a_component_that_said_nothing_and_is_given_two_places_keeps_both_between_markers() -> None:
+    base = BASE + "  p1:\n"
+    found = merged(base + "    slot: a\n    angle: 44\n", base + "    slot: b\n    tip: 1\n", base)
+    mine, other = (state(view(found.data.decode(), side)) for side in ("ours", "theirs"))
+    assert [c.address for c in found.conflicts] == ["p1"] and found.data.count(b"m1:") == 1
+    assert (mine["p1", "slot"], mine["p1", "angle"], other["p1", "slot"], other["p1", "tip"]) == ("a", 44, "b", 1)
+
+
 def test_both_sides_adding_one_component_agree_or_conflict_value_by_value() -> None:
     found = merged(
         BASE + "  p1:\n    slot: storage/b1\n    angle: 1\n", BASE + "  p1:\n    slot: storage/b1\n    angle: 2\n"
