@@ -23,6 +23,7 @@ from pico.model.status import Status
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
+    from pico.history.merge_commits import MergeMade
     from pico.imports import Imported
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
@@ -237,6 +238,12 @@ class Bench(Reader):
     def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
         """Capture and commit the manifests; see `AsyncBench.commit`."""
         return self._thread.wait(self._bench.commit(message, mode))
+
+    def merge(self, revision: str, message: str = "") -> MergeMade:
+        """Merge a revision into what is checked out, where the result can stand on the table; see `pico.merging`."""
+        from pico.merging import merge
+
+        return merge(self.folder, revision, message)
 
     def render(
         self,

@@ -20,11 +20,9 @@ def merge(
     Nothing is written where a tunable was changed on both sides, or where the merged state is physically impossible
     (exit 3). Nothing moves: `pico plan` then shows what would.
     """
-    from pico.merging import merge
-
     session = Session.of(context)
     bench = session.bench()
-    made = merge(bench.folder, revision, message)
+    made = bench.merge(revision, message)
     if not session.json:
         session.report(made.diagnostics)
     session.show(view, made)

@@ -190,3 +190,16 @@ def test_the_driver_loads_nothing_heavy() -> None:
     program = "import sys, pico.history.driver; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, env=os.environ)
     assert not {"pygit2", "numpy", "typer", "rich", "pint"} & set(done.stdout.split())
+
+
+def test_branches_that_merged_each_other_before_merge_again(sandbox: Sandbox) -> None:
+    sandbox.git("checkout", "-q", "-b", "other", "side")
+    sandbox.git("merge", "-q", "--no-edit", "clash")
+    sandbox.git("checkout", "-q", "-b", "crossed", "clash")
+    sandbox.git("merge", "-q", "--no-edit", "side")
+    sandbox.commit(sandbox.file.read_text().replace("x: 10", "x: 11"))
+    sandbox.git("checkout", "-q", "other")
+    sandbox.commit(sandbox.file.read_text().replace("yaw: 0", "yaw: 9"))
+    sandbox.git("merge", "-q", "--no-edit", "crossed")
+    text = sandbox.file.read_text()
+    assert all(line in text for line in ("x: 11", "yaw: 9", "tip: 0.5", "tilt: 3  # by hand"))
