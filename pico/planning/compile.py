@@ -19,7 +19,7 @@ from pico.planning.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.movers import Place
 from pico.planning.request import Preference, Request
 from pico.planning.selection import done_by, selection, told
-from pico.planning.setdown import after_set_downs, set_downs
+from pico.planning.setdown import after_set_downs, left_standing, set_downs
 from pico.planning.situation import Situation, read_situation
 from pico.planning.target import Source, check_target, no_source
 from pico.planning.tethers import check_tethers
@@ -85,6 +85,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
+        diagnostics = (*diagnostics, *left_standing(setup, request.seen, operations))
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))

@@ -12,9 +12,7 @@ from pico.motion.zones import MARGIN, enters, shared_zones, within
 from pico.planning.conflicts import Conflicts, Spot
 from pico.planning.order import Closure, precedence
 from pico.planning.search import Step
-
-PARKED = 0.02
-"""Up to so far from its park pose an arm counts as parked [rad]."""
+from pico.planning.setdown import PARKED
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@ in a free storage slot."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -20,6 +21,8 @@ SET_DOWN_SECONDS = 6.0
 """What setting a part down takes where no motion is asked for [s]."""
 PARK_SECONDS = 3.0
 """What a park takes where no motion is asked for [s]."""
+PARKED = 0.02
+"""Up to so far from its park pose an arm counts as parked [rad]."""
 TRIES = 12
 """How many places are tried for a part that is held."""
 
@@ -136,6 +139,21 @@ def after_set_downs(
     waits = [last, *(str(count + len(rest) + i) for i in range(len(idle)))]  # one at a time: they may meet
     parks = (_park(setup, settled.seen, robot, wait, motion) for robot, wait in zip(idle, waits, strict=False))
     return [*first, *shifted, *parks]
+
+
+def left_standing(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Diagnostic]:
+    """Yield a warning for each arm with an empty hand that stands away from its park pose and that no operation uses:
+    one that was stopped on its way, where nothing is left to move."""
+    used = {o.robot for o in operations}
+    for name, state in sorted(seen.robots.items()):
+        arm = setup.lab.robots.get(name)
+        if arm is None or arm.model != "xarm7" or not state.joints or state.holding or name in used:
+            continue
+        if any(abs(q - math.radians(p)) > PARKED for q, p in zip(state.joints, arm.park, strict=False)):
+            hint = f"mind the beam and your hands; the next plan that moves a part with {name} parks it"
+            yield warning(
+                "not-parked", f"{name} stands where it was stopped, not at its park pose", hint=hint, address=name
+            )
 
 
 def _park(setup: Setup, seen: Observation, robot: str, after: str, motion: Motion | None) -> Operation:
