@@ -121,7 +121,7 @@ class Truth:
 
     def observe(self) -> Observation:
         robots = {arm: ObservedRobot(joints=(), holding=part) for arm, part in self.hands.items()}
-        return Observation(backend="toy", components={n: self.look(n) for n in PARTS}, robots=robots)
+        return Observation(backend="toy", person=False, components={n: self.look(n) for n in PARTS}, robots=robots)
 
     def store(self) -> None:
         """The table is what it is."""
