@@ -14,7 +14,7 @@ from pico.model.quantities import dimension
 
 CATALOG = load_catalog()
 HELD = [name for name, kind in CATALOG.items() if kind.geometry.grasp]
-FLAT = [name for name in HELD if not CATALOG[name].geometry.grasp.fixture]  # type: ignore[union-attr]
+FLAT = [name for name in HELD if CATALOG[name].geometry.grasp.fixture == "flat"]
 LENSES = (60, 75, 100, 125, 150, 200, 250)
 
 
