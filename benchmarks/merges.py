@@ -17,6 +17,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
+from itertools import islice
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -93,14 +94,8 @@ def told(name: str, count: int, judge: Callable[[Case], list[str]]) -> int:
 
 def real(count: int) -> Iterator[tuple[int, Case]]:
     """Yield cases in which both sides changed something."""
-    found = 0
-    for seed in range(10**6):
-        c = case(seed)
-        if len({c.base, c.ours, c.theirs}) == 3:
-            yield seed, c
-            found += 1
-            if found == count:
-                return
+    fitting = ((seed, c) for seed in range(10**6) if len({(c := case(seed)).base, c.ours, c.theirs}) == 3)
+    return islice(fitting, count)
 
 
 def _unmarked(c: Case, merged: str) -> list[str]:
