@@ -32,6 +32,8 @@ POSE_STEPS = (1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-5)  # mm, rad
 _OUTLIER = 4.0  # times the median distance, from which a corner is left out
 CORNER_NOISE = 0.025
 """One standard deviation of a corner of the board [pixels]."""
+MISFIT = 1.0
+"""Corners that are farther off than this at the end [pixels, root mean square] were not seen by one lens."""
 
 Shot = Mapping[str, BoardView]
 """The board as the cameras saw it at one instant, by camera."""
@@ -106,7 +108,21 @@ def bundle(
     problem = problem.without_outliers(found)
     found = solve(problem.residuals, found.parameters, np.array(steps), rounds=30)
     fitted, _ = problem.at(found.parameters)
-    return Bundle(fitted, problem.left(found), _position(fitted, seen, found))
+    residuals = problem.left(found)
+    _refuse_misfit(residuals)
+    return Bundle(fitted, residuals, _position(fitted, seen, found))
+
+
+def _refuse_misfit(residuals: Mapping[str, float]) -> None:
+    hint = "make the calibration again, with the board flat, printed to scale and all of it in the pictures"
+    wrong = [
+        error("calibration-fit", f"no lens explains what camera `{name}` saw: corners are {left:.3g} pixels off",
+              hint=hint, address=name)
+        for name, left in residuals.items()
+        if not left < MISFIT
+    ]  # fmt: skip
+    if wrong:
+        raise PicoError(wrong)
 
 
 @dataclass(frozen=True, eq=False)

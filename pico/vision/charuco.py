@@ -63,7 +63,8 @@ def charuco(board: Board) -> Any:
 
 
 def find_board(frame: Frame, board: Board = BOARD) -> BoardView | None:
-    """Return the inner corners of the board that a picture shows, or None where it shows fewer than six."""
+    """Return the inner corners of the board that a picture shows, or None where it shows fewer than six, or only ones
+    that lie nearly in one line, which do not tell how the board leans."""
     import cv2
     import numpy as np
 
@@ -72,6 +73,8 @@ def find_board(frame: Frame, board: Board = BOARD) -> BoardView | None:
         return None
     pixels: Any = np.asarray(corners, np.float32).reshape(-1, 1, 2)
     points = np.asarray(charuco(board).getChessboardCorners(), np.float64)[np.ravel(numbers)]
+    if np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[1] < board.square:
+        return None
     side = _pixels_a_mm(points, pixels.reshape(-1, 2), board.square) * (board.square - board.marker) / 2
     half = int(max(2, min(10, side * 0.8)))  # no more than the white between marker and corner
     done = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 60, 1e-4)

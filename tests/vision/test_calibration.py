@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from painted import bumped, looking, setup, stereo
@@ -13,8 +14,9 @@ from pico.diagnostics import PicoError
 from pico.model.pose import Pose
 from pico.vision.bundle import bundle
 from pico.vision.calibration import Calibration, calibration_digest, read_calibration, write_calibration
-from pico.vision.charuco import BOARD, BoardView, charuco
+from pico.vision.charuco import BOARD, BoardView, board_image, charuco, find_board
 from pico.vision.datums import datum_corners
+from pico.vision.frame import Frame
 from pico.vision.hand_eye import hand_eye, park_martin
 from pico.vision.markers import Markers, read_marker
 from pico.vision.rigid import apart, motion, rotation, upright
@@ -40,6 +42,32 @@ def table(camera, rng) -> Markers:
         for d in BENCH.lab.datums.values()
     ]
     return Markers(camera.name, tuple(found))
+
+
+def board_picture(millimetres: float) -> Frame:
+    """The upper part of the board, so many millimetres of it, on white paper."""
+    print_ = board_image(BOARD, 4.0)[: round(4 * millimetres)]
+    return Frame(np.pad(print_, 60, constant_values=255), (0, 0), "left", 0.0)
+
+
+def test_one_row_of_corners_does_not_tell_how_the_board_leans() -> None:
+    whole = find_board(board_picture(BOARD.size[1]))
+    assert whole is not None and len(whole.corners) == 24
+    row = board_picture(1.95 * BOARD.square)
+    _, numbers, _, _ = cv2.aruco.CharucoDetector(charuco(BOARD)).detectBoard(row.gray)
+    assert len(numbers) == 6
+    assert find_board(row) is None
+
+
+def test_pictures_that_no_lens_explains_are_refused() -> None:
+    rng = np.random.default_rng(4)
+    start = stereo()
+    shots = [{n: seen(c, pose, rng) for n, c in start.items()} for pose in poses(rng, 8)]
+    bent = [
+        {n: replace(v, pixels=v.pixels + rng.normal(0, 6, v.pixels.shape)) for n, v in shot.items()} for shot in shots
+    ]
+    with pytest.raises(PicoError, match="no lens explains what camera `left` saw"):
+        bundle(BENCH, bent, {n: table(c, rng) for n, c in start.items()}, start)
 
 
 def poses(rng, count: int) -> list[np.ndarray]:
