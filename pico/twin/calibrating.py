@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-SHOTS = 40
+SHOTS = 56
 """Poses of the board before the fixed cameras."""
 GLANCES = 14
 """Poses from which a hand looks at the board."""

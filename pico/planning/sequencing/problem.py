@@ -26,7 +26,7 @@ class Effort:
 
     moves: int = 1_200_000
     steps: int = 85_000_000
-    rounds: int = 7
+    rounds: int = 6
     seed: int = 0
 
 
