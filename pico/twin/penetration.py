@@ -1,8 +1,7 @@
 """What an arm or the part in its hand runs into, looked at in every step of the simulation.
 
 Allowed are the fingers on a part that they grip, and that part on the table where it is picked and placed. All else is
-a collision from the first touch. Contacts push back, so that even a violent one sinks in little: a touch is counted
-at any depth, and called a penetration from `DEEP` on, a quarter of the 2 mm that paths keep from everything.
+a collision from the first touch, however shallow: contacts push back, so that even a violent one sinks in little.
 """
 
 from __future__ import annotations
@@ -13,8 +12,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pico.twin.physics import Twin
 
-DEEP = 0.5
-"""Two bodies that overlap by more than this penetrate one another [mm]."""
 TOUCH = 0.01
 """Overlaps below this are rounding [mm]."""
 
@@ -56,11 +53,6 @@ class Watch:
     def deepest(self) -> float:
         """The greatest overlap of anything with an arm or what it carries [mm]; 0 where nothing was touched."""
         return max((touch.depth for touch in self.touches.values()), default=0.0)
-
-    @property
-    def penetrations(self) -> tuple[Touch, ...]:
-        """The collisions that went deeper than `DEEP`."""
-        return tuple(touch for touch in self.touches.values() if touch.depth > DEEP)
 
     def look(self) -> None:
         """Look at the contacts of the step that was just made."""
