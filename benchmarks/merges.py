@@ -15,9 +15,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from datetime import UTC, datetime
-from itertools import islice
+from itertools import count, islice
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -45,29 +45,30 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--cases", type=int, default=2000)
     parser.add_argument("--git", type=int, default=50, help="cases for each command of git, and for each failure")
+    parser.add_argument("--first", type=int, default=0, help="seed of the first of these; each command gets its own")
     parser.add_argument("--impossible", type=int, default=200)
     options = parser.parse_args()
     os.environ.update(ENVIRONMENT)
     wrong = pure(options.cases)
     with tempfile.TemporaryDirectory() as folder:
-        box = Box(Path(folder))
+        box, cases = Box(Path(folder)), real(options.first)
         for name, run in (
             ("git merge", box.merge), ("git rebase", box.rebase), ("git cherry-pick", box.cherry_pick),
             ("git revert", box.revert), ("git stash pop", box.stash_pop),
         ):  # fmt: skip
-            wrong += told(name, options.git, lambda c, run=run: faults(c, run(c)))
+            wrong += told(name, islice(cases, options.git), lambda c, run=run: faults(c, run(c)))
         for name in ("never set", "missing", "killed"):
             box.break_driver(name)
-            wrong += told(f"driver {name}", options.git, lambda c: _unmarked(c, box.merge(c)))
+            wrong += told(f"driver {name}", islice(cases, options.git), lambda c: _unmarked(c, box.merge(c)))
     with tempfile.TemporaryDirectory() as folder:
         wrong += impossible(Path(folder), options.impossible)
     return 1 if wrong else 0
 
 
-def pure(count: int) -> int:
+def pure(number: int) -> int:
     """Merge every case in both directions, and return how many went wrong."""
     start, wrong, conflicting = time.process_time(), 0, 0
-    for c in map(case, range(count)):
+    for c in map(case, range(number)):
         was, mine, other = (t.encode() for t in (c.base, c.ours, c.theirs))
         forth, back = merge(was, mine, other), merge(was, other, mine)
         conflicts = {(x.path[2], ".".join(x.path[3:])) for x in forth.conflicts}
@@ -75,27 +76,28 @@ def pure(count: int) -> int:
         alike = same and {x.path for x in forth.conflicts} == {x.path for x in back.conflicts}
         wrong += bool(faults(c, forth.data.decode())) or conflicts != c.conflicting or not alike
         conflicting += bool(c.conflicting)
-    seconds = (time.process_time() - start) / count / 2
-    print(f"{count} cases, both ways: {wrong} wrong; {conflicting} hold conflicts; {1000 * seconds:.1f} ms CPU a merge")
+    seconds = (time.process_time() - start) / number / 2
+    print(
+        f"{number} cases, both ways: {wrong} wrong; {conflicting} hold conflicts; {1000 * seconds:.1f} ms CPU a merge"
+    )
     return wrong
 
 
-def told(name: str, count: int, judge: Callable[[Case], list[str]]) -> int:
-    """Put as many cases before a judge, print and return how many went wrong."""
-    wrong = 0
-    for seed, c in real(count):
+def told(name: str, cases: Iterable[tuple[int, Case]], judge: Callable[[Case], list[str]]) -> int:
+    """Put cases before a judge, print and return how many went wrong."""
+    wrong = total = conflicting = 0
+    for seed, c in cases:
         found = judge(c)
-        wrong += bool(found)
+        total, wrong, conflicting = total + 1, wrong + bool(found), conflicting + bool(c.conflicting)
         if found:
             print(f"  seed {seed}: {'; '.join(found[:3])}")
-    print(f"{name}: {count} cases, {wrong} wrong", flush=True)
+    print(f"{name}: {total} cases, {conflicting} hold conflicts, {wrong} wrong", flush=True)
     return wrong
 
 
-def real(count: int) -> Iterator[tuple[int, Case]]:
-    """Yield cases in which both sides changed something."""
-    fitting = ((seed, c) for seed in range(10**6) if len({(c := case(seed)).base, c.ours, c.theirs}) == 3)
-    return islice(fitting, count)
+def real(first: int = 0) -> Iterator[tuple[int, Case]]:
+    """Yield cases, from a seed upward, in which both sides changed something."""
+    return ((seed, c) for seed in count(first) if len({(c := case(seed)).base, c.ours, c.theirs}) == 3)
 
 
 def _unmarked(c: Case, merged: str) -> list[str]:

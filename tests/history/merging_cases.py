@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import yaml
@@ -113,13 +114,28 @@ def faults(c: Case, merged: str) -> list[str]:
 
 
 def losses(c: Case, merged: str) -> list[Leaf]:
-    """Return the values that a side set and that are in no version of a merge, markers or not."""
+    """Return the values that a side set and that are in no version of a merge, markers or not.
+
+    What git's own merge leaves may hold a component twice, which is loud: every command refuses such a file.
+    """
     was, lost = state_of(c.base), []
     for side, text_of_side in (("ours", c.ours), ("theirs", c.theirs)):
-        seen = state_of(view(merged, side))
-        edited = {leaf: value for leaf, value in state_of(text_of_side).items() if value != was.get(leaf)}
-        lost += [leaf for leaf, value in edited.items() if seen.get(leaf) != value]
+        seen = set(_stated(view(merged, side)))
+        edited = {(leaf, value) for leaf, value in state_of(text_of_side).items() if value != was.get(leaf)}
+        lost += [leaf for leaf, _ in edited - seen]
     return sorted(set(lost))
+
+
+def _stated(manifest: str) -> Iterator[tuple[Leaf, float | str]]:
+    """Yield the values of a manifest, of a component that it holds twice both."""
+    top = yaml.compose(manifest)
+    parts = next(node for key, node in top.value if key.value == "components")
+    for name, part in parts.value:
+        for key, node in part.value:
+            inner = node.value if isinstance(node, yaml.MappingNode) else ()
+            yield from (((name.value, f"{key.value}.{k.value}"), yaml.safe_load(v.value)) for k, v in inner)
+            if not inner:
+                yield (name.value, key.value), yaml.safe_load(node.value)
 
 
 def _part(rng: random.Random, i: int) -> Part:
