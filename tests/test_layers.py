@@ -14,6 +14,7 @@ LAYERS: dict[str, set[str]] = {
     "expressions": set(),
     "model": {"diagnostics", "expressions"},
     "manifest": {"diagnostics", "expressions", "resources", "model"},
+    "trace": {"diagnostics", "model", "manifest"},
     "history": {"diagnostics", "resources", "model", "manifest"},
     "journal": {"diagnostics", "model"},
     "geometry": {"diagnostics", "model"},
