@@ -75,6 +75,17 @@ class Repository:
             raise PicoError(error("folder", f"can't make a repository in {path}", detail=str(exc))) from exc
         return cls(pygit2.Repository(str(path)), path.resolve())
 
+    @property
+    def common(self) -> Path:
+        """The folder of Git's own files that all worktrees share: `.git` of the main one."""
+        own = Path(self._git.path)
+        shared = own / "commondir"
+        return (own / shared.read_text().strip()).resolve() if shared.is_file() else own
+
+    def blob(self, name: str) -> bytes:
+        """Return the content of the file that has an object id of its own."""
+        return bytes(self._git[name].data)
+
     def head(self) -> Head:
         """Return what is checked out: labelled with a tag at the commit, else the branch, else the short id."""
         if self._git.head_is_unborn:
