@@ -9,10 +9,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.commit import Commit, Head
+from pico.history.run_files import run_trailers, write_once
+from pico.history.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
 from pico.manifest.files import read_folder
 from pico.manifest.load import Manifests, find_lab, load_files, load_folder
 from pico.model.diff import Change, diff_states
@@ -158,15 +161,32 @@ class LabFolder:
         self.reload()
         return Captured(changes=diff_states(self.setup, before, self.state), files=tuple(sorted(written)))
 
-    def commit(self, message: str, captured: tuple[Change, ...], evidence: str) -> Committed:
-        """Commit the manifests as they are, with the digest of their state and the evidence for it as trailers."""
+    def commit(
+        self,
+        message: str,
+        captured: tuple[Change, ...],
+        evidence: str,
+        *,
+        runs: Mapping[str, bytes] = MappingProxyType({}),
+        meta: Mapping[str, str] = MappingProxyType({}),
+    ) -> Committed:
+        """Commit the manifests as they are, with the files of runs, and return the commit; raises PicoError.
+
+        `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
+        `meta`: what `--meta key=value` gave. Trailers say the digest of the state and of the lab, the `evidence`, the
+        runs with their plans, and `meta`; they go into the block of trailers that `message` has.
+        """
+        require_meta(meta)
         repository = self.history()
-        paths = repository.changed(self.root)
+        written = [write_once(self.root / path, data) for path, data in sorted(runs.items())]
+        paths: list[str | Path] = [*repository.changed(self.root), *written]
         if not paths:
             hint = "`pico status` shows the bench, `pico log` what there is"
             raise PicoError(error("nothing-to-commit", "nothing to commit: the manifests are as in HEAD", hint=hint))
-        digest = self.state.digest()
-        made = repository.commit(paths, f"{message.strip()}\n\nPico-State: {digest}\nPico-Evidence: {evidence}\n")
+        digest, lab = self.state.digest(), self.setup.lab
+        added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
+        added += [(META, f"{key}={value}") for key, value in sorted(meta.items())]
+        made = repository.commit(paths, with_trailers(message, [*added, *run_trailers(runs)]))
         return Committed(
             commit=made.id,
             message=message.strip(),
@@ -175,6 +195,8 @@ class LabFolder:
             changes=self.entry(made).changes,
             captured=captured,
             realized=evidence != "planned",
+            runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
+            meta=meta,
         )
 
 

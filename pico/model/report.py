@@ -70,6 +70,7 @@ class Committed:
     """A commit that was made: its id and message, what it changed against its parent, and the digest of its state.
 
     `captured`: what was taken from the bench for it. `realized`: the bench stood as the commit says when it was made.
+    `runs`: the ids of the runs that it carries. `meta`: what `--meta` recorded.
     """
 
     commit: str
@@ -79,6 +80,8 @@ class Committed:
     changes: tuple[Change, ...] = ()
     captured: tuple[Change, ...] = ()
     realized: bool = True
+    runs: tuple[str, ...] = ()
+    meta: Mapping[str, str] = field(default_factory=dict)
 
 
 @record

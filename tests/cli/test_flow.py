@@ -190,7 +190,7 @@ def test_commit_refuses_edits_that_were_never_applied_unless_told_who_wins(shel:
     planned = pico("commit", "-m", "move p2", "--planned")
     assert planned.code == 0
     assert "never on the bench" in planned.out
-    assert pico("show", "--json").data["message"].endswith("Pico-Evidence: planned")
+    assert "\nPico-Evidence: planned\n" in pico("show", "--json").data["message"]
 
 
 def test_commit_with_capture_lets_the_bench_win(shel: Path, pico: Pico) -> None:
