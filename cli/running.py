@@ -72,7 +72,7 @@ def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = No
         for event in run:
             screen.show(event)
             events += [event] if record else []
-    session.show(report_view, run.report)
+    session.show(report_view, run.report, after=_after(plan))
     if not session.json:
         session.report(run.report.diagnostics)
     if record and recording and recording.snapshots:
@@ -80,6 +80,17 @@ def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = No
 
         film(session, bench, plan, recording, events, record)
     return int(run.report.exit_code)
+
+
+def _after(plan: Plan) -> str:
+    """Return how to keep what a run brought from a revision for some components, and how to go back."""
+    if not plan.target.only:
+        return ""
+    if not plan.target.revision:
+        return "Go back with `pico undo`."
+    named = f"{plan.target.revision} -- {' '.join(plan.target.only)}"
+    keep = f"keep it: `pico checkout {named}`, or `pico commit --capture`"
+    return f"The manifest is as it was; {keep}. Go back with `pico undo`."
 
 
 @contextmanager

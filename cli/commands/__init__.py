@@ -7,10 +7,12 @@ from importlib import import_module
 
 import typer
 
+from ..scope import Scoped
 from ..summary import COMMANDS
 
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
 GROUPS = ("catalog", "git", "sim")
+SCOPED = ("plan", "apply")  # these take names after `--`
 LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option
 
 
@@ -21,7 +23,8 @@ def register(app: typer.Typer, asked: str | None) -> None:
             app.add_typer(import_module(f".{name}", __name__).app if name == asked else _empty(name), name=name)
         elif name == asked:
             settings = LOOSE if name in ("do", "move", "rotate", "set") else None
-            app.command(name, context_settings=settings)(_function(name))
+            kind = Scoped if name in SCOPED else None
+            app.command(name, cls=kind, context_settings=settings)(_function(name))
         else:
             app.command(name, help=COMMANDS[name])(_nothing)
 

@@ -11,6 +11,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Exact, Exclude, Fidelity, PlanOrRevision, Prefer, Targets, Yes
 from ..running import execute, question
+from ..scope import scope_of
 from ..session import Session
 from ..views import plan as view
 from ..views import verified
@@ -49,9 +50,10 @@ def apply(
 ) -> int:
     """Move what the plan says.
 
-    Without an argument the bench becomes equal to the manifest. A name that is both a file and a revision is an
-    error; ./NAME is the file. A saved plan is refused (exit code 4) where what it stands on has changed since. With
-    --json: the plan, each event and the report, a line each.
+    Without an argument the bench becomes equal to the manifest. With names after `--` only these components or single
+    tunables do, and the manifest stays as it is: `pico apply e1 -- p2 p1.angle`. A name that is both a file and a
+    revision is an error; ./NAME is the file. A saved plan is refused (exit code 4) where what it stands on has changed
+    since. With --json: the plan, each event and the report, a line each.
     """
     session = Session.of(context)
     if record:
@@ -59,7 +61,8 @@ def apply(
 
         require_kind(session.folder / record)
     bench = session.bench(fidelity)
-    options = {"exact": exact, "prefer": prefer, "targets": target or (), "exclude": exclude or ()}
+    targets = (*(target or ()), *scope_of(context))
+    options = {"exact": exact, "prefer": prefer, "targets": targets, "exclude": exclude or ()}
     plan = bench.plan_of(what, folder=session.folder, **options)
     if is_saved(bench, what, session.folder):
         if refresh:

@@ -10,6 +10,7 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Targets
+from ..scope import scope_of
 from ..session import Session
 from ..views import picture as picture_view
 from ..views import plan as view
@@ -45,11 +46,14 @@ def plan(
 ) -> int:
     """Show what would move to make the bench equal to the manifest or a revision.
 
-    Nothing moves. Exits with 3 where the revision is physically impossible, with 1 on other errors.
+    With names after `--` for these components or single tunables only: `pico plan e1 -- p2 p1.angle`. Nothing moves.
+    Exits with 3 where the revision is physically impossible, with 1 on other errors.
     """
     session = Session.of(context)
     bench = session.bench(fidelity)
-    found = bench.plan(revision, exact=exact, prefer=prefer, targets=target or (), exclude=exclude or ())
+    named = scope_of(context)
+    targets = (*(target or ()), *named)
+    found = bench.plan(revision, exact=exact, prefer=prefer, targets=targets, exclude=exclude or ())
     if out and not found.errored:
         (session.folder / out).write_text(found.to_json() + "\n")
     if explain:
@@ -62,7 +66,7 @@ def plan(
             found,
             head=bench.head_name(),
             goal=bench.goal_name(found),
-            next_step=_next(revision, out, _again(target, exclude, prefer)),
+            next_step=_next(revision, out, _again(target, exclude, prefer), named),
         )
     if picture:
         with waiting("Drawing"):
@@ -77,13 +81,13 @@ def plan(
     return ExitCode.CHANGES if detailed_exitcode and (found.operations or found.absent) else ExitCode.DONE
 
 
-def _next(revision: str | None, out: Path | None, options: str) -> str:
+def _next(revision: str | None, out: Path | None, options: str, named: tuple[str, ...]) -> str:
     """Return what to type after a plan."""
     if out:
         return f"Saved. Apply with `pico apply {out if out.is_absolute() else f'./{out}'}`."
-    name = f" {revision}" if revision else ""
-    more = f"{name}{options}"
-    return f"Apply with `pico apply{more}`, or save with `pico plan{more} --out {revision or 'my'}.plan`."
+    more = f"{f' {revision}' if revision else ''}{options}"
+    last = f" -- {' '.join(named)}" if named else ""
+    return f"Apply with `pico apply{more}{last}`, or save with `pico plan{more} --out {revision or 'my'}.plan{last}`."
 
 
 def _again(targets: list[str] | None, exclude: list[str] | None, prefer: str) -> str:

@@ -216,7 +216,7 @@ def _summary(plan: Plan) -> list[str]:
         if plan.errored:
             return []
         if plan.target.scope:
-            return [f"Nothing to do ({plan.target.scope}). Without --target and --exclude a plan is for all."]
+            return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
         return [f"Nothing to do: the bench equals {goal_name(plan)}."]
     parts = [tally(plan.operations)]
     if any(op.primitive in ("move", "stow") for op in plan.operations):

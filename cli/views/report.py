@@ -13,8 +13,8 @@ from .diff import brief
 from .style import count, listed, paint, seconds, wrap
 
 
-def text(report: RunReport) -> str:
-    """Return the tally, and whether the bench now equals what was wanted."""
+def text(report: RunReport, *, after: str = "") -> str:
+    """Return the tally, and whether the bench now equals what was wanted; `after`: what to do once it is done."""
     total = report.done + report.failed + report.unknown + report.skipped
     parts = [f"{report.done} of {count(total, 'operation')} done"]
     back = sum(d.code == "put-back" for d in report.diagnostics)
@@ -31,7 +31,8 @@ def text(report: RunReport) -> str:
     said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
     lines = [f"{head[report.outcome]}: {said} · {took}"]
     lines += expectations(report.expectations)
-    return "\n".join(lines + [part for line in _bench(report) for part in wrap(line, "")])
+    ending = [*_bench(report), *([after] if after and report.outcome == "done" else [])]
+    return "\n".join(lines + [part for line in ending for part in wrap(line, "")])
 
 
 def expectations(found: Sequence[Expected]) -> list[str]:
@@ -80,7 +81,7 @@ def _partial(report: RunReport) -> str:
     return f"As asked, {report.scope}. The bench does not equal {report.goal}: {listed(report.left)} still {verb}."
 
 
-def data(report: RunReport) -> dict[str, Any]:
+def data(report: RunReport, **_: Any) -> dict[str, Any]:
     """Return schema `pico.report/v1`: outcome, tally, seconds, `remaining` changes, diagnostics."""
     found: dict[str, Any] = as_json(report)
     return found

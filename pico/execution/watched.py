@@ -121,11 +121,14 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
 
 
 def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
-    """Return the components that differ from the goal of a plan for some components, and that it left alone."""
+    """Return what differs from the goal of a plan for some components, and was left alone: components, and single
+    tunables (`p1.pose`) of those of which others were asked for."""
     wanted = state_from_json(plan.lab.name, plan.target.state)
     asked = {(c.component, c.tunable) for c in plan.changes}
-    rest = (c for c in diff_observed(setup, seen, wanted) if not c.tolerated)
-    return tuple(sorted({c.component for c in rest if (c.component, c.tunable) not in asked}))
+    parts = {component for component, _ in asked}
+    rest = [c for c in diff_observed(setup, seen, wanted) if not c.tolerated]
+    left = [c for c in rest if (c.component, c.tunable) not in asked]
+    return tuple(sorted({f"{c.component}.{c.tunable}" if c.component in parts else c.component for c in left}))
 
 
 def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:

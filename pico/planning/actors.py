@@ -16,7 +16,7 @@ def actors(request: Request, situation: Situation) -> tuple[tuple[Mover, ...], l
     """Return the movers and what stays; a mover that depends on a part which can't be planned for stays as well."""
     setup, seen = request.setup, request.seen
     names, put_off = [n for n in situation.moving if request.only.chosen(n)], list[Diagnostic]()
-    left = {n for n in situation.moving if n in request.only.exclude}
+    left = {n for n in situation.moving if request.only.excluded(n)}
     if not situation.robots and len(setup.lab.robots):
         held = [n for n in names if setup.movable(n)]
         names = [n for n in names if n not in held]
@@ -44,7 +44,7 @@ def _pulled_in(request: Request, situation: Situation, movers: dict[str, Mover],
     """Return what was not asked for but should move anyway, and stands where a mover should end."""
     if not request.only.targets:
         return set()
-    may = {n for n in situation.moving if n not in movers and n not in request.only.exclude}
+    may = {n for n in situation.moving if n not in movers and not request.only.excluded(n)}
     shapes = Grid.of({o.name: o.shape for o in obstacles if o.name in may})
     margin = request.setup.lab.margins.body
     goals = (goal_shape(m, m.goal) for m in movers.values())
@@ -77,7 +77,7 @@ def asides(request: Request, situation: Situation, movers: Sequence[Mover]) -> t
     put_off = {n for n in situation.moving if n not in busy and (request.only.chosen(n) or not situation.robots)}
     names = [
         n for n, part in sorted(request.seen.components.items())
-        if n in setup.lab.inventory and n not in busy and n not in put_off and n not in request.only.exclude
+        if n in setup.lab.inventory and n not in busy and n not in put_off and not request.only.excluded(n)
         and part.presence == "seen" and part.pose is not None and setup.movable(n)
         and (setup.lab.inventory[n].stage != "never" or n in situation.moving)
     ]  # fmt: skip

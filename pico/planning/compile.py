@@ -74,7 +74,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     request = replace(request, seen=emptied.seen)
     situation = read_situation(setup, request.seen, request.wanted, exact=request.exact)
     moves = compile_moves(request, situation) if situation.moving else Compiled()
-    asked = tuple(c for c in situation.changes if request.only.chosen(c.component))
+    asked = tuple(c for c in situation.changes if request.only.chosen(c.component, c.tunable))
     values, notes = value_operations(setup, request.seen, asked, request.reason)
     diagnostics = (*emptied.diagnostics, *situation.diagnostics, *moves.diagnostics, *notes)
     operations: tuple[Operation, ...] = ()
@@ -91,7 +91,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
     if not request.only.everything:
         done = done_by(operations)
-        changes = tuple(c for c in changes if request.only.chosen(c.component) or (c.component, c.tunable) in done)
+        own = {(c.component, c.tunable) for c in changes if request.only.chosen(c.component, c.tunable)} | done
+        changes = tuple(c for c in changes if (c.component, c.tunable) in own)
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.model.address import Named, addresses, holds, read_addresses
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.operation import Operation
@@ -14,48 +15,60 @@ from pico.planning.phrases import listed
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """The components that a plan is for: the `targets` (all where there is none), without those `exclude`d."""
+    """What a plan is for: the `targets` (everything where there is none), without what is `exclude`d."""
 
-    targets: frozenset[str] = frozenset()
-    exclude: frozenset[str] = frozenset()
+    targets: Named = field(default_factory=dict)
+    exclude: Named = field(default_factory=dict)
 
     @property
     def everything(self) -> bool:
         return not self.targets and not self.exclude
 
-    def chosen(self, name: str) -> bool:
-        """Whether a component is asked for."""
-        return (not self.targets or name in self.targets) and name not in self.exclude
+    def chosen(self, name: str, tunable: str = "pose") -> bool:
+        """Whether a tunable of a component is asked for."""
+        return (not self.targets or holds(self.targets, name, tunable)) and not self.excluded(name, tunable)
+
+    def excluded(self, name: str, tunable: str = "pose") -> bool:
+        """Whether a tunable of a component is to be left as it is, whatever is in its way."""
+        return holds(self.exclude, name, tunable)
 
 
 EVERYTHING = Selection()
 
 
 def selection(setup: Setup, targets: Collection[str], exclude: Collection[str]) -> Selection:
-    """Return a selection; raises PicoError for a component that the lab does not have, or that is in both."""
-    known = setup.lab.inventory
-    found = [
-        error("unknown-component", f"the lab has no component `{name}`", hint=did_you_mean(name, known))
-        for name in sorted({*targets, *exclude}) if name not in known
-    ] + [
-        error("usage", f"{name} is both asked for and excluded", hint="name it once")
-        for name in sorted({*targets} & {*exclude})
-    ]  # fmt: skip
-    if found:
-        raise PicoError(found)
-    return Selection(frozenset(targets), frozenset(exclude))
+    """Return a selection; `p2` is a component, `p1.angle` one tunable of it.
+
+    Raises PicoError for what the lab does not have, and for what is asked for and excluded.
+    """
+    named, without = read_addresses(setup, {*targets}), read_addresses(setup, {*exclude})
+    both = [name for name in addresses(named) if _covered(without, name)]
+    if both:
+        raise PicoError(
+            [error("usage", f"{name} is both asked for and excluded", hint="name it once") for name in both]
+        )
+    return Selection(named, without)
+
+
+def _covered(without: Named, address: str) -> bool:
+    component, _, tunable = address.partition(".")
+    return without.get(component, frozenset()) is None or holds(without, component, tunable)
 
 
 def done_by(operations: Sequence[Operation]) -> set[tuple[str, str]]:
     """Return the components and tunables that operations change; what an interlock sets is set back."""
     own = [o for o in operations if o.primitive != "park" and o.reason.kind != "interlock"]
-    return {(o.component, str(o.arguments.get("tunable", "pose"))) for o in own}
+    return {(o.component, _tunable(o)) for o in own}
+
+
+def _tunable(operation: Operation) -> str:
+    return str(operation.arguments.get("tunable", "pose"))
 
 
 def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Operation]) -> Iterator[Diagnostic]:
     """Yield what a selection pulls in besides what was asked for, and what it leaves as it is."""
     own = [o for o in operations if o.reason.kind not in ("parked", "interlock")]
-    for name in sorted({o.component for o in own if not chosen.chosen(o.component)}):
+    for name in sorted({o.component for o in own if not chosen.chosen(o.component, _tunable(o))}):
         waiting = sorted({o.component for o in operations if name in o.reason.of} - {name})
         waiting = waiting or sorted({n for o in operations if o.component == name for n in o.reason.of})
         whom = listed(waiting) or "what was asked for"
@@ -66,11 +79,17 @@ def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Oper
             address=name,
         )
     done = done_by(operations)
-    left = sorted({c.component for c in changes if not c.tolerated and (c.component, c.tunable) not in done})
-    left = [name for name in left if not chosen.chosen(name)]
+    rest = [c for c in changes if not c.tolerated and (c.component, c.tunable) not in done]
+    left = sorted({_name(chosen, c) for c in rest if not chosen.chosen(c.component, c.tunable)})
     if left:
         names = ", ".join(left[:6]) + (f" and {len(left) - 6} more" if len(left) > 6 else "")
         yield warning(
             "left", f"{names} {'differs' if len(left) == 1 else 'differ'} from the state wanted, and "
-            f"{'stays' if len(left) == 1 else 'stay'} so", hint="plan without --target and --exclude for all of them",
+            f"{'stays' if len(left) == 1 else 'stay'} so", hint="a plan that names no component is for all of them",
         )  # fmt: skip
+
+
+def _name(chosen: Selection, change: Change) -> str:
+    """Return `p2`, or `p2.pose` where something else of p2 was asked for."""
+    apart = change.component in chosen.targets or chosen.exclude.get(change.component)
+    return f"{change.component}.{change.tunable}" if apart else change.component

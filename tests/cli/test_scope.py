@@ -95,3 +95,43 @@ def test_how_long_ago(now: str, words: str) -> None:
     then = datetime.fromisoformat(f"2026-01-01T{now}").replace(tzinfo=UTC)
     assert ago("2026-01-01T12:00:00+00:00", then) == words
     assert ago("2026-01-01T12:00:00Z", then) == words
+
+
+def test_names_after_two_dashes_are_what_a_plan_is_for(shel: Path, pico: Pico) -> None:
+    answer = pico("plan", "e1", "--", "p2", "p1.angle")
+    assert answer.code == 0 and " · only p1.angle and p2 · " in answer.out
+    assert "`pico apply e1 -- p2 p1.angle`" in answer.out
+    assert "`pico plan e1 --out e1.plan -- p2 p1.angle`" in answer.out
+    assert "lx_125, ly_150, p1.pose" in answer.err
+    assert pico("plan", "--json", "--", "p2").data["target"]["only"] == ["p2"]
+    assert "revision" not in pico("plan", "--json", "--", "p2").data["target"]
+
+
+def test_the_rest_of_a_component_stays_as_it_stands(shel: Path, pico: Pico) -> None:
+    manifest = (shel / "state" / "table.yaml").read_text()
+    pico("apply", "main", "--auto-approve")
+    answer = pico("apply", "e1", "--auto-approve", "--", "p2.pose")
+    assert answer.code == 0
+    assert "The bench does not equal e1: lx_125, ly_150 and p1 still" in answer.out
+    assert "keep it: `pico checkout e1 -- p2.pose`" in answer.out and "`pico undo`" in answer.out
+    assert pico("get", "p2", "--json").data["values"]["pose"]["value"]["yaw"] == pytest.approx(30)
+    assert (shel / "state" / "table.yaml").read_text() == manifest
+    assert pico("undo", "--auto-approve").code == 0
+    assert pico("plan", "main", "--detailed-exitcode").code == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["plan", "e1", "--", "p3"], "no component `p3`"),
+        (["plan", "e1", "--", "p2.angel"], "did you mean `angle`?"),
+        (["plan", "e1", "--", "p2.slot"], "name it as `pose`"),
+        (["plan", "e1", "--", "--exact"], "options go before `--`"),
+        (["plan", "e1", "p2"], "components go after `--`"),
+        (["apply", "e1.plan", "--", "p2"], "is a saved plan"),
+    ],
+)
+def test_mistakes_after_two_dashes_are_named(shel: Path, pico: Pico, words: list[str], said: str) -> None:
+    pico("plan", "e1", "--out", "e1.plan")
+    answer = pico(*words)
+    assert answer.code == 1 and said in answer.err

@@ -80,3 +80,42 @@ def test_an_unknown_target_is_an_error() -> None:
     setup = bench({"a": "block"})
     with pytest.raises(PicoError, match="no component `b`"):
         planned(setup, see(setup, {"a": (300, 300)}), want({"a": (300, 400)}), targets=("b",))
+
+
+def test_one_tunable_of_a_component_may_be_asked_for_or_left_out() -> None:
+    setup = bench({"a": "block", "b": "block"})
+    seen = see(setup, {"a": (300, 300), "b": (500, 300)}, {"a": {"angle": 0.0}, "b": {"angle": 0.0}})
+    wanted = want({"a": (300, 400), "b": (500, 400)}, {"a": {"angle": 9.0}, "b": {"angle": 9.0}})
+    made = planned(setup, seen, wanted, targets=["a.angle"])
+    assert [(o.primitive, o.component) for o in made.operations] == [("set", "a")]
+    assert [(c.component, c.tunable) for c in made.changes] == [("a", "angle")]
+    assert [d.summary for d in made.diagnostics] == ["a.pose, b differ from the state wanted, and stay so"]
+    rest = planned(setup, seen, wanted, exclude=["a.angle", "b"])
+    assert moves(rest) == [("a", "300,400")] and "set" not in {o.primitive for o in rest.operations}
+
+
+def test_a_component_asked_for_its_angle_alone_still_makes_way() -> None:
+    setup = bench({"a": "block", "b": "block"})
+    seen = see(setup, {"a": (300, 300), "b": (500, 300)}, {"b": {"angle": 0.0}})
+    wanted = want({"a": (500, 300), "b": (700, 300)}, {"b": {"angle": 9.0}})
+    made = planned(setup, seen, wanted, targets=("a", "b.angle"))
+    assert moves(made) == [("b", "700,300"), ("a", "500,300")]
+    assert [d.summary for d in made.diagnostics] == ["b is moved as well: it is in the way of a"]
+
+
+@pytest.mark.parametrize(
+    ("targets", "exclude", "said"),
+    [
+        (["a.angel"], [], "a has no tunable `angel`"),
+        (["c.angle"], [], "the lab has no component `c`"),
+        (["a.pose.x"], [], "a has no tunable `pose.x`"),
+        (["a."], [], "a has no tunable ``"),
+        (["a.angle"], ["a"], "a.angle is both asked for and excluded"),
+        (["a.angle"], ["a.angle"], "a.angle is both asked for and excluded"),
+    ],
+)
+def test_what_the_lab_does_not_have_can_not_be_asked_for(targets: list[str], exclude: list[str], said: str) -> None:
+    setup = bench({"a": "block", "b": "block"})
+    seen = see(setup, {"a": (300, 300), "b": (500, 300)}, {"a": {"angle": 0.0}})
+    with pytest.raises(PicoError, match=said):
+        planned(setup, seen, want({"a": (300, 400)}), targets=targets, exclude=exclude)
