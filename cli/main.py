@@ -15,9 +15,12 @@ def main(argv: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="replace")  # a terminal that can't show ✓ shows ? instead of failing
     at_once = _at_once(words)
     if at_once is None:
-        from .app import run
+        try:
+            from .app import run
 
-        return run(words)
+            return run(words)
+        except KeyboardInterrupt:  # while it loaded, or while it said that it was interrupted
+            return 130
     try:
         print(at_once, flush=True)
     except BrokenPipeError:

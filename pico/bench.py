@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -51,9 +52,10 @@ class Bench(Reader):
         return cls(AsyncBench.open(path, backend=backend, fidelity=fidelity, speed=speed))
 
     def close(self) -> None:
-        """Let go of the backend and end the private thread."""
+        """Let go of the backend and end the private thread; one left busy by Ctrl-C is not waited for."""
         if self._thread.started:
-            self._thread.wait(self._bench.close())
+            if not self._thread.left_busy:
+                self._thread.wait(self._bench.close())
             self._thread.close()
 
     def __enter__(self) -> Bench:
@@ -192,8 +194,18 @@ class Bench(Reader):
         return self._bench.film(recording, out, captions=captions, fps=fps)
 
     def apply(self, what: Plan | str | None = None) -> RunReport:
-        """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it."""
-        return self._thread.wait(self._bench.apply(what))
+        """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it.
+
+        KeyboardInterrupt halts the run at a safe waypoint before it goes on to the caller.
+        """
+        run = self.run(what if isinstance(what, Plan) else self.plan(what))
+        try:
+            deque(run, maxlen=0)
+        except KeyboardInterrupt:
+            run.halt()
+            deque(run, maxlen=0)
+            raise
+        return run.report
 
     def status(self) -> Status:
         """Return committed, desired and live side by side."""
@@ -213,7 +225,8 @@ class Bench(Reader):
         """Bring back what drifted, where the lab's policy allows it; see `pico.watching`."""
         from pico import watching
 
-        return self._thread.wait(watching.heal(self._bench, found))
+        plan = self._thread.wait(watching.heal_plan(self._bench, found))
+        return self.apply(plan) if plan else None
 
     def verify(self, revision: str | None = None) -> Verified:
         """Return how the bench stands against a revision, or the manifest, and its expectations."""

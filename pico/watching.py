@@ -17,7 +17,7 @@ from pico.model.record import record
 if TYPE_CHECKING:
     from pico.async_bench import AsyncBench
     from pico.journal import JournalRecord
-    from pico.model.report import RunReport
+    from pico.model.plan import Plan
 
 Who = Literal["operation", "person", "unknown"]
 ALIKE = 0.3
@@ -89,8 +89,8 @@ def _moved_on(before: Change, now: Change) -> bool:
     return before.text != now.text
 
 
-async def heal(bench: AsyncBench, found: Drifted) -> RunReport | None:
-    """Bring back what drifted and no operation put where it is; None where there is nothing to bring back.
+async def heal_plan(bench: AsyncBench, found: Drifted) -> Plan | None:
+    """Return the plan that brings back what drifted and no operation put where it is; None where there is nothing.
 
     Raises PicoError: DENIED where the lab's policy does not allow it, and where the plan can't or must not be run.
     """
@@ -101,7 +101,7 @@ async def heal(bench: AsyncBench, found: Drifted) -> RunReport | None:
     plan = await bench.plan("HEAD", targets=names)
     if plan.errored:
         raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
-    return await bench.apply(plan) if plan.operations else None
+    return plan if plan.operations else None
 
 
 def require_heal(setup: Setup) -> None:

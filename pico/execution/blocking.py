@@ -22,6 +22,8 @@ class LoopThread:
 
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
+        self.left_busy = False
+        """Whether somebody stopped waiting for what the thread still does."""
 
     @property
     def started(self) -> bool:
@@ -36,8 +38,14 @@ class LoopThread:
         return asyncio.run_coroutine_threadsafe(work, self._loop)
 
     def wait(self, work: Coroutine[Any, Any, T]) -> T:
-        """Run a coroutine and return its result, or raise what it raises."""
-        return self.submit(work).result()
+        """Run a coroutine and return its result, or raise what it raises; Ctrl-C ends the waiting at once."""
+        future = self.submit(work)
+        try:
+            return future.result()
+        except KeyboardInterrupt:
+            self.left_busy = not future.done()
+            future.cancel()
+            raise
 
     def close(self) -> None:
         """End the thread."""

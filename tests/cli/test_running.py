@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
+from commanding import Pico
 from pico_cli.running import execute, question
 from pico_cli.session import Session
 
+from pico.async_bench import AsyncBench
+from pico.bench import Bench
 from pico.model.event import Event
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
@@ -87,6 +93,34 @@ def test_ctrl_c_halts_then_stops_and_ends_with_a_tally(
     assert "✓ 1/2 lx_125 storage/a1 → (395, 420, 0°)" in out
     assert "off by 0.11 mm" in out
     assert "Interrupted: 1 of 2 operations done, 1 not started · 9.8 s simulated" in out
+
+
+def test_ctrl_c_while_it_plans_does_not_wait_for_the_plan(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    enough, planned = threading.Event(), threading.Event()
+
+    async def endless(self: AsyncBench, *_: Any, **__: Any) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        enough.wait(60)
+        planned.set()
+
+    monkeypatch.setattr(AsyncBench, "plan", endless)
+    answer = pico("apply", "e1", "--auto-approve")
+    assert (answer.code, planned.is_set()) == (130, False)
+    assert "interrupted; nothing has moved" in answer.err
+    enough.set()
+
+
+def test_ctrl_c_in_a_script_halts_the_run_before_the_script_hears_of_it(
+    shel: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = Interrupted(1)
+    monkeypatch.setattr(Bench, "run", lambda *_: run)
+    with Bench.open(shel) as bench, pytest.raises(KeyboardInterrupt):
+        bench.apply(PLAN)
+    assert run.calls == ["halt"]
+    assert run.over
 
 
 def test_a_failure_names_its_dependents(capsys: pytest.CaptureFixture[str]) -> None:
