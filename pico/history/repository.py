@@ -76,6 +76,11 @@ class Repository:
         return cls(pygit2.Repository(str(path)), path.resolve())
 
     @property
+    def handle(self) -> Any:
+        """The repository as libgit2 holds it, for what reads in bulk."""
+        return self._git
+
+    @property
     def common(self) -> Path:
         """The folder of Git's own files that all worktrees share: `.git` of the main one."""
         own = Path(self._git.path)
@@ -102,6 +107,11 @@ class Repository:
         A branch that only a remote has counts too, as in `git checkout`. Raises PicoError naming the revision.
         """
         return self._commit(find(self._git, self.root, revision), names_at(self._git))
+
+    def commits(self, ids: Iterable[str]) -> dict[str, Commit]:
+        """Return commits by their full ids, the names of all looked up at once; raises KeyError."""
+        refs = names_at(self._git)
+        return {name: self._commit(self._git[name], refs) for name in ids}
 
     def files(
         self, revision: str, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None

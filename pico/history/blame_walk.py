@@ -1,0 +1,188 @@
+"""Blame of the commits of a repository: from the cache, else from the nearest answer there on, else from the start."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import re
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from pico.diagnostics import PicoError, error
+from pico.history.blame import Blame, Delta, Step, walk
+from pico.history.blame_answer import Answer, RunFile, Unread, answer, dumps, loads
+from pico.history.blame_cache import VERSION, Cache
+from pico.history.blame_leaves import Flat, flatten
+from pico.history.blame_leaves import loads as flat_from
+from pico.history.repository import Repository
+from pico.history.trees import is_manifest
+from pico.manifest.files import MAX_BYTES
+from pico.resources import catalog_dir
+
+CACHE = "pico/blame.sqlite"
+_RUN = re.compile(r"runs/\d{4}/\d{2}/[^/]+/run\.json")
+_MOST_UNREAD = 20
+
+
+class Walker:
+    """Reads the history of the lab in `folder` (relative to the repository's top; empty: the top)."""
+
+    def __init__(self, repository: Repository, folder: str) -> None:
+        self.repository, self.folder = repository, folder
+        self._git: Any = repository.handle
+        self.cache = Cache(repository.common / CACHE)
+        self.shallow = _shallow(repository.common)
+        self._lab = _digest(VERSION, folder, _catalog_stamp(), sorted(self.shallow))
+        self._unread: list[Unread] = []
+        self._runs: dict[str, tuple[RunFile, ...]] = {}
+
+    def answer(self, commit: str) -> Answer:
+        """Return the blame of a commit, and keep it; raises PicoError where Git's objects are damaged."""
+        found = self._kept(commit)
+        if found is None:
+            found = answer(self.blame(commit), packaged_units, self._unread, self._runs)
+            self.cache.flush()
+            self.cache.put_result(self._lab, commit, dumps(found))
+        return found
+
+    def blame(self, commit: str) -> Blame:
+        """Return the blame of a commit as what a walk can go on from."""
+        start = self._nearest(commit)
+        known = self._rebuilt(start) if start else None
+        try:
+            steps = self._steps(commit, start if known else None)
+            return walk(steps, self._delta, packaged_units, {start: known} if start and known else None)
+        except (KeyError, ValueError) as exc:
+            hint = "`git fsck` says which; `git fetch` may bring it back"
+            raise PicoError(
+                error("git-unreadable", "an object of the history is missing or damaged", detail=str(exc), hint=hint)
+            ) from exc
+
+    def files(self, commit: str) -> dict[str, str]:
+        """Return the manifests of a commit: their ids by path below the lab."""
+        return {path: name for path, name in _below(self._tree(commit)) if is_manifest(path)}
+
+    def flat(self, name: str) -> Flat:
+        """Return what a manifest says, by the id of its content."""
+        text = self.cache.get(f"flat {name}")
+        if text is not None:
+            with contextlib.suppress(ValueError, TypeError, AttributeError):
+                return flat_from(text)
+        flat = flatten(self._content(name))
+        self.cache.put(f"flat {name}", flat.dumps())
+        return flat
+
+    def _content(self, name: str) -> bytes:
+        blob = self._git[name]
+        return bytes(blob.data) if blob.size <= MAX_BYTES else b"#" * (MAX_BYTES + 1)
+
+    def _kept(self, commit: str) -> Answer | None:
+        text = self.cache.result(self._lab, commit)
+        with contextlib.suppress(ValueError, TypeError, IndexError, AttributeError):
+            return loads(text) if text is not None else None
+        return None
+
+    def _nearest(self, commit: str) -> str | None:
+        """Return the commit with an answer that the fewest commits separate from this one, among its ancestors."""
+        best: tuple[int, str] | None = None
+        for name in self.cache.results(self._lab):
+            if name not in self._git:
+                continue
+            ahead, behind = self._git.ahead_behind(commit, name)
+            if not behind and (best is None or ahead < best[0]):
+                best = (ahead, name)
+        return best[1] if best else None
+
+    def _rebuilt(self, commit: str) -> Blame | None:
+        found = self._kept(commit)
+        files = {path: self.flat(name) for path, name in self.files(commit).items()}
+        if found is None or any(flat.wrong for flat in files.values()):
+            return None  # what a file said before it could not be read is not in the answer
+        self._unread, self._runs = list(found.unread), dict(found.runs)
+        return Blame.of(files, {at: row.node for at, row in found.rows.items()})
+
+    def _steps(self, commit: str, start: str | None) -> list[Step]:
+        """Return the commits from `start` on, parents first; all of them where others than it lead there, too."""
+        from pygit2.enums import SortMode
+
+        walker = self._git.walk(commit, SortMode.TOPOLOGICAL | SortMode.REVERSE)
+        if start:
+            walker.hide(start)
+        steps = [Step(str(c.id), tuple(str(p) for p in c.parent_ids)) for c in walker]
+        if start and not {p for s in steps for p in s.parents} <= {start, *(s.commit for s in steps)}:
+            return self._steps(commit, None)
+        return steps
+
+    def _delta(self, commit: str, base: str | None) -> Delta:
+        changed = dict(_changed(self._tree(base) if base else None, self._tree(commit)))
+        runs = tuple((path, name) for path, name in changed.items() if name and _RUN.fullmatch(path))
+        if runs:
+            self._runs[commit] = runs
+        delta = {path: self.flat(name) if name else None for path, name in changed.items() if is_manifest(path)}
+        wrong = [Unread(commit, path, flat.wrong) for path, flat in delta.items() if flat and flat.wrong]
+        self._unread = [*self._unread, *wrong][-_MOST_UNREAD:] if wrong else self._unread
+        return delta
+
+    def _tree(self, commit: str) -> Any:
+        """Return the lab's folder in a commit, None where it has none."""
+        import pygit2
+
+        tree = self._git[commit].tree
+        try:
+            found = tree[self.folder] if self.folder else tree
+        except KeyError:
+            return None
+        return found if isinstance(found, pygit2.Tree) else None
+
+
+@cache
+def packaged_units(kind: str) -> Mapping[str, str]:
+    """Return the units of the tunables of a packaged component type; none where there is no such type."""
+    path = catalog_dir() / f"{kind}.yaml"
+    if not kind.isidentifier() or not path.is_file():
+        return {}
+    return flatten(path.read_bytes()).units.get(kind, {})
+
+
+def _changed(before: Any, after: Any) -> Iterator[tuple[str, str | None]]:
+    """Yield the files that differ between two trees, by path, with their new id; None for what is no file any more."""
+    if before is None or after is None:
+        yield from _below(after)
+        yield from ((path, None) for path, _ in _below(before))
+        return
+    if before.id == after.id:
+        return
+    for delta in before.diff_to_tree(after).deltas:
+        file = delta.new_file
+        yield file.path, str(file.id) if _regular(file.mode) else None
+
+
+def _below(tree: Any, at: str = "") -> Iterator[tuple[str, str]]:
+    for entry in tree if tree is not None else ():
+        if entry.type_str == "tree":
+            yield from _below(entry, f"{at}{entry.name}/")
+        elif _regular(entry.filemode):
+            yield at + entry.name, str(entry.id)
+
+
+def _regular(mode: int) -> bool:
+    """Whether this is a file: no link, no submodule, not gone."""
+    return mode & 0o170000 == 0o100000
+
+
+def _shallow(common: Path) -> frozenset[str]:
+    try:
+        return frozenset((common / "shallow").read_text().split())
+    except OSError:
+        return frozenset()
+
+
+def _catalog_stamp() -> list[tuple[str, int, int]]:
+    found = ((path.name, path.stat()) for path in sorted(catalog_dir().glob("*.yaml")))
+    return [(name, stat.st_size, stat.st_mtime_ns) for name, stat in found]
+
+
+def _digest(*parts: object) -> str:
+    return hashlib.sha256(repr(parts).encode()).hexdigest()[:32]
