@@ -121,7 +121,7 @@ class LabFolder:
 
     def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
         """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
-        return _between(self.historic(a or "HEAD"), self.historic(b) if b else (self.setup, self.state))
+        return between(self.historic(a or "HEAD"), self.historic(b) if b else (self.setup, self.state))
 
     def entry(self, commit: Commit) -> Entry:
         """Return a commit with its physical diff. What a first commit is compared with is every part at home."""
@@ -134,7 +134,7 @@ class LabFolder:
             before = self.historic(commit.parents[0]) if commit.parents else home
         except PicoError:
             before = home
-        return Entry(commit=commit, changes=_between(before, after))
+        return Entry(commit=commit, changes=between(before, after))
 
     def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
         """Yield the commits that changed the lab, newest first: of a revision (HEAD), or of `every` branch and tag."""
@@ -213,7 +213,7 @@ def _at_revision(d: Diagnostic, revision: str) -> Diagnostic:
     return replace(d, hint=hint)
 
 
-def _between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Change, ...]:
+def between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Change, ...]:
     """Return what differs between two states, each with its own bench; where the benches differ, the later counts."""
     (bench_a, state_a), (bench_b, state_b) = a, b
     lab = replace(
