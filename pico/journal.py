@@ -28,12 +28,13 @@ from pico.model.record import as_json, digest, record
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 RunOutcome = Literal["done", "failed", "interrupted"]
 
-VERSION = 2
+VERSION = 3
 _PHASE: Mapping[str, int] = {"intent": 0, "started": 1, "done": 2, "failed": 2, "unknown": 2, "resolved": 3}
 _RUNS = """
 CREATE TABLE IF NOT EXISTS runs (
   number INTEGER PRIMARY KEY AUTOINCREMENT, run TEXT NOT NULL UNIQUE, plan TEXT NOT NULL, holder TEXT NOT NULL,
-  started_at TEXT NOT NULL, finished_at TEXT, outcome TEXT, tally TEXT, document TEXT, resumed INTEGER DEFAULT 0
+  started_at TEXT NOT NULL, finished_at TEXT, outcome TEXT, tally TEXT, document TEXT, resumed INTEGER DEFAULT 0,
+  about TEXT, seen TEXT
 );
 CREATE TABLE IF NOT EXISTS fence (one INTEGER PRIMARY KEY CHECK (one = 1), token INTEGER NOT NULL);
 INSERT OR IGNORE INTO fence VALUES (1, 0);
@@ -44,6 +45,10 @@ ALTER TABLE runs RENAME TO old_runs;
 INSERT INTO runs (run, plan, holder, started_at, finished_at, outcome, tally)
   SELECT run, plan, holder, started_at, finished_at, outcome, tally FROM old_runs ORDER BY started_at, run;
 DROP TABLE old_runs;
+"""
+_FROM_2 = """
+ALTER TABLE runs ADD COLUMN about TEXT;
+ALTER TABLE runs ADD COLUMN seen TEXT;
 """
 _TABLES = f"""
 {_RUNS}
@@ -137,7 +142,7 @@ class Journal:
         if version > VERSION:
             raise PicoError(error("journal", f"{self.path} is of a newer PICO (version {version})", hint="update PICO"))
         if version < VERSION:
-            script = _TABLES if version == 0 else _FROM_1
+            script = {0: _TABLES, 1: _FROM_1, 2: _FROM_2}[version]
             self._db.executescript(f"BEGIN EXCLUSIVE;{script}PRAGMA user_version={VERSION};COMMIT;")
 
     def close(self) -> None:
@@ -154,21 +159,31 @@ class Journal:
 
     # runs
 
-    def begin_run(self, run: str, plan: str, holder: str, *, document: str | None = None) -> None:
-        """Record that a run of the plan with digest `plan` begins, with the plan itself as JSON (`document`)."""
-        row = (run, plan, holder, self._clock(), document)
-        columns = "INSERT OR IGNORE INTO runs (run, plan, holder, started_at, document) VALUES (?, ?, ?, ?, ?)"
+    def begin_run(
+        self, run: str, plan: str, holder: str, *, document: str | None = None, about: Mapping[str, Any] | None = None
+    ) -> None:
+        """Record that a run of the plan with digest `plan` begins, with the plan itself as JSON (`document`).
+
+        `about`: what the plan does not say of it, see `pico.execution.about`.
+        """
+        row = (run, plan, holder, self._clock(), document, _text([about or {}]))
+        columns = (
+            "INSERT OR IGNORE INTO runs (run, plan, holder, started_at, document, about) VALUES (?, ?, ?, ?, ?, ?)"
+        )
         with self._guarded():
             self._db.execute(columns, row)
             known = self._db.execute("SELECT plan FROM runs WHERE run = ?", (run,)).fetchone()[0]
         if known != plan:
             raise PicoError(error("journal-key", f"run {run} is of another plan", hint="start the run under a new id"))
 
-    def resume_run(self, run: str) -> int:
+    def resume_run(self, run: str, about: Mapping[str, Any] | None = None) -> int:
         """Record that a run is taken up again, with a new plan to the same goal; return how often it now was."""
-        change = "UPDATE runs SET finished_at = NULL, outcome = NULL, tally = NULL, resumed = resumed + 1 WHERE run = ?"
+        change = (
+            "UPDATE runs SET finished_at = NULL, outcome = NULL, tally = NULL, seen = NULL, resumed = resumed + 1,"
+            " about = json_insert(coalesce(about, '[{}]'), '$[#]', json(?)) WHERE run = ?"
+        )
         with self._guarded():
-            self._db.execute(change, (run,))
+            self._db.execute(change, (_text(about or {}), run))
             row = self._db.execute("SELECT resumed FROM runs WHERE run = ?", (run,)).fetchone()
         if row is None:
             raise PicoError(error("journal-key", f"the journal has no run {run}"))
@@ -179,6 +194,11 @@ class Journal:
         row = (self._clock(), outcome, _text(as_json(tally)), run)
         with self._guarded():
             self._db.execute("UPDATE runs SET finished_at = ?, outcome = ?, tally = ? WHERE run = ?", row)
+
+    def saw(self, run: str, seen: Mapping[str, Any]) -> None:
+        """Record how the bench was observed when a run was over, see `pico.execution.about`."""
+        with self._guarded():
+            self._db.execute("UPDATE runs SET seen = ? WHERE run = ?", (_text(seen), run))
 
     def runs(self) -> tuple[RunRecord, ...]:
         """Return the runs in the order in which they began."""
@@ -192,6 +212,14 @@ class Journal:
         with self._guarded():
             row = self._db.execute("SELECT document FROM runs WHERE run = ?", (run,)).fetchone()
         return row[0] if row else None
+
+    def about(self, run: str) -> tuple[tuple[Mapping[str, Any], ...], Mapping[str, Any] | None]:
+        """Return what was recorded of a run at its start and each time that it was taken up again, and how the bench
+        was observed when it was over; None where nobody looked."""
+        with self._guarded():
+            row = self._db.execute("SELECT about, seen FROM runs WHERE run = ?", (run,)).fetchone()
+        about, seen = row or (None, None)
+        return tuple(json.loads(about) if about else ()), json.loads(seen) if seen else None
 
     # operations
 
@@ -252,7 +280,7 @@ class Journal:
         for started in self._select(where):
             known = {r.kind: r for r in self.records(key=started.key)}
             operation = operation_from_json(known["intent"].data)
-            before = _observed(started.data or None)
+            before = observed_from_json(started.data or None)
             found.append(Unsettled(key=started.key, operation=operation, before=before, ended="unknown" in known))
         return tuple(found)
 
@@ -346,15 +374,16 @@ def result_from_json(data: Mapping[str, Any]) -> OperationResult:
         key=data["key"],
         outcome=data["outcome"],
         error=Diagnostic(**{k: v for k, v in found.items() if k != "source"}) if found else None,
-        before=_observed(data.get("before")),
-        after=_observed(data.get("after")),
+        before=observed_from_json(data.get("before")),
+        after=observed_from_json(data.get("after")),
         seconds=float(data["seconds"]),
         ended=float(data["ended"]),
         data=data["data"],
     )
 
 
-def _observed(data: Mapping[str, Any] | None) -> ObservedComponent | None:
+def observed_from_json(data: Mapping[str, Any] | None) -> ObservedComponent | None:
+    """Return the observed component whose `as_json` gave `data`; None for None."""
     if data is None:
         return None
     return ObservedComponent(
@@ -363,4 +392,5 @@ def _observed(data: Mapping[str, Any] | None) -> ObservedComponent | None:
         uncertainty=Uncertainty(**data["uncertainty"]),
         age=float(data["age"]),
         values={k: ObservedValue(value=v.get("value"), status=v["status"]) for k, v in data["values"].items()},
+        how=data.get("how", ""),
     )

@@ -56,7 +56,8 @@ async def undo_plan(bench: AsyncBench) -> Plan:
         wanted = _live(bench, seen)
         wanted = LabState(lab=wanted.lab, components={**wanted.components, **back})
         name = f"the bench before {last.run}"
-        return _planned(bench, seen, wanted, Target(title=name, state=wanted.as_json()))
+        target = Target(title=name, cause="undo", of=last.run, state=wanted.as_json())
+        return _planned(bench, seen, wanted, target)
     raise PicoError(_no_run())
 
 
@@ -65,7 +66,8 @@ async def recover_plan(bench: AsyncBench) -> Plan:
     _refuse_while_held(bench)
     seen = await bench.observe()
     wanted = _live(bench, seen)
-    return _planned(bench, seen, wanted, Target(title="the bench with empty hands", state=wanted.as_json()))
+    target = Target(title="the bench with empty hands", cause="recover", state=wanted.as_json())
+    return _planned(bench, seen, wanted, target)
 
 
 async def settle(bench: AsyncBench) -> None:
@@ -123,7 +125,7 @@ def _live(bench: AsyncBench, seen: Observation) -> LabState:
 
 def _asked(plan: Plan) -> tuple[str, ...]:
     """The components of a plan that was made for single operations."""
-    if all(op.reason.kind in ("asked", "parked", "interlock", "held") for op in plan.operations):
+    if plan.asked:
         return tuple(sorted({op.component for op in plan.operations if op.reason.kind == "asked"}))
     return ()
 

@@ -119,6 +119,29 @@ def test_a_locked_database_is_a_diagnostic(journal: Journal) -> None:
     other.close()
 
 
+def test_what_a_run_was_started_with_and_what_was_seen_afterwards_is_kept(journal: Journal) -> None:
+    journal.begin_run("r1", "sha256:a", "ann: apply", about={"operator": "ann"})
+    journal.saw("r1", {"reached": False})
+    assert journal.about("r1") == (({"operator": "ann"},), {"reached": False})
+    journal.resume_run("r1", {"operator": "bob"})
+    assert journal.about("r1") == (({"operator": "ann"}, {"operator": "bob"}), None)
+
+
+def test_a_journal_of_version_2_goes_on(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    Journal(path).close()
+    with sqlite3.connect(path) as db:
+        db.executescript(
+            "ALTER TABLE runs DROP COLUMN about; ALTER TABLE runs DROP COLUMN seen; PRAGMA user_version=2;"
+            "INSERT INTO runs (run, plan, holder, started_at) VALUES ('r1', 'sha256:a', 'ann', '2026');"
+        )
+    journal = Journal(path)
+    assert journal.about("r1") == ((), None)
+    journal.resume_run("r1", {"operator": "bob"})
+    assert journal.about("r1") == (({}, {"operator": "bob"}), None)
+    journal.close()
+
+
 def test_a_database_of_a_newer_pico_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "journal.sqlite"
     with sqlite3.connect(path) as db:

@@ -7,6 +7,7 @@ from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 
 from pico.backends.protocol import Backend
+from pico.execution.about import about_run
 from pico.execution.checks import require_allowed, require_applicable, require_current
 from pico.execution.walk import Walk
 from pico.journal import Journal
@@ -39,7 +40,8 @@ async def run(
     Once `cancelled()` is true, or the task that iterates is cancelled, nothing more starts; what is under way goes on
     to its safe end, and the events end with `run_finished`, outcome `interrupted`. Cancelled twice, it stops at once.
     """
-    require_applicable(plan, await backend.describe())
+    able = await backend.describe()
+    require_applicable(plan, able)
     lease = await backend.acquire(holder)
     try:
         seen = await backend.observe()
@@ -48,7 +50,7 @@ async def run(
         journal: Journal | None = getattr(backend, "journal", None)  # one at the far end of a network keeps its own
         walk = Walk(
             plan, backend, lease, run=run_id, now=seen.time, cancelled=cancelled, journal=journal,
-            stop_on_error=stop_on_error, resumed=resumed,
+            stop_on_error=stop_on_error, resumed=resumed, about=about_run(setup, plan, able),
         )  # fmt: skip
         async with aclosing(_events(walk, backend)) as events:
             async for event in events:

@@ -33,12 +33,13 @@ class Walk:
         journal: Journal | None = None,
         stop_on_error: bool = False,
         resumed: bool = False,
+        about: Mapping[str, Any] | None = None,
     ) -> None:
         self.events: asyncio.Queue[Event | None] = asyncio.Queue()
         self._plan, self._backend, self._lease, self._run = plan, backend, lease, run
         self._executor = Executor(plan.operations, run, stop_on_error)
         self._begun = self._now = now
-        self._cancelled, self._journal, self._resumed = cancelled, journal, resumed
+        self._cancelled, self._journal, self._resumed, self._about = cancelled, journal, resumed, about
         self._seq = 0
 
     def interrupt(self) -> None:
@@ -59,9 +60,10 @@ class Walk:
         """
         if self._journal and not self._resumed:
             document = self._plan.to_json()
-            self._journal.begin_run(self._run, self._plan.digest, self._lease.holder, document=document)
+            holder = self._lease.holder
+            self._journal.begin_run(self._run, self._plan.digest, holder, document=document, about=self._about)
         elif self._journal:
-            self._journal.resume_run(self._run)
+            self._journal.resume_run(self._run, self._about)
         relay = asyncio.create_task(self._relay(self._backend.events()))
         try:
             self._emit("run_started", data={"plan": self._plan.digest, "operations": len(self._plan.operations)})

@@ -5,12 +5,15 @@ from __future__ import annotations
 import secrets
 import time
 from collections.abc import AsyncIterator, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 
 from pico.backends.protocol import Backend
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, PicoError
+from pico.execution.about import seen_after
 from pico.execution.result import RunResult
 from pico.execution.run import run
+from pico.journal import Journal
 from pico.model.diff import Change, diff_observed
 from pico.model.event import Event
 from pico.model.expectation import Expected
@@ -72,7 +75,19 @@ class AsyncRun:
         evidence = (await self._backend.describe()).evidence
         wall = time.monotonic() - started
         seen = await self._backend.observe()
-        self._report = run_report(self._setup, self.plan, RunResult.of(events), seen, wall=wall, evidence=evidence)
+        report = run_report(self._setup, self.plan, RunResult.of(events), seen, wall=wall, evidence=evidence)
+        self._report = replace(report, diagnostics=(*report.diagnostics, *self._keep(report, seen)))
+
+    def _keep(self, report: RunReport, seen: Observation) -> Sequence[Diagnostic]:
+        """Journal how the bench was seen afterwards; what keeps that from being written must not hide the report."""
+        journal: Journal | None = getattr(self._backend, "journal", None)
+        reached = report.whole and report.outcome == "done" and not (report.remaining or report.absent)
+        try:
+            if journal is not None:
+                journal.saw(self.id, seen_after(seen, report.expectations, reached=reached))
+        except PicoError as exc:
+            return exc.diagnostics
+        return ()
 
 
 def new_run_id() -> str:
@@ -84,7 +99,7 @@ def run_report(
     setup: Setup, plan: Plan, result: RunResult, seen: Observation, *, wall: float, evidence: str
 ) -> RunReport:
     """Return the report of a run that ended with `result`, and then was observed as `seen`."""
-    asked = all(op.reason.kind in ("asked", "parked", "interlock", "held") for op in plan.operations)
+    asked = plan.asked
     whole = not asked and not plan.target.scope
     return RunReport(
         run=result.run,

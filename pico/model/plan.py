@@ -38,6 +38,7 @@ class Target:
 
     `title`: what it is where it is neither (the bench before a run). `only`: the components that were asked for;
     `exclude`: those that were to be left alone. None for a whole plan. `expect`: what is expected of the bench then.
+    `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`, `heal`), and `of` which run.
     """
 
     revision: str | None = None
@@ -47,6 +48,8 @@ class Target:
     exclude: tuple[str, ...] | None = None
     state: Mapping[str, Any] = field(default_factory=dict)
     expect: tuple[Expectation, ...] | None = None
+    cause: str | None = None
+    of: str | None = None
 
     @property
     def name(self) -> str:
@@ -110,6 +113,15 @@ class Plan:
         One that a hand sets down first counts as standing."""
         held = {op.component for op in self.operations if op.reason.kind == "held"}
         return tuple(sorted(self.target.state.keys() - self.base.state.keys() - held))
+
+    @property
+    def asked(self) -> bool:
+        """Whether it is of single operations that somebody asked for, not of a state."""
+        return all(op.reason.kind in ("asked", "parked", "interlock", "held") for op in self.operations)
+
+    def because(self, cause: str, of: str | None = None) -> Plan:
+        """Return the plan, sealed, with why it was made: see `Target`."""
+        return replace(self, target=replace(self.target, cause=cause, of=of)).sealed()
 
     def sealed(self) -> Plan:
         """Return the plan with its digest set. The digest leaves out itself and the time of the observation."""

@@ -1,0 +1,68 @@
+"""What the journal keeps of a run besides its plan: who ran it and with what, and how the bench was seen afterwards."""
+
+from __future__ import annotations
+
+import platform
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from pico.backends.lease import user
+from pico.backends.protocol import Capabilities
+from pico.model.expectation import Expected
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.plan import Plan
+from pico.model.record import as_json
+
+STANDS_ON = ("mujoco", "numpy", "ruckig")
+"""Packages whose version may change how something moves."""
+
+
+def about_run(setup: Setup, plan: Plan, able: Capabilities) -> dict[str, Any]:
+    """Return what is kept when a run begins: `cause`, `evidence`, `operator`, `seed`, `environment`, `versions`."""
+    simulated = able.name == "sim"
+    return {
+        "cause": cause_of(plan),
+        "evidence": able.evidence,
+        "operator": user(),
+        **({"seed": setup.lab.sim.seed} if simulated else {}),
+        "environment": {"backend": able.name, "fidelity": able.fidelity, "system": _system()},
+        "versions": _versions(),
+    }
+
+
+def cause_of(plan: Plan) -> dict[str, str]:
+    """Return the `kind` of what a plan was made for, and `of` which run; see `pico.model.run.Cause`."""
+    if plan.target.cause:
+        return {"kind": plan.target.cause, **({"of": plan.target.of} if plan.target.of else {})}
+    return {"kind": "single" if plan.asked else "apply"}
+
+
+def seen_after(seen: Observation, expectations: tuple[Expected, ...], *, reached: bool) -> dict[str, Any]:
+    """Return what is kept when a run is over: the components as observed, the expectations of its goal, and whether the
+    whole of that was `reached`."""
+    return {
+        "at": seen.observed_at,
+        "components": as_json(seen.components),
+        "expectations": as_json(expectations),
+        "reached": reached,
+    }
+
+
+def _versions() -> dict[str, str]:
+    from pico import __version__
+
+    return {"pico": __version__, "python": platform.python_version()} | {
+        name: found for name in STANDS_ON if (found := _installed(name))
+    }
+
+
+def _installed(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _system() -> str:
+    return f"{platform.system()} {platform.release()} {platform.machine()}"

@@ -1,0 +1,136 @@
+"""The document of a run, `pico.run/v1`: what led from one state of a bench to the next, and how far that is proven."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Any, Literal
+
+from pico.model.diff import Change
+from pico.model.expectation import Expected
+from pico.model.plan import LabRef
+from pico.model.record import record
+
+SCHEMA = "pico.run/v1"
+
+Evidence = Literal["planned", "kinematic", "physics", "emulated", "hardware"]
+RunEnd = Literal["done", "failed", "interrupted", "killed"]
+
+STRENGTH: Mapping[str, int] = {"planned": 0, "kinematic": 1, "physics": 2, "emulated": 3, "hardware": 4}
+"""How much an evidence counts; only `hardware` says something of a real table."""
+
+
+@record
+class Cause:
+    """Why a run was started.
+
+    `kind`: `apply`, `checkout`, `single`, `undo`, `recover`, `resume`, `heal`, `recipe`, `optimizer`, `teleoperation`,
+    or empty where the journal did not keep it. `of`: the run that it undoes or goes on with. `recipe`, `step`: which.
+    """
+
+    kind: str = ""
+    of: str | None = None
+    recipe: str | None = None
+    step: str | None = None
+
+
+@record
+class FileRef:
+    """A file beside the document: the SHA-256 of its bytes (64 digits), and how many they are."""
+
+    sha256: str
+    size: int
+
+
+@record
+class Artifact:
+    """Data of a run that is too big for a commit, in the content store under `sha256` (64 digits) with `size` bytes.
+
+    `name` as it would have in the run's folder, where `.gz` says that it is packed. `component` and `seq`: whose it is,
+    and the event of the trace that it belongs to. `shape`, `dtype` of an array.
+    """
+
+    name: str
+    sha256: str
+    size: int
+    media_type: str = "application/octet-stream"
+    component: str | None = None
+    seq: int | None = None
+    shape: tuple[int, ...] | None = None
+    dtype: str | None = None
+
+
+@record
+class Seen:
+    """The bench as it was observed when a run was over: when, the digest of that state, and how surely: `looked` false
+    where nobody looked any more (the process was killed) and it is what the operations themselves saw."""
+
+    at: str
+    state: str
+    looked: bool = True
+
+
+@record
+class RunDocument:
+    """One run.
+
+    `parent`: the commit that was checked out when it was planned. `state_before`: the digest of the live state that it
+    started from. `state_after`: the digest of the state that it led to, exactly as manifests hold that: of the state
+    committed with it where the bench was seen to stand so, within its tolerances, when the commit was made; else of
+    its goal, where it was reached; else of what was observed. `observed` is the observed state in any case, which has
+    every digit of the noise. `goal` in words, `goal_commit` where it was a revision's.
+
+    `seconds`: the time in which something moved, on the bench's clock. `tally` counts operations by how they ended.
+    `resumed`: how often the run was taken up again until then; a document whose id ends with `-r1` has what came after
+    the first time, when a commit had the rest already. `changes`: what the run changed on the bench, `tolerated` where
+    by less than the tolerance. `files`: those beside this one. `planned` evidence never occurs: a run ran.
+    """
+
+    schema: str = SCHEMA
+    id: str
+    lab: LabRef
+    parent: str | None = None
+    state_before: str
+    state_after: str
+    observed: Seen | None = None
+    plan: str
+    goal: str = ""
+    goal_commit: str | None = None
+    cause: Cause = Cause()
+    evidence: Evidence
+    seed: int | None = None
+    operator: str = ""
+    calibration: str | None = None
+    environment: Mapping[str, str] = field(default_factory=dict)
+    versions: Mapping[str, str] = field(default_factory=dict)
+    started_at: str
+    ended_at: str = ""
+    outcome: RunEnd
+    seconds: float = 0.0
+    tally: Mapping[str, int] = field(default_factory=dict)
+    resumed: int = 0
+    expectations: tuple[Expected, ...] = ()
+    changes: tuple[Change, ...] = ()
+    files: Mapping[str, FileRef] = field(default_factory=dict)
+    artifacts: tuple[Artifact, ...] = ()
+
+
+@record
+class TraceEvent:
+    """One line of `trace.jsonl` or `measurements.jsonl`.
+
+    `t`: seconds on the bench's clock since the first operation began; `at`: the wall time, UTC; `seq` counts from 1.
+    `kind` of a trace: `intent` (`data`: the operation), `started` (the component as observed before), `done`, `failed`
+    and `unknown` (`outcome`, `seconds`, the component `after`), `resolved` (how an unknown one ended, and who said so);
+    `operation` and `attempt` say of what. Of measurements: `expectation`, `observation` (a component as observed after
+    the run).
+    """
+
+    t: float
+    at: str = ""
+    seq: int
+    kind: str
+    operation: str | None = None
+    attempt: int | None = None
+    component: str | None = None
+    data: Mapping[str, Any] = field(default_factory=dict)
