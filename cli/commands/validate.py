@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Annotated
+
 import typer
 
 from ..session import Session
 from ..views import validation as view
 
 
-def validate(context: typer.Context) -> int:
+def validate(
+    context: typer.Context,
+    files: Annotated[
+        list[Path] | None, typer.Argument(metavar="FILE...", help="Check the labs that these files lie in.")
+    ] = None,
+) -> int:
     """Check the manifests.
 
     All errors at once, each with its place. Asks neither the bench nor Git.
     """
-    from pico.manifest.folders import check_folder
+    from pico.manifest.folders import check_files, check_folder
 
     session = Session.of(context)
-    checked = check_folder(session.folder)
+    checked = check_files(session.folder, files) if files else check_folder(session.folder)
     if not session.json:
         session.report(checked.diagnostics)
     session.show(view, checked)

@@ -15,6 +15,8 @@ def text(checked: Checked) -> str:
     errors = sum(d.severity == "error" for d in checked.diagnostics)
     if errors:
         return f"Checked {count(checked.files, 'file')}: not valid."
+    if not checked.lab:
+        return "No manifest is among these files."
     what = f"{count(checked.files, 'file')}, {count(checked.parts, 'part')}"
     return f"{checked.lab}: the manifests are valid ({what})."
 

@@ -41,7 +41,7 @@ def check_folder(start: Path) -> Checked:
         root = start
     manifests = load_folder(root)
     lab = manifests.setup.lab if manifests.setup else None
-    found = [*manifests.diagnostics, *_expressions(manifests)]
+    found = [*manifests.diagnostics, *expression_errors(manifests)]
     return Checked(
         folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
         lab=lab.name if lab else "",
@@ -51,7 +51,8 @@ def check_folder(start: Path) -> Checked:
     )
 
 
-def _expressions(manifests: Manifests) -> list[Diagnostic]:
+def expression_errors(manifests: Manifests) -> list[Diagnostic]:
+    """Return what is wrong with the rules and expectations of manifests, read only where there are any."""
     lab, state = manifests.setup and manifests.setup.lab, manifests.state
     if lab and (lab.policy.rules or lab.policy.ignore or (state and state.expect)):
         from pico.manifest.expression_checks import check_expressions
@@ -60,12 +61,36 @@ def _expressions(manifests: Manifests) -> list[Diagnostic]:
     return []
 
 
+def check_files(start: Path, files: Sequence[Path]) -> Checked:
+    """Return the verdict on the labs that `files` lie in, together: a manifest is right or wrong only among the others.
+
+    Files that lie in no lab and don't claim to be PICO's are passed over; raises PicoError for those that do.
+    """
+    roots: dict[Path, None] = {}
+    for path in files:
+        try:
+            roots[find_lab(start / path)] = None
+        except PicoError:
+            if "apiVersion: pico/" in _read(start / path):
+                raise
+    found = [check_folder(root) for root in roots]
+    return Checked(
+        folder=", ".join(c.folder for c in found),
+        lab=", ".join(c.lab for c in found),
+        files=sum(c.files for c in found),
+        parts=sum(c.parts for c in found),
+        diagnostics=tuple(d for c in found for d in c.diagnostics),
+    )
+
+
 def format_folder(start: Path, files: Sequence[Path] = (), *, write: bool = True) -> tuple[str, ...]:
     """Bring manifests (`files`, or all of the lab that `start` lies in) into the normal form; return which changed.
 
-    Raises PicoError, before anything is written, for files that are no manifests.
+    Files that don't claim to be manifests are passed over. Raises PicoError, before anything is written, for files
+    that can't be read.
     """
-    texts = {str(path): _read(path) for path in files} if files else _manifests(find_lab(start))
+    named = {str(path): _read(path) for path in files}
+    texts = {p: text for p, text in named.items() if "apiVersion" in text} if files else _manifests(find_lab(start))
     changed: dict[str, str] = {}
     found: list[Diagnostic] = []
     for path, text in texts.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -67,6 +68,18 @@ def find_lab(start: Path) -> Path:
         if (candidate / "lab.yaml").is_file() or any(_is_lab(path) for path in sorted(candidate.glob("*.yaml"))):
             return candidate
     raise PicoError(error("no-lab", f"no lab in {start} or any folder above it", hint=_NO_LAB))
+
+
+def labs_below(start: Path) -> list[Path]:
+    """Return the folders below `start` that hold a manifest of kind Lab, sorted; not in dot-folders or in `runs`."""
+    found = []
+    for folder, folders, names in os.walk(start.resolve()):
+        folders[:] = sorted(n for n in folders if not n.startswith(".") and n != "runs")
+        here = Path(folder)
+        if "lab.yaml" in names or any(_is_lab(here / name) for name in sorted(names) if name.endswith(".yaml")):
+            found.append(here)
+            folders.clear()
+    return found
 
 
 def _is_lab(path: Path) -> bool:
