@@ -12,7 +12,7 @@ from .summary import COMMANDS, MOVERS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "-m", "--message", "--interval", "--looks",
+    "-m", "--message", "--interval", "--looks", "--grace",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -53,6 +53,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "import": ("--types", "--dry-run"),
     "calibrate": (),
     "markers": ("--out", "--paper"),
+    "data gc": ("--grace", "--dry-run", "--auto-approve"),
     "sim reset": (),
     "sim bump": ("--dx", "--dy", "--dz", "--dyaw"),
     "sim nudge": ("--dx", "--dy", "--dyaw"),
@@ -67,6 +68,7 @@ GROUPS = {
     "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
     "catalog": ("list", "show"),
     "git": ("install", "uninstall"),
+    "data": ("status", "push", "pull", "fsck", "gc"),
 }
 FIXED = {
     "--backend": ("sim", "hardware"),

@@ -17,6 +17,7 @@ LAYERS: dict[str, set[str]] = {
     "trace": {"diagnostics", "model", "manifest"},
     "history": {"diagnostics", "resources", "model", "manifest"},
     "journal": {"diagnostics", "model"},
+    "data": {"diagnostics", "model", "trace", "history"},
     "geometry": {"diagnostics", "model"},
     "motion": {"diagnostics", "model", "geometry"},
     "planning": {"diagnostics", "model", "geometry", "motion"},

@@ -13,7 +13,7 @@ import os
 import re
 import time
 import uuid
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
@@ -125,13 +125,15 @@ class Store:
             aside.unlink()
             return found.st_size
 
-    def sweep(self) -> int:
-        """Remove what killed writers left more than a day ago, and return the bytes that this freed."""
+    def sweep(self, needed: Container[str] = ()) -> int:
+        """Remove what killed writers left, and damaged copies of objects that are there or not `needed`, each after a
+        day; return the bytes that this freed."""
         freed = 0
         with _guarded(self.root):
-            for path in (self.root / "tmp").glob("*"):
+            unique = [p for p in (self.root / "damaged").glob("*") if p.name in needed and not self.has(p.name)]
+            for path in (*(self.root / "tmp").glob("*"), *(self.root / "damaged").glob("*")):
                 found = path.stat()
-                if time.time() - found.st_mtime > _ABANDONED:
+                if path not in unique and time.time() - found.st_mtime > _ABANDONED:
                     path.unlink(missing_ok=True)
                     freed += found.st_size
         return freed

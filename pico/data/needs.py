@@ -1,0 +1,102 @@
+"""Which objects the runs of a lab need, and which run needs which."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pico.history import git
+from pico.history.repository import Repository
+from pico.model.record import record
+
+_RUN = re.compile(r"(?:.*/)?runs/\d{4}/\d{2}/([^/]+)/run\.json")
+_SHA256 = re.compile(r"[0-9a-f]{64}")
+_LOOSE = ":(glob)**/runs/*/*/*/run.json"
+"""Files of runs that Git does not know."""
+
+
+@record
+class Need:
+    """An object of `size` bytes, and the runs (their ids) that name it as their artifact, called `name`."""
+
+    sha256: str
+    size: int
+    name: str
+    runs: tuple[str, ...]
+
+
+Needs = Mapping[str, Need]
+"""By SHA-256, sorted."""
+
+
+def needs(repository: Repository, revisions: Iterable[str] = ("--all",)) -> Needs:
+    """Return what the runs in the commits of every ref need, or those in the commits of `revisions`.
+
+    Raises PicoError where the history can't be walked.
+    """
+    return united(_needed_by(run, data) for run, data in _committed(repository, tuple(revisions)))
+
+
+def kept_needs(repository: Repository) -> Needs:
+    """Return what anything here may need still: runs of every ref, reflog, index and working tree.
+
+    Raises PicoError where that can't be told for sure.
+    """
+    committed = _committed(repository, ("--all", "--reflog", "--indexed-objects"))
+    found = [_needed_by(run, data) for run, data in committed]
+    for tree in _worktrees(repository):
+        for path in _loose(tree):
+            found.append(_needed_by(path.parent.name, path.read_bytes()))
+    return united(found)
+
+
+def united(found: Iterable[Iterable[Need]]) -> Needs:
+    """Return what is needed altogether, each object once, with all runs that need it."""
+    objects: dict[str, Need] = {}
+    for need in (n for several in found for n in several):
+        known = objects.get(need.sha256, need)
+        runs = tuple(sorted({*known.runs, *need.runs}))
+        objects[need.sha256] = Need(sha256=need.sha256, size=known.size, name=known.name, runs=runs)
+    return dict(sorted(objects.items()))
+
+
+def _committed(repository: Repository, revisions: tuple[str, ...]) -> Iterator[tuple[str, bytes]]:
+    """Yield id and document of each run in the trees of commits; git passes over trees that it has seen."""
+    listed = git.run(repository.root, ["rev-list", "--objects", *revisions], doing="list what commits hold")
+    for line in listed.splitlines():
+        name, _, path = line.partition(" ")
+        if path.endswith("/run.json") and (match := _RUN.fullmatch(path)):
+            yield match[1], repository.blob(name)
+
+
+def _needed_by(run: str, document: bytes) -> tuple[Need, ...]:
+    """Return what a run needs as its document says; nothing where that is no document of a run.
+
+    Read more generously than `pico.trace.read` does: what the run of a newer PICO needs must be kept, too.
+    """
+    try:
+        data = json.loads(document)
+        artifacts = data.get("artifacts", ())
+        return tuple(_need(run, a) for a in artifacts if _SHA256.fullmatch(str(a["sha256"])))
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return ()
+
+
+def _need(run: str, artifact: Mapping[str, Any]) -> Need:
+    return Need(sha256=artifact["sha256"], size=int(artifact["size"]), name=str(artifact["name"]), runs=(run,))
+
+
+def _worktrees(repository: Repository) -> Iterator[Path]:
+    listed = git.run(repository.root, ["worktree", "list", "--porcelain", "-z"], doing="list the worktrees")
+    for entry in listed.split("\0"):
+        path = Path(entry.removeprefix("worktree "))
+        if entry.startswith("worktree ") and path.is_dir():
+            yield path
+
+
+def _loose(tree: Path) -> Iterator[Path]:
+    found = git.run(tree, ["ls-files", "-z", "--others", "--", _LOOSE], doing="list the files that are not committed")
+    yield from (tree / name for name in found.split("\0") if name)

@@ -1,0 +1,145 @@
+"""Where copies of a lab's data are kept: a folder such as a mounted share, or a bucket of an object store."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO, Protocol
+
+from pico.data.needs import Needs
+from pico.diagnostics import PicoError, error
+from pico.history import git
+from pico.history.repository import Repository
+from pico.trace.store import CHUNK, Store
+
+SETTING = "pico.data.remote"
+"""What `git config` calls the place; local, for a repository must not say where somebody's data goes."""
+
+Heard = Callable[[int], None]
+"""Is told how many more bytes are through."""
+
+
+class Place(Protocol):
+    """Keeps copies of objects; every method raises PicoError."""
+
+    name: str
+
+    def present(self, wanted: Needs) -> frozenset[str]:
+        """Return which of the objects are there, with the size that they should have."""
+        ...
+
+    def send(self, sha256: str, store: Store, heard: Heard) -> None:
+        """Copy an object of `store` to the place, whole or not at all."""
+        ...
+
+    def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
+        """Copy an object of the place into `store`, whole or not at all."""
+        ...
+
+
+def place_of(repository: Repository, word: str | None) -> Place | None:
+    """Return the place that `word` names (a folder or an URL such as `s3://bucket/lab`), else the one configured, or
+    None where there is none. A relative folder counts from the top of the working tree. Raises PicoError."""
+    word = word or _configured(repository)
+    if not word:
+        return None
+    if "://" in word:
+        return Bucket(word)
+    folder = (repository.root / Path(word).expanduser()).resolve()
+    if not folder.is_dir():
+        hint = "mount the share, or make the folder: PICO does not, lest copies end up where a share is not mounted"
+        raise PicoError(error("data-place", f"there is no folder {folder} to keep data in", hint=hint))
+    return Folder(folder)
+
+
+def _configured(repository: Repository) -> str:
+    try:
+        return git.run(repository.root, ["config", "--get", SETTING], doing="read its configuration").strip()
+    except PicoError:
+        return ""
+
+
+class Folder:
+    """A folder with the layout of a store."""
+
+    def __init__(self, folder: Path) -> None:
+        self.name, self._store = str(folder), Store(folder)
+
+    def present(self, wanted: Needs) -> frozenset[str]:
+        return frozenset(n.sha256 for n in wanted.values() if self._store.has(n.sha256))
+
+    def send(self, sha256: str, store: Store, heard: Heard) -> None:
+        _copy(sha256, store, self._store, heard)
+        self._store.open(sha256).close()  # reads it again, as it now is there
+
+    def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
+        _copy(sha256, self._store, store, heard)
+
+
+class Bucket:
+    """A bucket, or anything else that fsspec reaches by an URL. An upload that broke off has another size, and counts
+    as not there."""
+
+    def __init__(self, url: str) -> None:
+        self.name = url
+        with self._reached():
+            try:
+                from fsspec.core import url_to_fs
+            except ImportError:
+                raise PicoError(_missing_extra(url)) from None
+            self._files, self._root = url_to_fs(url)
+
+    def present(self, wanted: Needs) -> frozenset[str]:
+        with self._reached():
+            self._files.invalidate_cache()
+            listed = self._files.find(f"{self._root}/sha256", detail=True)
+            sizes = {path.rpartition("/")[2]: found["size"] for path, found in listed.items()}
+        return frozenset(n.sha256 for n in wanted.values() if sizes.get(n.sha256) == n.size)
+
+    def send(self, sha256: str, store: Store, heard: Heard) -> None:
+        path = self._path(sha256)
+        with store.open(sha256) as file, self._reached():
+            file.close()  # it is intact; fsspec wants its name
+            self._files.makedirs(path.rpartition("/")[0], exist_ok=True)
+            self._files.put_file(str(store.path(sha256)), path)
+            self._files.invalidate_cache()
+            if self._files.size(path) != store.size(sha256):
+                raise OSError(f"{path} came out in another size")
+        heard(store.size(sha256))
+
+    def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
+        with self._reached(), self._files.open(self._path(sha256), "rb") as file:
+            store.put(_heard(file, heard), expected=sha256)
+
+    def _path(self, sha256: str) -> str:
+        return f"{self._root}/sha256/{sha256[:2]}/{sha256[2:4]}/{sha256}"
+
+    @contextmanager
+    def _reached(self) -> Iterator[None]:
+        """Say in its own words what an object store refused; its errors are of any kind."""
+        try:
+            yield
+        except PicoError:
+            raise
+        except ImportError as exc:
+            raise PicoError(_missing_extra(self.name, str(exc))) from exc
+        except Exception as exc:
+            text = f"{self.name} can't be used: {' '.join(str(exc).split()) or type(exc).__name__}"
+            raise PicoError(error("data-place", text)) from exc
+
+
+def _copy(sha256: str, source: Store, target: Store, heard: Heard) -> None:
+    with source.open(sha256) as file:
+        target.put(_heard(file, heard), expected=sha256)
+
+
+def _heard(file: BinaryIO | Any, heard: Heard) -> Iterator[bytes]:
+    while piece := file.read(CHUNK):
+        yield piece
+        heard(len(piece))
+
+
+def _missing_extra(url: str, words: str = "") -> Any:
+    hint = "`pip install pico-lab[object-store]`; a folder needs nothing more"
+    return error("data-extra", f"PICO can't reach {url} as it is installed", detail=words, hint=hint)
