@@ -15,7 +15,7 @@ LAYERS: dict[str, set[str]] = {
     "model": {"diagnostics", "expressions"},
     "manifest": {"diagnostics", "expressions", "resources", "model"},
     "trace": {"diagnostics", "model", "manifest"},
-    "history": {"diagnostics", "resources", "model", "manifest"},
+    "history": {"diagnostics", "resources", "model", "manifest", "trace"},
     "journal": {"diagnostics", "model"},
     "data": {"diagnostics", "model", "trace", "history"},
     "geometry": {"diagnostics", "model"},

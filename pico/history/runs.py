@@ -1,0 +1,205 @@
+"""The runs that commits carry, found by what trees hold.
+
+A commit's trailers are an index for people; what counts are the files. `git revert` of a commit takes its runs out of
+the tip, so the history is looked through: every commit whose `runs` folder differs from that of its parents.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pico.diagnostics import Diagnostic, warning
+from pico.history.commit import Commit
+from pico.history.repository import Repository
+from pico.model.run import RunDocument
+from pico.trace.read import read_document
+
+SLACK = 86400.0
+"""Seconds by which the clocks of two machines may differ."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunPlace:
+    """Where a run lies: its id, its folder relative to the lab, the id of that folder's tree, and the oldest commit
+    among those looked at that has it."""
+
+    id: str
+    path: str
+    tree: str
+    commit: str
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedRun:
+    """A run that a commit carries."""
+
+    document: RunDocument
+    place: RunPlace
+
+
+def runs_added(
+    repository: Repository, commit: str | Commit, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None
+) -> tuple[RunDocument, ...]:
+    """Return the runs that a commit (its id) added to the lab in `folder`, in the order in which they started.
+
+    A merge adds what none of its parents has. A warning for each damaged document is appended to `diagnostics`.
+    """
+    name = commit if isinstance(commit, str) else commit.id
+    trees = _Trees(repository, repository.relative(folder))
+    added = trees.added(repository.handle[name])
+    return tuple(run.document for run in read_carried(repository, added, diagnostics))
+
+
+def runs_at(
+    repository: Repository, commit: str, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None
+) -> tuple[CarriedRun, ...]:
+    """Return the runs whose files a commit (its id) holds, whichever commit added them."""
+    trees = _Trees(repository, repository.relative(folder))
+    return read_carried(repository, trees.places(repository.handle[commit]).values(), diagnostics)
+
+
+def places_in_history(
+    repository: Repository, folder: str | Path = "", tips: Iterable[str] | None = None, *, since: float | None = None
+) -> dict[str, RunPlace]:
+    """Return where each run was added, by its id: looking through all that `tips` (commit ids; every branch and tag,
+    and HEAD) reach, back to `since` [s since 1970]."""
+    trees, found = _Trees(repository, repository.relative(folder)), {}
+    for handle in _walk(repository, tips, since):
+        for place in trees.added(handle):
+            found[place.id] = place  # the older one counts
+    return found
+
+
+def find_runs(
+    repository: Repository, folder: str | Path, ids: Iterable[str], *, since: float | None = None
+) -> dict[str, RunPlace]:
+    """Return where the runs `ids` are that some branch or tag reaches, by id: those that the tips have first, for that
+    is quickly seen, and only for the rest the history, back to `since` [s since 1970]."""
+    trees, wanted, found = _Trees(repository, repository.relative(folder)), set(ids), {}
+    for tip in tip_ids(repository) if wanted else ():
+        there = trees.places(repository.handle[tip])
+        found |= {name: there[name] for name in wanted & there.keys()}
+    if wanted - found.keys():
+        there = places_in_history(repository, folder, since=since)
+        found |= {name: there[name] for name in (wanted - found.keys()) & there.keys()}
+    return found
+
+
+def read_carried(
+    repository: Repository, places: Iterable[RunPlace], diagnostics: list[Diagnostic] | None = None
+) -> tuple[CarriedRun, ...]:
+    """Return the runs at some places, in the order in which they started; damaged documents as warnings."""
+    found = []
+    for place in places:
+        document = read_place(repository, place)
+        if isinstance(document, RunDocument):
+            found.append(CarriedRun(document, place))
+        elif diagnostics is not None:
+            diagnostics.append(document)
+    return tuple(sorted(found, key=lambda run: (run.document.started_at, run.document.id)))
+
+
+def read_place(repository: Repository, place: RunPlace) -> RunDocument | Diagnostic:
+    """Return the document of the run at a place, or a warning that says what is wrong with it."""
+    path, data = f"{place.path}/run.json", files_at(repository, place, ("run.json",))
+    if path not in data:
+        hint = "`git log -- FILE` shows who took it away"
+        return warning("run-file", f"{path} is missing at {place.commit[:7]}", hint=hint)
+    return read_document(path, data[path], place.id)
+
+
+def files_at(repository: Repository, place: RunPlace, names: Iterable[str] | None = None) -> dict[str, bytes]:
+    """Return the files of a run by path relative to the lab, all or those called `names`; links are left out."""
+    from pygit2.enums import FileMode
+
+    wanted = None if names is None else set(names)
+    return {
+        f"{place.path}/{entry.name}": entry.data
+        for entry in repository.handle[place.tree]
+        if entry.filemode in (FileMode.BLOB, FileMode.BLOB_EXECUTABLE) and (wanted is None or entry.name in wanted)
+    }
+
+
+def _walk(repository: Repository, tips: Iterable[str] | None, since: float | None) -> Iterator[Any]:
+    """Yield the commits that `tips` reach, newest first."""
+    from pygit2.enums import SortMode
+
+    handle = repository.handle
+    walker = handle.walk(None, SortMode.TIME if since is not None else SortMode.TOPOLOGICAL | SortMode.TIME)
+    for tip in tip_ids(repository) if tips is None else tips:
+        walker.push(tip)
+    for commit in walker:
+        if since is not None and commit.commit_time < since - SLACK:
+            return
+        yield commit
+
+
+def tip_ids(repository: Repository) -> tuple[str, ...]:
+    """Return the commits that HEAD, branches (of remotes, too) and tags point at, each once."""
+    from pico.history.revisions import names_at
+
+    handle = repository.handle
+    head = () if handle.head_is_unborn else (str(handle.head.target),)
+    return tuple(dict.fromkeys((*head, *sorted(names_at(handle)))))
+
+
+@dataclass(slots=True)
+class _Trees:
+    """The `runs` folders of commits; those that are the same are read once."""
+
+    repository: Repository
+    inside: str
+    _known: dict[str, Mapping[str, str]] = field(default_factory=dict)
+
+    def added(self, commit: Any) -> tuple[RunPlace, ...]:
+        """Return the runs that a commit has and none of its parents."""
+        own = self._runs(commit)
+        before = [self._runs(parent) for parent in self._parents(commit)]
+        if own is None or any(b is not None and b.id == own.id for b in before):
+            return ()
+        known = {name for b in before if b is not None for name in self._listed(b)}
+        return tuple(place for place in self.places(commit).values() if place.id not in known)
+
+    def places(self, commit: Any) -> dict[str, RunPlace]:
+        """Return the runs that a commit has, by id."""
+        own = self._runs(commit)
+        listed = self._listed(own) if own is not None else {}
+        return {name: RunPlace(name, path, tree, str(commit.id)) for name, (path, tree) in listed.items()}
+
+    def _parents(self, commit: Any) -> list[Any]:
+        """Return the parents that are here: a shallow clone does not have all."""
+        handle = self.repository.handle
+        return [handle[p] for p in commit.parent_ids if p in handle]
+
+    def _runs(self, commit: Any) -> Any:
+        import pygit2
+
+        try:
+            found = commit.tree[f"{self.inside}/runs" if self.inside else "runs"]
+        except KeyError:
+            return None
+        return found if isinstance(found, pygit2.Tree) else None
+
+    def _listed(self, tree: Any) -> dict[str, tuple[str, str]]:
+        """Return path and tree of each run below a `runs` folder, by its id."""
+        found: dict[str, tuple[str, str]] = {}
+        for year in _folders(tree):
+            for month in _folders(year):
+                at = f"runs/{year.name}/{month.name}"
+                found |= {name: (f"{at}/{name}", own) for name, own in self._month(month).items()}
+        return found
+
+    def _month(self, tree: Any) -> Mapping[str, str]:
+        key = str(tree.id)
+        if key not in self._known:
+            self._known[key] = {run.name: str(run.id) for run in _folders(tree)}
+        return self._known[key]
+
+
+def _folders(tree: Any) -> list[Any]:
+    from pygit2.enums import FileMode
+
+    return [entry for entry in tree if entry.filemode == FileMode.TREE]
