@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 from pico.diagnostics import PicoError, error
 
@@ -44,11 +45,14 @@ _LOCAL = (
 )  # fmt: skip
 
 
-def run(root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None) -> str:
+def run(
+    root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None,
+    ends: Sequence[int] = (0,),
+) -> str:  # fmt: skip
     """Run `git ARGUMENTS` in `root` and return what it wrote to standard output.
 
     `doing` completes "git did not ...". `hook` names the hooks that may refuse it. The environment's GIT_* count.
-    Raises PicoError with git's own words and what to do.
+    Raises PicoError with git's own words and what to do, where it does not end with one of the exit codes `ends`.
     """
     environment = _environment(root)
     try:
@@ -58,10 +62,15 @@ def run(root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", ho
     except FileNotFoundError:
         hint = "install git, or add it to PATH"
         raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
-    if done.returncode:
+    if done.returncode not in ends:
         words = "\n".join(t for t in (done.stderr.decode(errors="replace"), done.stdout.decode(errors="replace")) if t)
         raise refusal(words.strip(), doing=doing, hook=_installed(root, hook))
     return done.stdout.decode(errors="surrogateescape")
+
+
+def answer(root: Path, arguments: Sequence[str]) -> str:
+    """Return what `git ARGUMENTS` says, also where it says no: nothing then."""
+    return run(root, arguments, doing="answer", ends=range(256))
 
 
 def given(path: Path) -> tuple[str, Path] | None:

@@ -60,14 +60,16 @@ class Written:
 class Parts:
     """A lab on disk, and what its parts may do: `python` randomness of its own."""
 
-    def __init__(self, folder: Path, seed: int, parts: int = 26, *, standing: int = 11, scattered: bool = False) -> None:
+    def __init__(
+        self, folder: Path, seed: int, parts: int = 26, *, standing: int = 11, scattered: bool = False
+    ) -> None:
         """`standing`: so many parts of the storage are in use at most. `scattered`: every commit moves parts from
         anywhere; else a sub-assembly is worked on for some commits, then another."""
         self.rng, self.standing, self.scattered = random.Random(seed), standing, scattered
         self._focus: list[str] = []
         self.repository = Repository.init(folder)
         self.slots = {f"store/{c}{r}": (110 + 90 * c, 130 + 90 * r) for c in range(5) for r in range(6)}
-        near = {k: at for k, at in self.slots.items() if math.dist(at, (480, 760)) < 668 and math.dist(at, (480, 760)) > 300}
+        near = {k: at for k, at in self.slots.items() if 300 < math.dist(at, (480, 760)) < 668}
         homes = dict(zip((f"c{n:02}" for n in range(parts - 1)), sorted(near), strict=False))
         self.names = sorted(homes)
         kinds = {name: TYPES[n % len(TYPES)] for n, name in enumerate(self.names)}
@@ -145,7 +147,9 @@ class Parts:
         return self.repository.write_commit(files, message, parents, author=AUTHOR, time=time)
 
 
-def history(folder: Path, seed: int, commits: int = 128, *, merges: bool = False, expect: str = EXPECT, **lab: Any) -> Written:
+def history(
+    folder: Path, seed: int, commits: int = 128, *, merges: bool = False, expect: str = EXPECT, **lab: Any
+) -> Written:
     """Write a lab with `commits` after a good one, of which one breaks the expectation; with `merges`, branches that
     were worked on at the same time. `main` is checked out at the last."""
     parts = Parts(folder, seed, **lab)
