@@ -47,18 +47,20 @@ _LOCAL = (
 
 def run(
     root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None,
-    ends: Sequence[int] = (0,),
+    ends: Sequence[int] = (0,), extra: Mapping[str, str] = MappingProxyType({}), inherit: Sequence[int] = (),
 ) -> str:  # fmt: skip
     """Run `git ARGUMENTS` in `root` and return what it wrote to standard output.
 
-    `doing` completes "git did not ...". `hook` names the hooks that may refuse it. The environment's GIT_* count.
-    Raises PicoError with git's own words and what to do, where it does not end with one of the exit codes `ends`.
+    `doing` completes "git did not ...". `hook` names the hooks that may refuse it. The environment's GIT_* count,
+    and `extra` over them; the open files `inherit` go along. Raises PicoError with git's own words and what to do,
+    where it does not end with one of the exit codes `ends`.
     """
-    environment = _environment(root)
+    environment = {**_environment(root), **extra}
     try:
         done = subprocess.run(
-            ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), capture_output=True, check=False
-        )
+            ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), capture_output=True, check=False,
+            pass_fds=inherit,
+        )  # fmt: skip
     except FileNotFoundError:
         hint = "install git, or add it to PATH"
         raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
