@@ -31,6 +31,7 @@ LAYERS: dict[str, set[str]] = {
     "scans": {"diagnostics", "model", "backends", "twin", "async_bench"},
     "imports": {"diagnostics", "model", "manifest", "vision", "backends", "async_bench"},
     "merging": {"diagnostics", "model", "manifest", "history", "motion", "planning"},
+    "restoring": {"diagnostics", "model", "manifest", "history", "merging"},
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },
@@ -43,7 +44,7 @@ LAYERS: dict[str, set[str]] = {
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "merging", "saved", "watching",
-        "scans", "imports",
+        "scans", "imports", "restoring",
     },
 }  # fmt: skip
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,11 +10,9 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
-from pico.history.merge import Merged, merge
-from pico.history.merge_groups import groups_of
-from pico.history.merge_leaves import Conflict, Coupled
 from pico.history.merge_markers import Labels
-from pico.history.trees import is_manifest
+from pico.history.merge_trees import Union, contents, opened, unite_commits
+from pico.history.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
 from pico.model.record import record
@@ -35,16 +32,6 @@ class MergeMade:
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-@dataclass
-class Union:
-    """Two commits united in memory: the tree's id, and what stands in the way."""
-
-    tree: str = ""
-    conflicts: list[tuple[str, Conflict]] = field(default_factory=list)
-    coupled: list[tuple[str, Coupled]] = field(default_factory=list)
-    files: list[str] = field(default_factory=list)
-
-
 def merge_revision(folder: LabFolder, revision: str, check: Check, message: str = "") -> MergeMade:
     """Merge a revision into the branch that is checked out, and return what came of it.
 
@@ -54,7 +41,7 @@ def merge_revision(folder: LabFolder, revision: str, check: Check, message: str 
     repository = folder.history()
     ours, theirs = repository.resolve("HEAD"), repository.resolve(revision)
     _refuse_unfit(folder)
-    handle = _handle(repository.root)
+    handle = opened(repository.root)
     base = handle.merge_base(ours.id, theirs.id)
     if base is None:
         hint = "`git merge --allow-unrelated-histories` does it all the same"
@@ -62,95 +49,26 @@ def merge_revision(folder: LabFolder, revision: str, check: Check, message: str 
     if str(base) == theirs.id:
         return MergeMade(kind="up-to-date", commit=ours.id, name=revision)
     ahead = str(base) == ours.id
-    labels = Labels(_label(ours), str(base)[:7], _label(theirs, revision))
-    union = Union(str(handle[theirs.id].tree.id)) if ahead else unite(handle, ours.id, theirs.id, labels)
+    labels = Labels(label_of(ours), str(base)[:7], label_of(theirs, revision))
+    union = Union(str(handle[theirs.id].tree.id)) if ahead else unite_commits(handle, ours.id, theirs.id, labels)
     if union.conflicts or union.files:
         raise PicoError(_refusals(union, labels, revision, (ours, theirs)))
-    manifests = _manifests(folder, handle, union.tree, f"{labels.ours}+{labels.theirs}")
-    found = (*_warnings(union, labels), *_judged(manifests, check, labels))
+    manifests = manifests_in(folder, handle, union.tree, f"{labels.ours}+{labels.theirs}")
+    text = f"{labels.ours} and {labels.theirs} merge as text, but not on the table: nothing was written"
+    found = (*coupled_warnings(union, labels), *judged(manifests, check, text))
     if ahead:
         git.run(repository.root, ["merge", "--ff-only", "--quiet", theirs.id], doing=f"go to {revision}")
     else:
-        state = manifests.require()[1].digest()
-        text = message.strip() or f"Merge {revision}"
-        _write(repository.root, union.tree, theirs.id, f"{text}\n\nPico-State: {state}\nPico-Evidence: planned\n")
+        text = with_trailers(message.strip() or f"Merge {revision}", planned_trailers(manifests))
+        _write(repository.root, union.tree, theirs.id, text)
     folder.reload()
     made = repository.resolve("HEAD")
     kind: Literal["merged", "fast-forward"] = "fast-forward" if ahead else "merged"
     return MergeMade(kind=kind, commit=made.id, name=revision, changes=folder.diff(ours.id, made.id), diagnostics=found)
 
 
-def unite(handle: Any, ours: str, theirs: str, labels: Labels) -> Union:
-    """Merge two commits in memory: libgit2 unites the trees, and every file that both changed is merged by value."""
-    union = Union()
-    index = handle.merge_commits(ours, theirs)
-    trees = [handle[str(handle.merge_base(ours, theirs))].tree, handle[ours].tree, handle[theirs].tree]
-    groups, strict = groups_of(_contents(handle, trees[1]).items())
-    for path, blobs in _both_changed(trees, index):
-        was, mine, other = (handle[b].data if b else None for b in blobs)
-        if mine is None or other is None:
-            union.files.append(path)
-            continue
-        merged = merge(was, mine, other, labels=labels, groups=groups, strict=strict)
-        _note(union, path, merged)
-        if merged.clean:
-            _store(handle, index, path, merged.data, trees[1])
-    if not union.conflicts and not union.files:
-        union.tree = str(index.write_tree(handle))
-    return union
-
-
-def _both_changed(trees: list[Any], index: Any) -> list[tuple[str, tuple[Any, Any, Any]]]:
-    """Return the files that both sides changed otherwise, with their blobs in base, ours and theirs."""
-    found: dict[str, tuple[Any, Any, Any]] = {}
-    for entries in list(index.conflicts or ()):
-        path = next(e.path for e in (entries[1], entries[2], entries[0]) if e)
-        was, mine, other = (e.id if e else None for e in entries)
-        found[path] = (was, mine, other)
-    before, here, there = (_blobs(tree) for tree in trees)
-    for path in here.keys() & there.keys():
-        if is_manifest(path) and path not in found and len({before.get(path), here[path], there[path]}) == 3:
-            found[path] = (before.get(path), here[path], there[path])
-    return sorted(found.items())
-
-
-def _blobs(tree: Any, at: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for entry in tree:
-        if entry.type_str == "tree":
-            found |= _blobs(entry, f"{at}{entry.name}/")
-        elif entry.type_str == "blob":
-            found[at + entry.name] = entry.id
-    return found
-
-
-def _contents(handle: Any, tree: Any) -> dict[str, bytes]:
-    return {path: handle[blob].data for path, blob in _blobs(tree).items() if is_manifest(path)}
-
-
-def _store(handle: Any, index: Any, path: str, data: bytes, ours: Any) -> None:
-    import pygit2
-
-    mode = ours[path].filemode if path in ours else pygit2.enums.FileMode.BLOB
-    if index.conflicts is not None and path in index.conflicts:
-        del index.conflicts[path]
-    index.add(pygit2.IndexEntry(path, handle.create_blob(data), mode))
-
-
-def _note(union: Union, path: str, merged: Merged) -> None:
-    union.conflicts += [(path, c) for c in merged.conflicts]
-    union.coupled += [(path, c) for c in merged.coupled]
-    if not merged.clean and not merged.conflicts:
-        union.files.append(path)
-
-
-def _handle(root: Path) -> Any:
-    import pygit2
-
-    return pygit2.Repository(str(root))
-
-
-def _label(commit: Commit, revision: str = "") -> str:
+def label_of(commit: Commit, revision: str = "") -> str:
+    """Return what to call a commit: as the user called it, else a name at it or its short id."""
     return commit.label if revision in ("", commit.id, commit.label) else revision
 
 
@@ -183,7 +101,8 @@ def _refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, 
     ]
 
 
-def _warnings(union: Union, labels: Labels) -> list[Diagnostic]:
+def coupled_warnings(union: Union, labels: Labels) -> list[Diagnostic]:
+    """Return a warning for each group of tunables of which both sides changed a part."""
     return [
         warning(
             "coupled",
@@ -196,19 +115,28 @@ def _warnings(union: Union, labels: Labels) -> list[Diagnostic]:
     ]
 
 
-def _manifests(folder: LabFolder, handle: Any, tree: str, name: str) -> Manifests:
+def manifests_in(folder: LabFolder, handle: Any, tree: str, name: str) -> Manifests:
+    """Return the manifests of the lab in a tree; `name`: what diagnostics call it."""
     inside = folder.history().relative(folder.root)
     top = handle[tree][inside] if inside else handle[tree]
-    files: Mapping[str, bytes] = _contents(handle, top)
+    files: Mapping[str, bytes] = contents(handle, top)
     return load_files({f"{name}:{path}": data for path, data in files.items()})
 
 
-def _judged(manifests: Manifests, check: Check, labels: Labels) -> tuple[Diagnostic, ...]:
-    """Return the warnings of a merged state; raises PicoError where it is not valid or can't stand."""
+def planned_trailers(manifests: Manifests) -> list[tuple[str, str]]:
+    """Return the trailers of a commit whose state was never on the bench."""
+    setup, state = manifests.require()
+    return [(STATE, state.digest()), (EVIDENCE, "planned"), (LAB, f"{setup.lab.name} {setup.digest()}")]
+
+
+def judged(manifests: Manifests, check: Check, text: str) -> tuple[Diagnostic, ...]:
+    """Return the warnings of a state that is about to be written.
+
+    Raises PicoError where it is not valid and, ending with `text`, where it can't stand (exit 3).
+    """
     manifests.require()
     found = check(manifests)
     if any(d.severity == "error" for d in found):
-        text = f"{labels.ours} and {labels.theirs} merge as text, but not on the table: nothing was written"
         raise PicoError([*found, error("merge-impossible", text)], ExitCode.IMPOSSIBLE)
     return found
 

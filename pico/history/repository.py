@@ -208,9 +208,12 @@ class Repository:
         names = {name for refs in names_at(self._git, TAGS, BRANCHES).values() for name in refs}
         return (*(() if self._git.head_is_unborn else ("HEAD",)), *sorted(names))
 
-    def commit(self, paths: Iterable[str | Path], message: str) -> Commit:
+    def commit(
+        self, paths: Iterable[str | Path], message: str, *, author: tuple[str, datetime] | None = None
+    ) -> Commit:
         """Commit `paths` (and nothing else that is staged) and return the commit; hooks run, signing as configured.
 
+        `author`: whose change it is, and when it was made, where that is not now by whoever commits.
         Raises PicoError with git's words: no identity, a hook that refuses, a lock, nothing to commit.
         """
         if not message.strip():
@@ -219,7 +222,8 @@ class Repository:
         if not names:
             raise PicoError(error("nothing-to-commit", "there is nothing to commit", hint="nothing differs from HEAD"))
         git.run(self.root, ["add", "--all", "--", *names], doing="stage the manifests")
-        arguments = ["commit", "--quiet", "--file=-", "--only", "--", *names]
+        whose = [f"--author={author[0]}", f"--date={author[1].isoformat()}"] if author else []
+        arguments = ["commit", "--quiet", "--file=-", *whose, "--only", "--", *names]
         hooks = "pre-commit commit-msg prepare-commit-msg"
         git.run(self.root, arguments, doing="commit", stdin=message, hook=hooks)
         return self.resolve("HEAD")

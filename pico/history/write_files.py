@@ -1,0 +1,23 @@
+"""Files of the working tree written so that a reader sees the old one or the new one."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def write_files(root: Path, files: Mapping[str, bytes | None]) -> None:
+    """Write files by path relative to `root`, folders as needed; None takes a file away. Permissions stay."""
+    for name, data in sorted(files.items()):
+        path = root / name
+        if data is None:
+            path.unlink(missing_ok=True)
+            continue
+        path.parent.mkdir(parents=True, exist_ok=True)
+        fresh = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+        fresh.write_bytes(data)
+        if path.exists():
+            shutil.copymode(path, fresh)
+        fresh.replace(path)
