@@ -33,6 +33,11 @@ _KNOWN: tuple[tuple[str, str, str], ...] = (
     (r"gpg failed to sign|failed to sign|signing failed", "git-signing", "check `git config user.signingKey`"),
     (r"nothing to commit|nothing added to commit|no changes added", "nothing-to-commit", "nothing differs from HEAD"),
     (r"partial commit during a", "git-merging", "end the merge first: `git commit`, or `git merge --abort`"),
+    (
+        r"\[rejected\]|fetch first|non-fast-forward",
+        "rejected",
+        "somebody pushed before: `pico pull` unites both, then push again",
+    ),
     (r"already exists", "exists", "choose another name"),
     (r"not a valid (branch|tag) name|not a valid ref", "name", "use letters, digits, `-`, `_` and `/`"),
 )
@@ -48,24 +53,26 @@ _LOCAL = (
 def run(
     root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None,
     ends: Sequence[int] = (0,), extra: Mapping[str, str] = MappingProxyType({}), inherit: Sequence[int] = (),
+    shown: bool = False,
 ) -> str:  # fmt: skip
     """Run `git ARGUMENTS` in `root` and return what it wrote to standard output.
 
     `doing` completes "git did not ...". `hook` names the hooks that may refuse it. The environment's GIT_* count,
-    and `extra` over them; the open files `inherit` go along. Raises PicoError with git's own words and what to do,
-    where it does not end with one of the exit codes `ends`.
+    and `extra` over them; the open files `inherit` go along; `shown`: it writes its progress to standard error
+    itself. Raises PicoError with git's own words and what to do, where it does not end with one of the exit codes
+    `ends`.
     """
     environment = {**_environment(root), **extra}
     try:
         done = subprocess.run(
-            ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), capture_output=True, check=False,
-            pass_fds=inherit,
+            ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), stdout=subprocess.PIPE,
+            stderr=None if shown else subprocess.PIPE, check=False, pass_fds=inherit,
         )  # fmt: skip
     except FileNotFoundError:
         hint = "install git, or add it to PATH"
         raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
     if done.returncode not in ends:
-        words = "\n".join(t for t in (done.stderr.decode(errors="replace"), done.stdout.decode(errors="replace")) if t)
+        words = "\n".join(t.decode(errors="replace") for t in (done.stderr, done.stdout) if t)
         raise refusal(words.strip(), doing=doing, hook=_installed(root, hook))
     return done.stdout.decode(errors="surrogateescape")
 
