@@ -11,6 +11,7 @@ import sqlite3
 import zlib
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 VERSION = 1
 """Of the tables and of what is in them; a file of another version is made anew."""
@@ -75,17 +76,17 @@ class Cache:
             self._write([(half, [()]), ("DELETE FROM result", [()])])
 
     def _size(self) -> int:
-        row = self._all(
+        rows = self._all(
             "SELECT (p.page_count - f.freelist_count) * s.page_size "
             "FROM pragma_page_count p, pragma_freelist_count f, pragma_page_size s"
         )
-        return int(row[0][0]) if row else 0
+        return int(rows[0][0]) if rows else 0
 
     def _one(self, query: str, *values: str) -> bytes | None:
         row = next(iter(self._all(query, *values)), None)
         return row[0] if row and isinstance(row[0], bytes) else None
 
-    def _all(self, query: str, *values: str) -> list[tuple[object, ...]]:
+    def _all(self, query: str, *values: str) -> list[tuple[Any, ...]]:
         if self._database is None:
             return []
         try:
@@ -94,7 +95,7 @@ class Cache:
             self._give_up(exc)
             return []
 
-    def _write(self, statements: Iterable[tuple[str, list[tuple[object, ...]]]]) -> None:
+    def _write(self, statements: Iterable[tuple[str, list[tuple[Any, ...]]]]) -> None:
         if self._database is None:
             return
         try:

@@ -14,8 +14,8 @@ from pico.diagnostics import PicoError, error
 from pico.history.blame import Blame, Delta, Step, walk
 from pico.history.blame_answer import Answer, RunFile, Unread, answer, dumps, loads
 from pico.history.blame_cache import VERSION, Cache
-from pico.history.blame_leaves import Flat, flatten
-from pico.history.blame_leaves import loads as flat_from
+from pico.history.blame_flat import Flat, flatten
+from pico.history.blame_flat import loads as flat_from
 from pico.history.repository import Repository
 from pico.history.trees import is_manifest
 from pico.manifest.files import MAX_BYTES
@@ -119,11 +119,17 @@ class Walker:
         changed = dict(_changed(self._tree(base) if base else None, self._tree(commit)))
         runs = tuple((path, name) for path, name in changed.items() if name and _RUN.fullmatch(path))
         if runs:
+            runs = self._not_merged(commit, runs)
             self._runs[commit] = runs
         delta = {path: self.flat(name) if name else None for path, name in changed.items() if is_manifest(path)}
         wrong = [Unread(commit, path, flat.wrong) for path, flat in delta.items() if flat and flat.wrong]
         self._unread = [*self._unread, *wrong][-_MOST_UNREAD:] if wrong else self._unread
         return delta
+
+    def _not_merged(self, commit: str, runs: tuple[RunFile, ...]) -> tuple[RunFile, ...]:
+        """Return the runs that no parent but the first has either."""
+        others = [self._tree(str(p)) for p in self._git[commit].parent_ids[1:]]
+        return tuple(run for run in runs if not any(tree is not None and run[0] in tree for tree in others))
 
     def _tree(self, commit: str) -> Any:
         """Return the lab's folder in a commit, None where it has none."""
