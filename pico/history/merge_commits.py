@@ -52,7 +52,7 @@ def merge_revision(folder: LabFolder, revision: str, check: Check, message: str 
     labels = Labels(label_of(ours), str(base)[:7], label_of(theirs, revision))
     union = Union(str(handle[theirs.id].tree.id)) if ahead else unite_commits(handle, ours.id, theirs.id, labels)
     if union.conflicts or union.files:
-        raise PicoError(_refusals(union, labels, revision, (ours, theirs)))
+        raise PicoError(refusals(union, labels, revision, (ours, theirs)))
     manifests = manifests_in(folder, handle, union.tree, f"{labels.ours}+{labels.theirs}")
     text = f"{labels.ours} and {labels.theirs} merge as text, but not on the table: nothing was written"
     found = (*coupled_warnings(union, labels), *judged(manifests, check, text))
@@ -83,7 +83,8 @@ def _refuse_unfit(folder: LabFolder) -> None:
         raise PicoError(error("edited", text, hint=hint))
 
 
-def _refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, Commit]) -> list[Diagnostic]:
+def refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, Commit]) -> list[Diagnostic]:
+    """Return what stands in the way of a merge of `revision`: each value that both sides changed, with both commits."""
     ours, theirs = (f"{name} ({side.short})" for name, side in zip((labels.ours, labels.theirs), sides, strict=True))
     hint = f"`git merge {revision}` writes both between markers; edit, `git add`, `git commit`"
     found = [

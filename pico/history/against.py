@@ -1,0 +1,112 @@
+"""Which commit a change is compared with: one that is named, that continuous integration names, or where its branch
+began."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pico.diagnostics import PicoError, error
+from pico.history.repository import Repository
+from pico.model.record import record
+
+_DEFAULTS = ("origin/main", "origin/master", "main", "master")
+_WHOLE = "fetch the whole history: `fetch-depth: 0` at GitHub, `GIT_DEPTH: 0` at GitLab, `git fetch --unshallow` here"
+
+
+@record
+class Against:
+    """The commit that a change is compared with, None for nothing at all, and what it is called."""
+
+    commit: str | None = None
+    name: str = ""
+
+
+def against(
+    repository: Repository, revision: str | None = None, environment: Mapping[str, str] | None = None, *, edited: bool
+) -> Against:
+    """Return what to compare with: where HEAD left `revision`, else the branch that continuous integration merges into
+    (by `environment`), else the default branch; the commit before where HEAD is on that and nothing was `edited`.
+
+    Raises PicoError for a revision that there is not, and for a clone that does not reach back far enough.
+    """
+    handle = _handle(repository)
+    head = repository.head().commit
+    told = revision or _told(handle, environment or {})
+    name = told or _default(handle, environment or {})
+    if name is None:
+        return _before(repository, head, edited)
+    goal = _resolved(repository, handle, name, revision)
+    if head is None:
+        return Against(commit=goal, name=name)
+    common = handle.merge_base(head, goal)
+    if common is None and handle.is_shallow:
+        text = f"this clone holds only the last commits: where HEAD left {name} is not among them"
+        raise PicoError(error("shallow", text, hint=_WHOLE))
+    if revision is None and str(common) == head and not edited:
+        return _before(repository, head, edited)
+    if common is None or str(common) == goal:
+        return Against(commit=goal, name=name)
+    return Against(commit=str(common), name=f"where it left {name}")
+
+
+def _before(repository: Repository, head: str | None, edited: bool) -> Against:
+    """Return HEAD where something was edited since, else the commit before it."""
+    if head is None:
+        return Against(name="nothing: no commit yet")
+    if edited:
+        return Against(commit=head, name="HEAD")
+    parents = repository.resolve(head).parents
+    return (
+        Against(commit=parents[0], name="the commit before") if parents else Against(name="nothing: the first commit")
+    )
+
+
+def _resolved(repository: Repository, handle: Any, name: str, revision: str | None) -> str:
+    try:
+        return repository.resolve(name).id
+    except PicoError:
+        if revision is not None and not handle.is_shallow:
+            raise
+        text = f"the change is to be compared with `{name}`, which this clone does not have"
+        raise PicoError(error("shallow", text, hint=_WHOLE)) from None
+
+
+def _told(handle: Any, environment: Mapping[str, str]) -> str | None:
+    """Return the revision that GitHub or GitLab merges into, as this clone has it."""
+    names = list(_candidates(environment))
+    return next((name for name in names if _known(handle, name)), names[0] if names else None)
+
+
+def _candidates(environment: Mapping[str, str]) -> Iterator[str]:
+    for variable in ("GITHUB_BASE_REF", "CI_MERGE_REQUEST_TARGET_BRANCH_NAME"):
+        if branch := environment.get(variable):
+            yield from (f"origin/{branch}", branch)
+    if base := environment.get("CI_MERGE_REQUEST_DIFF_BASE_SHA"):
+        yield base
+
+
+def _default(handle: Any, environment: Mapping[str, str]) -> str | None:
+    """Return the default branch: what origin's HEAD names, else one called as most are."""
+    if "refs/remotes/origin/HEAD" in handle.references:
+        target = handle.references["refs/remotes/origin/HEAD"].target
+        if isinstance(target, str) and _known(handle, name := target.removeprefix("refs/remotes/")):
+            return name
+    branch = environment.get("CI_DEFAULT_BRANCH")
+    names = (*([f"origin/{branch}"] if branch else []), *_DEFAULTS)
+    return next((name for name in names if _known(handle, name)), None)
+
+
+def _known(handle: Any, name: str) -> bool:
+    import pygit2
+
+    try:
+        return bool(handle.revparse_single(name).peel(pygit2.Commit))
+    except (KeyError, ValueError, pygit2.GitError):
+        return False
+
+
+def _handle(repository: Repository) -> Any:
+    import pygit2
+
+    return pygit2.Repository(str(repository.root))
