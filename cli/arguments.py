@@ -44,6 +44,11 @@ Prefer = Annotated[
     str,
     typer.Option("--prefer", metavar="fewest-moves|shortest-time", help="What counts first in the choice of a plan."),
 ]
+Mainline = Annotated[
+    int | None,
+    typer.Option("--mainline", metavar="N", help="Of a merge: the side, from 1, that counts as what was before."),
+]
+NoCommit = Annotated[bool, typer.Option("--no-commit", help="Write the manifests, and leave the commit to you.")]
 Speed = Annotated[float | None, typer.Option("--speed", metavar="SHARE", help="Share of the joint limits, up to 1.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the plan of it and move nothing.")]
 Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="Arguments.")]

@@ -12,7 +12,7 @@ from .summary import COMMANDS, MOVERS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "-m", "--message", "--interval", "--looks", "--grace",
+    "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -46,6 +46,8 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "home": _ONE,
     "diff": ("--picture",),
     "merge": ("-m", "--message"),
+    "revert": ("-m", "--message", "--mainline", "--no-commit"),
+    "cherry-pick": ("--mainline", "--no-commit"),
     "render": ("--out", "--view", "--manifest", "--plan", "--size"),
     "ruler": ("--picture",),
     "scan": ("--picture",),
@@ -81,7 +83,7 @@ FIXED = {
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
-_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "show", "render", "verify")
+_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render", "verify")
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 

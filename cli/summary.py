@@ -31,6 +31,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
         "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
+        "revert": "Take back what a commit changed on the table, in the manifests only.",
+        "cherry-pick": "Change on this branch what commits of another one changed on the table, in the manifests only.",
         "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
     },
     "One operation at a time": {

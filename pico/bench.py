@@ -24,6 +24,7 @@ from pico.model.status import Status
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
+    from pico.history.carry import Carried
     from pico.history.merge_commits import MergeMade
     from pico.imports import Imported
     from pico.planning.explain import Explanation
@@ -257,6 +258,20 @@ class Bench(Reader):
         from pico.merging import merge
 
         return merge(self.folder, revision, message)
+
+    def revert(self, revision: str, message: str = "", *, mainline: int | None = None, commit: bool = True) -> Carried:
+        """Take back what a revision changed, in the manifests; see `pico.restoring`."""
+        from pico import restoring
+
+        return restoring.revert(self.folder, revision, message=message, mainline=mainline, commit=commit)
+
+    def cherry_pick(
+        self, revisions: Sequence[str], *, mainline: int | None = None, commit: bool = True
+    ) -> tuple[Carried, ...]:
+        """Do once more what revisions changed, in the manifests; see `pico.restoring`."""
+        from pico import restoring
+
+        return restoring.cherry_pick(self.folder, revisions, mainline=mainline, commit=commit)
 
     def render(
         self,

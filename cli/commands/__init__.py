@@ -31,6 +31,7 @@ def register(app: typer.Typer, asked: str | None) -> None:
 
 def _function(name: str) -> Callable[..., int]:
     name = f"{name}_" if name in ("import", "set") else name  # words of Python
+    name = name.replace("-", "_")
     module = import_module(".single" if name.rstrip("_") in SINGLE and name != "get" else f".{name}", __name__)
     function: Callable[..., int] = getattr(module, name)
     return function

@@ -112,7 +112,8 @@ def _step(
     repository = folder.history()
     inside = repository.relative(folder.root)
     commit = repository.resolve(revision)
-    name, parent = label_of(commit, revision), _parent(folder, commit, revision, mainline)
+    name = commit.label if revision.startswith(("HEAD", "@")) else label_of(commit, revision)
+    parent = _parent(folder, commit, name, mainline)
     if way == "revert" and parent is None:
         raise PicoError(rootless(name))
     made = manifest_tree(handle, handle[commit.id].tree, inside)
@@ -124,18 +125,18 @@ def _step(
         raise PicoError(conflicts(handle, union, way, head, (name, commit), parent))
     if union.tree == onto:
         return _Step(way, commit, name, parent, onto, onto)
-    manifests = manifests_in(folder, handle, union.tree, called.theirs)
+    manifests = manifests_in(folder, handle, union.tree, f"{called.ours}+{called.theirs}")
     before = manifests_in(folder, handle, onto, called.ours)
-    text = f"{called.theirs} would be possible as text, but not on the table: nothing was written"
+    text = f"{called.ours} and {called.theirs} unite as text, but not on the table: nothing was written"
     found = judged(manifests, lambda wanted: check(wanted, before), text)
     return _Step(way, commit, name, parent, onto, union.tree, (*coupled_warnings(union, called), *found))
 
 
-def _parent(folder: LabFolder, commit: Commit, revision: str, mainline: int | None) -> Commit | None:
+def _parent(folder: LabFolder, commit: Commit, name: str, mainline: int | None) -> Commit | None:
     """Return what a commit's change is against; raises PicoError for a merge without a side that counts."""
     sides = [folder.history().resolve(p) for p in commit.parents]
     if (mainline is None and len(sides) > 1) or (mainline is not None and not 1 <= mainline <= len(sides)):
-        raise PicoError(mainline_needed(label_of(commit, revision), sides, mainline))
+        raise PicoError(mainline_needed(name, sides, mainline))
     return sides[(mainline or 1) - 1] if sides else None
 
 

@@ -1,0 +1,33 @@
+"""`pico cherry-pick`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..arguments import Mainline, NoCommit
+from ..session import Session
+from ..views import carried as view
+
+
+def cherry_pick(
+    context: typer.Context,
+    revisions: Annotated[list[str], typer.Argument(metavar="REV...", help="Commits, or a range such as main..e1.")],
+    mainline: Mainline = None,
+    no_commit: NoCommit = False,
+) -> int:
+    """Change on this branch what commits of another one changed on the table, in the manifests only.
+
+    A commit each, with its message and author, but without its runs: it was not realized here. Nothing is written
+    where a tunable was changed here too, or where a result is physically impossible (exit 3). Nothing moves: `pico
+    plan` then shows what would.
+    """
+    session = Session.of(context)
+    bench = session.bench()
+    before = bench.head_commit()
+    done = bench.cherry_pick(revisions, mainline=mainline, commit=not no_commit)
+    if not session.json:
+        session.report([d for one in done for d in one.diagnostics])
+    session.show(view, done, before=before or "")
+    return 0
