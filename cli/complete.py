@@ -83,7 +83,10 @@ FIXED = {
 }
 COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
-_REVISION = ("plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render", "verify")
+_REVISION = (
+    "plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render",
+    "verify",
+)  # fmt: skip
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 
