@@ -183,7 +183,7 @@ class AsyncBench(Drawings):
     async def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
         """Return the plan to a revision that is about to be checked out; raises PicoError where edits would be lost."""
         self.folder.refuse_edits()
-        return await self.plan(revision, exact=exact)
+        return (await self.plan(revision, exact=exact)).because("checkout")
 
     def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
         """Check a revision out with git. Moves nothing; raises PicoError.
@@ -314,7 +314,8 @@ class AsyncBench(Drawings):
         """Capture and commit the manifests.
 
         `strict` refuses edits that were never applied; `capture`: the bench wins; `planned`: the manifest wins, and
-        the commit says where it was never realized. Raises PicoError.
+        the commit says where it was never realized. Unless `planned`, it carries the runs that no commit has yet.
+        Raises PicoError.
         """
         seen = await self.observe()
         status = compare(self.setup, self.folder.committed(), self.state, seen)
@@ -323,8 +324,13 @@ class AsyncBench(Drawings):
         if mode == "planned":
             never = any(row.off or row.note for row in status.rows)
             return self.folder.commit(message, (), "planned" if never else self.fidelity)
+        from pico import recording
+
         captured = self.folder.capture(live_state(self.setup, seen, sure=True))
-        return self.folder.commit(message, captured.changes, self.fidelity)
+        runs = recording.pending(self.folder, seen)
+        stands = not any(not c.tolerated for c in drift_of(self.setup, seen, self.state))
+        evidence = (recording.evidence_of(runs) or self.fidelity) if stands else "planned"
+        return self.folder.commit(message, captured.changes, evidence, runs=runs)
 
     async def _planned(self, revision: str | None) -> Plan:
         return await self.plan(revision)

@@ -221,6 +221,12 @@ class Journal:
         about, seen = row or (None, None)
         return tuple(json.loads(about) if about else ()), json.loads(seen) if seen else None
 
+    def moving(self) -> frozenset[str]:
+        """Return the runs that began at least one operation."""
+        with self._guarded():
+            rows = self._db.execute("SELECT DISTINCT run FROM records WHERE phase = 1").fetchall()
+        return frozenset(row[0] for row in rows)
+
     # operations
 
     def intend(self, key: str, operation: Operation, token: int) -> OperationResult | None:

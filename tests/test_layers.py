@@ -18,6 +18,7 @@ LAYERS: dict[str, set[str]] = {
     "history": {"diagnostics", "resources", "model", "manifest", "trace"},
     "journal": {"diagnostics", "model"},
     "data": {"diagnostics", "model", "trace", "history"},
+    "recording": {"diagnostics", "model", "trace", "history", "journal", "backends"},
     "geometry": {"diagnostics", "model"},
     "motion": {"diagnostics", "model", "geometry"},
     "planning": {"diagnostics", "model", "geometry", "motion"},
@@ -39,7 +40,7 @@ LAYERS: dict[str, set[str]] = {
     "saved": {"diagnostics", "model", "execution", "vision", "async_bench"},
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "policy", "vision", "twin", "backends", "execution", "pictures", "drawings",
+        "policy", "vision", "twin", "backends", "execution", "pictures", "drawings", "recording",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",

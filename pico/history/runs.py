@@ -73,18 +73,21 @@ def places_in_history(
     return found
 
 
-def find_runs(
-    repository: Repository, folder: str | Path, ids: Iterable[str], *, since: float | None = None
-) -> dict[str, RunPlace]:
-    """Return where the runs `ids` are that some branch or tag reaches, by id: those that the tips have first, for that
-    is quickly seen, and only for the rest the history, back to `since` [s since 1970]."""
-    trees, wanted, found = _Trees(repository, repository.relative(folder)), set(ids), {}
-    for tip in tip_ids(repository) if wanted else ():
+def find_runs(repository: Repository, folder: str | Path, runs: Mapping[str, float]) -> dict[str, RunPlace]:
+    """Return where those of some runs are that a branch or tag reaches, by id.
+
+    `runs`: ids, with when each began [s since 1970]. What the tips have is quickly seen; only for the rest the history
+    is looked through, back to the first of them.
+    """
+    trees = _Trees(repository, repository.relative(folder))
+    found: dict[str, RunPlace] = {}
+    for tip in tip_ids(repository) if runs else ():
         there = trees.places(repository.handle[tip])
-        found |= {name: there[name] for name in wanted & there.keys()}
-    if wanted - found.keys():
-        there = places_in_history(repository, folder, since=since)
-        found |= {name: there[name] for name in (wanted - found.keys()) & there.keys()}
+        found |= {name: there[name] for name in runs.keys() & there.keys()}
+    missing = {name: began for name, began in runs.items() if name not in found}
+    if missing:
+        there = places_in_history(repository, folder, since=min(missing.values()))
+        found |= {name: there[name] for name in missing.keys() & there.keys()}
     return found
 
 

@@ -83,7 +83,8 @@ class RunDocument:
     `seconds`: the time in which something moved, on the bench's clock. `tally` counts operations by how they ended.
     `resumed`: how often the run was taken up again until then; a document whose id ends with `-r1` has what came after
     the first time, when a commit had the rest already. `changes`: what the run changed on the bench, `tolerated` where
-    by less than the tolerance. `files`: those beside this one. `planned` evidence never occurs: a run ran.
+    by less than the tolerance; `afterwards`: what has changed since then, beyond it, when the commit was made: by hand,
+    or by itself. `files`: those beside this one. `planned` evidence never occurs: a run ran.
     """
 
     schema: str = SCHEMA
@@ -111,6 +112,7 @@ class RunDocument:
     resumed: int = 0
     expectations: tuple[Expected, ...] = ()
     changes: tuple[Change, ...] = ()
+    afterwards: tuple[Change, ...] = ()
     files: Mapping[str, FileRef] = field(default_factory=dict)
     artifacts: tuple[Artifact, ...] = ()
 

@@ -1,0 +1,83 @@
+"""The states between which a run led, and what it changed."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from pico.journal import JournalRecord, observed_from_json
+from pico.model.diff import Change, diff_states, place_json, value_distance
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, live_state
+from pico.model.pose import Pose, angle_between
+from pico.model.state import ComponentState, LabState, place_of
+
+
+def state_seen(setup: Setup, components: Mapping[str, Any]) -> LabState:
+    """Return the state of components as they were observed; `components`: JSON of `ObservedComponent` by name."""
+    read = {name: observed_from_json(data) for name, data in components.items()}
+    return _live(setup, {name: part for name, part in read.items() if part is not None})
+
+
+def state_left(setup: Setup, before: LabState, records: Iterable[JournalRecord]) -> LabState:
+    """Return the state that operations led to from `before`, as each of them saw its own component."""
+    parts = dict(before.components)
+    for r in records:
+        after = observed_from_json(r.data.get("after")) if r.kind not in ("intent", "started") else None
+        if after is not None:
+            parts.pop(r.component, None)
+            parts |= _live(setup, {r.component: after}).components
+    return replace(before, components=parts)
+
+
+def touched(records: Iterable[JournalRecord]) -> frozenset[str]:
+    """Return the components on which something began."""
+    return frozenset(r.component for r in records if r.kind == "started")
+
+
+def changes(setup: Setup, before: LabState, after: LabState, among: Collection[str]) -> tuple[Change, ...]:
+    """Return what differs between two observed states, `tolerated` where by no more than the tolerance.
+
+    Only components `among` those count, as far as the inventory has them. One that nobody saw in one of the states has
+    no place there.
+    """
+    names = [n for n in sorted(among) if n in setup.lab.inventory]
+    both = [n for n in names if n in before.components and n in after.components]
+    found = [_judged(setup, c) for c in diff_states(setup, _only(before, both), _only(after, both))]
+    found += [c for n in names if n not in both for c in _unseen(setup, n, before, after)]
+    return tuple(sorted(found, key=lambda c: (c.component, c.tunable)))
+
+
+def _live(setup: Setup, parts: Mapping[str, ObservedComponent]) -> LabState:
+    known = {name: part for name, part in parts.items() if name in setup.lab.inventory}
+    return live_state(setup, Observation(backend="", components=known))
+
+
+def _only(state: LabState, names: Sequence[str]) -> LabState:
+    return replace(state, components={n: state.components[n] for n in names})
+
+
+def _unseen(setup: Setup, name: str, before: LabState, after: LabState) -> list[Change]:
+    one, other = before.components.get(name), after.components.get(name)
+    if one is None and other is None:
+        return []
+
+    def place(state: LabState, part: ComponentState | None) -> Any:
+        return place_json(*place_of(setup, state, name)) if part else None
+
+    text = "not seen afterwards" if other is None else "not seen before"
+    return [Change(component=name, tunable="pose", before=place(before, one), after=place(after, other), text=text)]
+
+
+def _judged(setup: Setup, change: Change) -> Change:
+    kind = setup.type_of(change.component)
+    if change.tunable != "pose":
+        own = kind.tunables.get(change.tunable)
+        apart = value_distance(own, change.before, change.after) if own and change.before is not None else None
+        return replace(change, tolerated=own is not None and apart is not None and apart <= own.tolerance)
+    if not (isinstance(change.before, Mapping) and isinstance(change.after, Mapping)):
+        return change
+    a, b, tolerance = Pose(**change.before), Pose(**change.after), kind.pose.tolerance
+    turned = abs(angle_between(a.yaw, b.yaw))
+    return replace(change, tolerated=a.distance(b) <= tolerance.position and turned <= tolerance.yaw)

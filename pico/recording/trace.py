@@ -1,0 +1,84 @@
+"""The records of a journal as the trace of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pico.journal import JournalRecord
+from pico.model.run import TraceEvent
+from pico.trace.run import numbered
+
+ENDS = ("done", "failed", "unknown")
+
+
+def trace_events(records: Sequence[JournalRecord]) -> tuple[TraceEvent, ...]:
+    """Return the trace of some records: each with the time on the bench's clock, as far as its operation ended."""
+    spans = _spans(records)
+    zero = min((start for start, _ in spans.values()), default=0.0)
+    events, now = [], 0.0
+    for r in records:
+        known = spans.get(r.key)
+        if known:
+            now = max(now, known[0 if r.kind in ("intent", "started") else 1] - zero)
+        _, operation, attempt = r.key.split("/")
+        events.append(
+            TraceEvent(
+                t=now, at=r.at, seq=0, kind=r.kind, operation=operation, attempt=int(attempt), component=r.component,
+                data=_data(r),
+            )
+        )  # fmt: skip
+    return numbered(events)
+
+
+def busy(records: Sequence[JournalRecord]) -> float:
+    """Return how long something moved, on the bench's clock [s]; what ran side by side counts once."""
+    total, until = 0.0, float("-inf")
+    for start, end in sorted(_spans(records).values()):
+        total += max(0.0, end - max(start, until))
+        until = max(until, end)
+    return total
+
+
+def tally(records: Sequence[JournalRecord], skipped: int) -> dict[str, int]:
+    """Return how many operations ended how, each by its last attempt, and as the bench was seen in the end."""
+    last: dict[str, str] = {}
+    for r in records:
+        operation = r.key.split("/")[1]
+        if r.kind in ENDS:
+            last[operation] = r.kind
+        elif r.kind == "started":
+            last[operation] = "unknown"
+        elif r.kind == "resolved":
+            last[operation] = str(r.data["outcome"])
+    counts = {kind: sum(end == kind for end in last.values()) for kind in ENDS}
+    return counts | {"skipped": skipped}
+
+
+def measured(seen: Mapping[str, Any] | None, t: float) -> tuple[TraceEvent, ...]:
+    """Return what was observed of the bench at the end of a run: expectations first, then each component."""
+    if seen is None:
+        return ()
+    at = str(seen["at"])
+    said = [TraceEvent(t=t, at=at, seq=0, kind="expectation", data=e) for e in seen["expectations"]]
+    parts = sorted(seen["components"].items())
+    return numbered(
+        [*said, *(TraceEvent(t=t, at=at, seq=0, kind="observation", component=n, data=p) for n, p in parts)]
+    )
+
+
+def _spans(records: Sequence[JournalRecord]) -> dict[str, tuple[float, float]]:
+    """Return start and end of each attempt on the bench's clock [s], of those of which that is known."""
+    return {
+        r.key: (r.data["ended"] - r.data["seconds"], r.data["ended"])
+        for r in records
+        if r.kind in ENDS and r.data.get("ended")
+    }
+
+
+def _data(r: JournalRecord) -> Mapping[str, Any]:
+    if r.kind == "started":
+        return {"before": r.data} if r.data else {}
+    if r.kind in ENDS:  # what it was before, `started` has said
+        return {k: v for k, v in r.data.items() if k not in ("key", "before", "ended")}
+    return r.data
