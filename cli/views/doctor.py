@@ -15,7 +15,7 @@ def text(found: Sequence[Diagnostic]) -> str:
     """Return one line."""
     if found:
         return f"{count(len(found), 'thing')} to look at."
-    return "All is well: git knows the merge driver, the driver starts, the manifests are valid."
+    return "All is well: git knows the drivers of merge and diff, they start, the manifests are valid."
 
 
 def data(found: Sequence[Diagnostic]) -> dict[str, Any]:

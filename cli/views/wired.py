@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-SET = "git merges manifests by PICO here from now on (set once in .git/config; `pico git uninstall` takes it out)"
+SET = (
+    "git merges manifests by PICO here from now on, and its diff says what moved "
+    "(set once in .git/config; `pico git uninstall` takes it out)"
+)
 
 
 def text(*, installed: bool) -> str:
     """Return one line."""
     if installed:
-        return "git merges manifests by PICO in this repository."
-    return "git merges manifests line by line in this repository; `pico git install` sets PICO's driver again."
+        return "git merges manifests by PICO in this repository, and its diff says what moved."
+    return "git merges and shows manifests line by line in this repository; `pico git install` sets PICO again."
 
 
 def data(*, installed: bool) -> dict[str, Any]:

@@ -14,24 +14,35 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
+from pico.history.wrappers import diff_command, text_command
 
 CLEAN, CONFLICT, FAILED = 40, 41, 42
 """What the driver ends with; nothing else ends with these by accident."""
 
-LINE = "*.yaml merge=pico"
-GITATTRIBUTES = f"# manifests merge value by value; without PICO, git merges their lines\n{LINE}\n"
+LINE = "*.yaml merge=pico diff=pico"
+GITATTRIBUTES = f"""\
+# manifests merge value by value, and a diff says what moved; without PICO, git merges and shows their lines
+{LINE}
+# what runs recorded is shown by `pico show` and `pico runs`, not line by line
+runs/** -diff linguist-generated
+# lines that two branches append both stay
+notes/*.md merge=union
+"""
 _NAME = "PICO: manifests merge value by value"
 _SECTION = re.compile(rb'^\[merge "pico"\]\s*$', re.MULTILINE)
 _PYTHON = re.compile(rb'^\s*driver = "?(.+?) -P -m pico\.history\.driver ', re.MULTILINE)
-_OFF = re.compile(rb"^\[pico\]\s*\n\s*mergedriver = false\s*$", re.MULTILINE)
+_OFF = re.compile(rb"^\[pico\][ \t]*\n(?:[ \t]+.*\n)*?[ \t]*mergedriver = false[ \t]*$", re.MULTILINE)
+_COMPONENT_LINE = "^ {0,2}([A-Za-z][A-Za-z0-9_/]*):"
+"""What names a hunk: the last key above it at the depth of components, as written or as `diff.pico.textconv` has it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """How a repository stands: whether its attributes name the driver, whether git knows one, as PICO sets it and of a
-    PICO that is there, and whether somebody asked for it not to be set."""
+    """How a repository stands: whether its attributes name the drivers of merge and diff, whether git knows one, as
+    PICO sets it and of a PICO that is there, and whether somebody asked for it not to be set."""
 
     attributed: bool
+    shown: bool
     known: bool
     current: bool
     refused: bool
@@ -63,20 +74,21 @@ def wiring(folder: Path) -> Wiring | None:
     config = _read(common / "config")
     below = [p for p in (folder.resolve(), *folder.resolve().parents) if p.is_relative_to(top)]
     return Wiring(
-        attributed=any(_names_driver(p / ".gitattributes") for p in below),
+        attributed=any(_names(b"merge=pico", p / ".gitattributes") for p in below),
+        shown=any(_names(b"diff=pico", p / ".gitattributes") for p in below),
         known=bool(_SECTION.search(config)),
-        current=_escaped(_rest()).encode() in config and _python_exists(config),
+        current=all(_escaped(piece).encode() in config for piece in _pieces()) and _python_exists(config),
         refused=bool(_OFF.search(config)),
     )
 
 
 def wire(folder: Path) -> bool:
-    """Tell git about the driver where the attributes name it and git does not know it; return whether that was so.
+    """Tell git about the drivers where the attributes name one and git does not know it; return whether that was so.
 
     Nothing happens where somebody asked for that, and where the configuration can't be written.
     """
     found = wiring(folder)
-    if found is None or not found.attributed or found.current or found.refused:
+    if found is None or not (found.attributed or found.shown) or found.current or found.refused:
         return False
     try:
         install(folder)
@@ -86,15 +98,25 @@ def wire(folder: Path) -> bool:
 
 
 def install(folder: Path) -> None:
-    """Set the driver in the repository's own configuration; raises PicoError."""
-    for key, value in {"name": _NAME, "driver": command(), "recursive": "binary"}.items():
-        git.run(folder, ["config", "--local", f"merge.pico.{key}", value], doing="set the merge driver")
+    """Set the drivers in the repository's own configuration; raises PicoError."""
+    python = shlex.quote(sys.executable)
+    wanted = {
+        "merge.pico.name": _NAME, "merge.pico.driver": command(), "merge.pico.recursive": "binary",
+        "diff.pico.command": diff_command(python), "diff.pico.textconv": text_command(),
+        "diff.pico.xfuncname": _COMPONENT_LINE,
+    }  # fmt: skip
+    for key, value in wanted.items():
+        git.run(folder, ["config", "--local", key, value], doing="set its drivers of merge and diff")
     _unset(folder, "--unset", "pico.mergedriver")
 
 
 def uninstall(folder: Path) -> None:
-    """Take the driver out of the repository's own configuration, and remember not to set it again; raises PicoError."""
+    """Take the drivers out of the repository's own configuration and remember not to set them again.
+
+    Raises PicoError.
+    """
     _unset(folder, "--remove-section", "merge.pico")
+    _unset(folder, "--remove-section", "diff.pico")
     git.run(folder, ["config", "--local", "pico.mergedriver", "false"], doing="remember that")
 
 
@@ -107,6 +129,9 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
     if not found.attributed:
         hint = f"`echo '{LINE}' >> .gitattributes`, and commit that"
         wrong.append(warning("git-attributes", "no .gitattributes says that manifests merge by PICO", hint=hint))
+    elif not found.shown:
+        hint = "`echo '*.yaml diff=pico' >> .gitattributes`, and commit that: `git diff` then says what moved"
+        wrong.append(warning("git-attributes", "no .gitattributes says that PICO shows what differs", hint=hint))
     if found.refused:
         hint = "`pico git install` sets it again"
         wrong.append(warning("git-driver", "git does not know the merge driver: it was taken out here", hint=hint))
@@ -133,7 +158,7 @@ def _unset(folder: Path, how: str, name: str) -> None:
     try:
         git.run(folder, ["config", "--local", how, name], doing="change its configuration")
     except PicoError:
-        if name in ("merge.pico",) and (found := wiring(folder)) and found.known:
+        if name == "merge.pico" and (found := wiring(folder)) and found.known:
             raise
 
 
@@ -150,8 +175,8 @@ def _git_folder(folder: Path) -> tuple[Path, Path] | None:
     return None
 
 
-def _names_driver(path: Path) -> bool:
-    return any(b"merge=pico" in line.split(b"#")[0].split() for line in _read(path).splitlines())
+def _names(attribute: bytes, path: Path) -> bool:
+    return any(attribute in line.split(b"#")[0].split() for line in _read(path).splitlines())
 
 
 def _read(path: Path) -> bytes:
@@ -169,6 +194,11 @@ def _python_exists(config: bytes) -> bool:
         return False
 
 
+def _pieces() -> list[str]:
+    """Return the values of the configuration, apart from the interpreter that they name."""
+    return [_rest(), text_command(), *diff_command("\n\n\n").split("\n\n\n")]
+
+
 def _escaped(value: str) -> str:
     """Return a value as git writes it into a configuration file."""
-    return value.replace("\\", "\\\\").replace('"', '\\"')
+    return value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t")

@@ -19,8 +19,13 @@ def groups_near(path: Path) -> tuple[Groups, bool]:
 
     What can't be read counts as not there: the file may be in conflict itself.
     """
-    root = next((folder for folder in path.absolute().parents if _holds_lab(folder)), None)
+    root = lab_around(path)
     return groups_of(read_folder(root)[0].items()) if root else ({}, False)
+
+
+def lab_around(path: Path) -> Path | None:
+    """Return the nearest folder above a file that holds a lab, None where there is none."""
+    return next((folder for folder in path.absolute().parents if _holds_lab(folder)), None)
 
 
 def _holds_lab(folder: Path) -> bool:

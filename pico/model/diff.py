@@ -148,7 +148,14 @@ def describe_move(slot_a: str | None, a: Pose, slot_b: str | None, b: Pose) -> s
     turned = angle_between(a.yaw, b.yaw)
     if short(turned) != "0":
         words.append(f"turned {_signed(turned)}°")
-    return ", ".join(words) or "unchanged"
+    return ", ".join(words) or _hardly(a, b)
+
+
+def _hardly(a: Pose, b: Pose) -> str:
+    """Return a move in words that rounding would hide."""
+    away, turned = a.distance(b), angle_between(a.yaw, b.yaw)
+    words = [f"moved {away:.2g} mm"] * bool(away) + [f"turned {turned:+.2g}°"] * bool(turned)
+    return ", ".join(words) or f"yaw {a.yaw:g} → {b.yaw:g}°, the same direction"
 
 
 def _signed(number: float) -> str:
