@@ -45,6 +45,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "set": _ONE,
     "home": _ONE,
     "diff": ("--picture",),
+    "push": ("--no-data",),
     "merge": ("-m", "--message"),
     "revert": ("-m", "--message", "--mainline", "--no-commit"),
     "cherry-pick": ("--mainline", "--no-commit"),

@@ -33,6 +33,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
         "revert": "Take back what a commit changed on the table, in the manifests only.",
         "cherry-pick": "Change on this branch what commits of another one changed on the table, in the manifests only.",
+        "push": "Send the large data of runs to where it is kept, then the commits with `git push`.",
+        "pull": "Get commits with `git pull`, then the large data of their runs. Moves nothing.",
         "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
     },
     "One operation at a time": {

@@ -13,7 +13,7 @@ from ..summary import COMMANDS
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
 GROUPS = ("catalog", "data", "git", "sim")
 SCOPED = ("plan", "apply")  # these take names after `--`
-LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option
+LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option, and git gets its own
 
 
 def register(app: typer.Typer, asked: str | None) -> None:
@@ -22,7 +22,7 @@ def register(app: typer.Typer, asked: str | None) -> None:
         if name in GROUPS:
             app.add_typer(import_module(f".{name}", __name__).app if name == asked else _empty(name), name=name)
         elif name == asked:
-            settings = LOOSE if name in ("do", "move", "rotate", "set") else None
+            settings = LOOSE if name in ("do", "move", "rotate", "set", "push", "pull") else None
             kind = Scoped if name in SCOPED else None
             app.command(name, cls=kind, context_settings=settings)(_function(name))
         else:

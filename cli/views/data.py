@@ -51,6 +51,11 @@ def size(number: float) -> str:
     return f"{number:.0f} {unit}" if unit == "B" else f"{number:.3g} {unit}"
 
 
+def objects(needs: tuple[Need, ...]) -> str:
+    """Return `3 objects (4.2 MB)`."""
+    return f"{count(len(needs), 'object')} ({size(sum(n.size for n in needs))})"
+
+
 def _holdings(found: Holdings) -> str:
     needed = tuple(found.needs.values())
     spare = sum(size for _, size in found.spare)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from pico.data.needs import Needs, kept_needs, needs
-from pico.data.places import SETTING, Place, place_of
+from pico.data.places import SETTING, Place, configured, place_of
 from pico.data.transfer import Holdings, Moved, Shared, holdings, pull, push
 from pico.data.upkeep import Checked, Garbage, check, garbage, remove
 from pico.diagnostics import PicoError, error
@@ -38,6 +38,10 @@ class LabData:
             hint = "`git init` makes one; the data of runs belongs to their commits"
             raise PicoError(error("git-none", f"{path.resolve()} is in no Git repository", hint=hint))
         return cls(repository)
+
+    def has_place(self) -> bool:
+        """Return whether the configuration says where copies are kept."""
+        return bool(configured(self.repository))
 
     def needs(self) -> Needs:
         """Return what the runs in the commits of every ref need."""

@@ -41,7 +41,7 @@ class Place(Protocol):
 def place_of(repository: Repository, word: str | None) -> Place | None:
     """Return the place that `word` names (a folder or an URL such as `s3://bucket/lab`), else the one configured, or
     None where there is none. A relative folder counts from the top of the working tree. Raises PicoError."""
-    word = word or _configured(repository)
+    word = word or configured(repository)
     if not word:
         return None
     if "://" in word:
@@ -53,7 +53,8 @@ def place_of(repository: Repository, word: str | None) -> Place | None:
     return Folder(folder)
 
 
-def _configured(repository: Repository) -> str:
+def configured(repository: Repository) -> str:
+    """Return the place that `git config pico.data.remote` names; empty where it names none."""
     try:
         return git.run(repository.root, ["config", "--get", SETTING], doing="read its configuration").strip()
     except PicoError:

@@ -1,0 +1,63 @@
+"""`pico push`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode, PicoError, error, warning
+
+from ..session import Session
+from ..views import data as said
+from ..views import pushed as view
+from ..waiting import waiting
+
+if TYPE_CHECKING:
+    from pico.data.lab import LabData
+    from pico.data.transfer import Moved
+
+Words = Annotated[
+    list[str] | None, typer.Argument(metavar="[REMOTE] [REF...]", help="For git, as it is; git's options, too.")
+]
+
+
+def push(
+    context: typer.Context,
+    words: Words = None,
+    no_data: Annotated[
+        bool, typer.Option("--no-data", help="Send commits only; the data of their runs stays.")
+    ] = False,
+) -> int:
+    """Send the large data of runs to where it is kept, then the commits with `git push`."""
+    from pico.data.lab import LabData
+    from pico.history.remote import push
+
+    session = Session.of(context)
+    data = LabData.discover(session.folder)
+    moved = None if no_data else _send(session, data)
+    if moved and moved.diagnostics:
+        hint = "`pico data fsck` says more; `pico push --no-data` sends the commits all the same"
+        text = "the commits were not sent, for data of their runs can't be"
+        raise PicoError((*moved.diagnostics, error("data-unsent", text, hint=hint)))
+    sent = push(data.repository, words or (), shown=not session.json and sys.stderr.isatty())
+    session.show(view, sent, moved)
+    return ExitCode.DONE
+
+
+def _send(session: Session, data: LabData) -> Moved | None:
+    """Send the data, and return what became of it; None where no place is known, and nothing here would be left."""
+    if data.has_place():
+        with waiting("Sending data") as shown:
+            moved = data.push(shared=lambda share: setattr(shown, "share", share))
+        if moved.lost and not session.json:
+            text = f"{said.objects(moved.lost)} that runs need neither here nor in {moved.place}"
+            session.report([warning("data-missing", text, hint="`pico data status` names them")])
+        return moved
+    left = data.status().unsent
+    if left:
+        text = f"{said.objects(left)} of runs would stay here: nothing says where the data of this lab is kept"
+        hint = "`git config pico.data.remote FOLDER` says it, `pico push --no-data` sends the commits all the same"
+        raise PicoError(error("data-place", text, hint=hint))
+    return None
