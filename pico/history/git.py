@@ -92,6 +92,12 @@ def given(path: Path) -> tuple[str, Path] | None:
     return (str(Path(folder).absolute()), tree) if folder and path.resolve().is_relative_to(tree) else None
 
 
+def index(root: Path, folder: Path) -> Path:
+    """Return the index of the working tree `root`, whose own folder of git is `folder`; GIT_INDEX_FILE counts."""
+    told = _environment(root).get("GIT_INDEX_FILE")
+    return (root / told).absolute() if told else folder / "index"
+
+
 def _environment(root: Path) -> dict[str, str]:
     """Return the environment for git in `root`: without what a hook of another repository set."""
     found = os.environ | {"LC_ALL": "C.UTF-8", "LANGUAGE": "", "GIT_OPTIONAL_LOCKS": "0"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from datetime import datetime, timedelta, timezone
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -12,8 +13,11 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
+from pico.history.index_lock import GitFolders
+from pico.history.landing import Landing, land
 from pico.history.revisions import BRANCHES, TAGS, find, names_at
 from pico.history.trees import collect, folder_id, is_manifest
+from pico.history.write_lock import write_lock
 
 MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.
@@ -39,6 +43,7 @@ class Repository:
     def __init__(self, handle: Any, root: Path) -> None:
         self._git = handle
         self.root = root
+        self._writing = False
 
     @classmethod
     def discover(cls, path: Path) -> Repository | None:
@@ -209,24 +214,63 @@ class Repository:
         return (*(() if self._git.head_is_unborn else ("HEAD",)), *sorted(names))
 
     def commit(
-        self, paths: Iterable[str | Path], message: str, *, author: tuple[str, datetime] | None = None
+        self,
+        paths: Iterable[str | Path],
+        message: str,
+        *,
+        author: tuple[str, datetime] | None = None,
+        ignored: Iterable[str | Path] = (),
+        whole: bool = False,
+        diagnostics: list[Diagnostic] | None = None,
     ) -> Commit:
-        """Commit `paths` (and nothing else that is staged) and return the commit; hooks run, signing as configured.
+        """Commit `paths` and nothing else that is staged, and return the commit; hooks run, signing as configured.
 
-        `author`: whose change it is, and when it was made, where that is not now by whoever commits.
-        Raises PicoError with git's words: no identity, a hook that refuses, a lock, nothing to commit.
+        Killed at any instant, the repository is as before or has the commit (`pico.history.landing`). `author`: whose
+        change it is, and when it was made, where that is not now by whoever commits. Files in `ignored` count though
+        .gitignore may name them. `whole`: all that is staged, as a merge needs it. `diagnostics`: what was noticed is
+        appended. Raises PicoError with git's words: no identity, a hook that refuses, a lock, nothing to commit.
         """
         if not message.strip():
             raise PicoError(error("message", "a commit needs a message", hint='say why: `pico commit -m "..."`'))
-        names = [self.relative(p) or "." for p in paths]
+        forced = tuple(self.relative(p) for p in ignored)
+        names = tuple(dict.fromkeys((*(self.relative(p) or "." for p in paths), *forced)))
         if not names:
             raise PicoError(error("nothing-to-commit", "there is nothing to commit", hint="nothing differs from HEAD"))
-        git.run(self.root, ["add", "--all", "--", *names], doing="stage the manifests")
-        whose = [f"--author={author[0]}", f"--date={author[1].isoformat()}"] if author else []
-        arguments = ["commit", "--quiet", "--file=-", *whose, "--only", "--", *names]
-        hooks = "pre-commit commit-msg prepare-commit-msg"
-        git.run(self.root, arguments, doing="commit", stdin=message, hook=hooks)
+        with self.writing("pico commit"):
+            head, own = self.head(), Path(self._git.path)
+            branch = [self.common / "refs" / "heads" / head.branch] if head.branch else []
+            what = Landing(
+                message=message, paths=names, ignored=forced, head=head.commit, refs=(own / "HEAD", *branch),
+                partial=not whole, tidy=self._on("maintenance.auto"),
+                options=(f"--author={author[0]}", f"--date={author[1].isoformat()}") if author else (),
+            )  # fmt: skip
+            found = land(GitFolders(root=self.root, own=own, common=self.common, index=git.index(self.root, own)), what)
+        if diagnostics is not None:
+            diagnostics += found
         return self.resolve("HEAD")
+
+    @contextmanager
+    def writing(self, doing: str) -> Iterator[None]:
+        """Be the only one who by PICO writes manifests and commits in this repository and its worktrees.
+
+        Who is inside may enter again. Raises PicoError, naming who is, where another one takes too long.
+        """
+        if self._writing:
+            yield
+            return
+        with write_lock(self.common / "pico" / "write.lock", doing):
+            self._writing = True
+            try:
+                yield
+            finally:
+                self._writing = False
+
+    def _on(self, name: str) -> bool:
+        """Return a switch of git's configuration that is on unless it is turned off."""
+        try:
+            return bool(self._git.config.get_bool(name))
+        except (KeyError, ValueError):
+            return True
 
     def checkout(self, revision: str) -> Head:
         """Check `revision` out with git (a branch, else detached) and return the new HEAD. Moves nothing on a table.

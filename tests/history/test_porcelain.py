@@ -62,11 +62,14 @@ def test_a_hook_that_refuses_is_named_with_its_words(repository: Repository) -> 
     assert said.code == "git-hook" and "pre-commit" in said.summary and said.detail == "laser still on"
 
 
-def test_a_locked_index_is_reported(repository: Repository) -> None:
-    (repository.root / ".git" / "index.lock").touch()
+def test_a_lock_of_somebody_else_is_named_and_left(repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pico.history.index_lock.WAIT", 0.05)
+    lock = repository.root / ".git" / "index.lock"
+    lock.touch()
     edit(repository)
     (said,) = refused(repository).diagnostics
-    assert said.code == "git-locked" and "index.lock" in said.detail
+    assert said.code == "git-locked" and str(lock) in said.summary and str(lock) in said.hint
+    assert lock.exists()
 
 
 def test_nothing_to_commit_and_no_message_are_said(repository: Repository) -> None:
