@@ -13,6 +13,7 @@ SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
     "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
+    "--merge", "--report", "--junit", "--pictures",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -47,6 +48,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "diff": ("--picture",),
     "push": ("--no-data",),
     "merge": ("-m", "--message"),
+    "check": ("--merge", "--report", "--markdown", "--junit", "--pictures", "--fidelity"),
     "revert": ("-m", "--message", "--mainline", "--no-commit"),
     "cherry-pick": ("--mainline", "--no-commit"),
     "render": ("--out", "--view", "--manifest", "--plan", "--size"),

@@ -31,6 +31,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
         "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
+        "check": "Check a change as a pull request: valid, buildable, as expected in the simulator, allowed.",
         "revert": "Take back what a commit changed on the table, in the manifests only.",
         "cherry-pick": "Change on this branch what commits of another one changed on the table, in the manifests only.",
         "push": "Send the large data of runs to where it is kept, then the commits with `git push`.",

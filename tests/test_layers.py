@@ -33,6 +33,10 @@ LAYERS: dict[str, set[str]] = {
     "imports": {"diagnostics", "model", "manifest", "vision", "backends", "async_bench"},
     "merging": {"diagnostics", "model", "manifest", "history", "motion", "planning"},
     "restoring": {"diagnostics", "model", "manifest", "history", "merging"},
+    "checking": {
+        "diagnostics", "model", "manifest", "history", "motion", "planning", "policy", "twin", "backends", "execution",
+        "pictures", "merging",
+    },
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },

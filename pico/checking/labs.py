@@ -1,0 +1,118 @@
+"""Which labs of a repository are checked, against what, and all of them together."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from pico.checking.candidate import Candidate, Origin, in_folder, in_memory, origin
+from pico.checking.steps import check_lab
+from pico.checking.verdict import Checked, LabChecked
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.history.against import Against, against
+from pico.history.repository import Repository
+from pico.manifest.load import find_lab, labs_below
+
+
+def check(
+    path: Path,
+    revision: str | None = None,
+    *,
+    merging: str | None = None,
+    fidelity: str = "kinematic",
+    pictures: Path | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> Checked:
+    """Check the lab that `path` lies in, or every lab below it that differs from the base, and return what was found.
+
+    `revision`: what to compare with, see `pico.history.against.against`. `merging`: check what HEAD would be once this
+    revision is merged into it, instead of the files as they are, against that revision where no other is named.
+    `pictures`: the folder for pictures of what changes. Raises PicoError where there is no lab or no such revision,
+    and for a merge with conflicts.
+    """
+    if fidelity not in ("kinematic", "physics"):
+        known = ["kinematic", "physics"]
+        raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))
+    roots, alone = _roots(path)
+    repository = Repository.discover(roots[0])
+    edited = bool(repository and any(repository.changed(root) for root in roots)) and not merging
+    base = _base(repository, revision or merging, environment, edited)
+    what = _what(repository, edited, merging)
+    labs: list[LabChecked] = []
+    alike: list[str] = []
+    for root in roots:
+        candidate, before = _candidate(repository, root, merging), origin(repository, base, root)
+        if not alone and _same(candidate, before):
+            alike.append(_shown(repository, root))
+            continue
+        found = check_lab(candidate, before, what=what, fidelity=fidelity, folder=_shown(repository, root))
+        labs.append(_drawn(candidate, before, found, pictures, labs))
+    return Checked(what=what, base=base, labs=tuple(labs), alike=tuple(alike))
+
+
+def _roots(path: Path) -> tuple[list[Path], bool]:
+    """Return the folders of the labs, and whether it is the one that `path` lies in."""
+    try:
+        return [find_lab(path)], True
+    except PicoError:
+        roots = labs_below(path)
+        if not roots:
+            raise
+        return roots, False
+
+
+def _base(
+    repository: Repository | None, revision: str | None, environment: Mapping[str, str] | None, edited: bool
+) -> Against:
+    if repository is None:
+        if revision is not None:
+            repository_of_none = f"this lab is in no Git repository, so there is no revision `{revision}`"
+            raise PicoError(error("git-none", repository_of_none))
+        return Against(name="nothing: no Git repository")
+    return against(repository, revision, os.environ if environment is None else environment, edited=edited)
+
+
+def _what(repository: Repository | None, edited: bool, merging: str | None) -> str:
+    label = repository.head().label if repository else "the manifest"
+    if merging:
+        return f"{label} merged with {merging}"
+    return f"{label} with edits" if edited else label
+
+
+def _candidate(repository: Repository | None, root: Path, merging: str | None) -> Candidate:
+    if merging is None or repository is None:
+        return in_folder(root)
+    from pico.history.merged import merged_files
+
+    return in_memory(root, merged_files(repository, root, merging))
+
+
+def _same(candidate: Candidate, before: Origin) -> bool:
+    names = {str(Path(path).resolve().relative_to(candidate.root)): data for path, data in candidate.files.items()}
+    return names == dict(before.files)
+
+
+def _shown(repository: Repository | None, root: Path) -> str:
+    return (repository.relative(root) or ".") if repository else "."
+
+
+def _drawn(
+    candidate: Candidate, before: Origin, found: LabChecked, pictures: Path | None, others: Sequence[LabChecked]
+) -> LabChecked:
+    if pictures is None or found.plan is None:
+        return found
+    from pico.checking.drawn import draw
+
+    stem = next(name for name in _stems(found.lab) if not any(_stem_taken(lab, name) for lab in others))
+    return replace(found, pictures=draw(candidate, before, found, pictures, stem))
+
+
+def _stems(name: str) -> Iterator[str]:
+    yield name
+    yield from (f"{name}-{number}" for number in range(2, 10**6))
+
+
+def _stem_taken(lab: LabChecked, stem: str) -> bool:
+    return any(Path(picture.path).name.startswith(f"{stem}-") for picture in lab.pictures)
