@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.history.folder import Entry, LabFolder
@@ -11,6 +12,9 @@ from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.plan import Plan, plan_from_json
 from pico.model.state import LabState
+
+if TYPE_CHECKING:
+    from pico.history.taken import Taken
 
 
 class Reader:
@@ -48,6 +52,12 @@ class Reader:
     def entry(self, revision: str) -> Entry:
         """Return the commit that a revision names, with its physical diff; raises PicoError."""
         return self.folder.entry(self.folder.history().resolve(revision))
+
+    def taken(self, revision: str, names: tuple[str, ...]) -> Taken:
+        """Return what the manifests must say for components or tunables to be as in a revision; raises PicoError."""
+        from pico.history.taken import take
+
+        return take(self.folder, revision, names)
 
     def head_name(self) -> str:
         """Return what is checked out as a person calls it; empty without Git."""
