@@ -17,7 +17,7 @@ LAYERS: dict[str, set[str]] = {
     "trace": {"diagnostics", "model", "manifest"},
     "history": {"diagnostics", "resources", "model", "manifest", "trace"},
     "journal": {"diagnostics", "model"},
-    "data": {"diagnostics", "model", "trace", "history"},
+    "data": {"diagnostics", "model", "trace", "history", "recording"},
     "recording": {"diagnostics", "model", "trace", "history", "journal", "backends"},
     "geometry": {"diagnostics", "model"},
     "motion": {"diagnostics", "model", "geometry"},

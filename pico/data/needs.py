@@ -8,14 +8,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from pico.diagnostics import PicoError, error
 from pico.history import git
 from pico.history.repository import Repository
-from pico.model.record import record
+from pico.model.record import as_json, record
 
 _RUN = re.compile(r"(?:.*/)?runs/\d{4}/\d{2}/([^/]+)/run\.json")
 _SHA256 = re.compile(r"[0-9a-f]{64}")
-_LOOSE = ":(glob)**/runs/*/*/*/run.json"
-"""Files of runs that Git does not know."""
+# What Git does not know: files of runs that were not committed yet, and the journal of a bench.
+_LOOSE = (":(glob)**/runs/*/*/*/run.json", ":(glob)**/.pico/journal.sqlite")
 
 
 @record
@@ -41,15 +42,17 @@ def needs(repository: Repository, revisions: Iterable[str] = ("--all",)) -> Need
 
 
 def kept_needs(repository: Repository) -> Needs:
-    """Return what anything here may need still: runs of every ref, reflog, index and working tree.
-
-    Raises PicoError where that can't be told for sure.
+    """Return what anything here may need still: runs of every ref, reflog, index and working tree, and runs in the
+    journal of a bench that no commit has yet. Raises PicoError where that can't be told for sure.
     """
     committed = _committed(repository, ("--all", "--reflog", "--indexed-objects"))
     found = [_needed_by(run, data) for run, data in committed]
     for tree in _worktrees(repository):
         for path in _loose(tree):
-            found.append(_needed_by(path.parent.name, path.read_bytes()))
+            if path.name == "run.json":
+                found.append(_needed_by(path.parent.name, path.read_bytes()))
+            else:
+                found += _waiting(path.parent.parent)
     return united(found)
 
 
@@ -98,5 +101,19 @@ def _worktrees(repository: Repository) -> Iterator[Path]:
 
 
 def _loose(tree: Path) -> Iterator[Path]:
-    found = git.run(tree, ["ls-files", "-z", "--others", "--", _LOOSE], doing="list the files that are not committed")
+    found = git.run(tree, ["ls-files", "-z", "--others", "--", *_LOOSE], doing="list the files that are not committed")
     yield from (tree / name for name in found.split("\0") if name)
+
+
+def _waiting(root: Path) -> list[tuple[Need, ...]]:
+    """Return what the runs in the journal of the bench in `root` need that no commit has yet."""
+    from pico.history.folder import LabFolder
+    from pico.recording import unrecorded
+
+    try:
+        runs = unrecorded(LabFolder(root))
+    except PicoError as exc:
+        text = f"nobody can tell what the runs of the bench in {root} need still, so nothing is removed"
+        hint = "`pico validate` there says what is wrong with it"
+        raise PicoError((error("data-needs", text, hint=hint), *exc.diagnostics)) from exc
+    return [tuple(_need(run.document.id, as_json(a)) for a in run.document.artifacts) for run in runs]

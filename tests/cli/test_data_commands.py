@@ -306,3 +306,16 @@ def test_a_folder_on_the_command_line_counts_from_where_it_is_called(shel: Path,
     name = commit_run(shel, "run-a", b"frame a")
     assert pico("-C", "state", "data", "push", "../../share").code == 0
     assert [p.name for p in share.rglob("*") if p.is_file()] == [name]
+
+
+def test_gc_removes_nothing_while_a_bench_can_not_say_what_its_runs_need(lab: Path, pico: Pico) -> None:
+    orphan = put(lab, b"an orphan")
+    assert pico("move", "p1", "x=500").code == 0
+    assert pico("data", "gc", "--grace", "0d", "--dry-run", "--json").data["removable"] == {orphan: 9}
+    text = (lab / "lab.yaml").read_text()
+    (lab / "lab.yaml").write_text("{")
+    answer = pico("data", "gc", "--grace", "0d", "--auto-approve")
+    assert answer.code == 1
+    assert f"nobody can tell what the runs of the bench in {lab} need still" in answer.err
+    assert stored(lab) == {orphan}
+    (lab / "lab.yaml").write_text(text)
