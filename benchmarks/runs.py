@@ -2,10 +2,10 @@
 --interrupts 200 --pairs 100 --journal 2000 --scheduler 3`.
 
 `--faults`: runs on the simulated bench of the case study with a fault in 5 % of the primitives; each must end at its
-goal or in a true report. `--interrupts`: Ctrl-C at random instants of whole `pico apply` commands; wall and CPU seconds
-until they ended. `--pairs`: two `pico apply` at once; exactly one may move. `--journal`: operations with and without
-records. `--scheduler`: trials of 200 operations of 0.1 s on 10 resources, beside the ideal 2.0 s. Both on the disk of
-this repository, or in TMPDIR.
+goal or in a true report. `--interrupts`: Ctrl-C at random instants of whole `pico apply` commands, while they plan and
+while they move; wall and CPU seconds until they ended. `--pairs`: two `pico apply` at once; exactly one may move.
+`--journal`: operations with and without records. `--scheduler`: trials of 200 operations of 0.1 s on 10 resources,
+beside the ideal 2.0 s. Both on the disk of this repository, or in TMPDIR.
 """
 
 from __future__ import annotations
@@ -102,7 +102,8 @@ def interrupts(count_: int, fidelity: str) -> int:
         while count["pressed"] < count_:
             goal = draw.choice(REVISIONS)
             child = forked(folder, "apply", goal, "--auto-approve", "--fidelity", fidelity)
-            until_it_moves(folder, child)
+            if draw.random() < 0.7:  # the others while it loads, looks and plans
+                until_it_moves(folder, child)
             time.sleep(draw.uniform(0.0, 0.5 if fidelity == "kinematic" else 5.0))
             before = cpu(child)
             pressed = time.monotonic()
