@@ -25,6 +25,8 @@ from pico.vision.calibration import calibration_digest
 if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
+    from pico.history.taken import Taken
+    from pico.manifest.load import Manifests
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
@@ -107,18 +109,20 @@ class AsyncBench(Drawings):
         prefer: Preference = "fewest-moves",
         targets: Collection[str] = (),
         exclude: Collection[str] = (),
+        manifests: Manifests | None = None,
     ) -> Plan:
         """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
 
         The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
-        `shortest-time`. `targets`: plan for these components, and for what must make way for them; `exclude`: leave
-        these alone. Raises PicoError for a revision that can't be read, and for a component that there is not; what is
+        `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what must make way
+        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. Raises PicoError for a revision that can't be read, and for a component that there is not; what is
         physically impossible is in the plan's diagnostics.
         """
         from pico.planning import plan
 
         _require_preference(prefer)
-        manifests = self.folder.manifests_at(revision) if revision else self.folder.manifests
+        here = manifests or self.folder.manifests
+        manifests = self.folder.manifests_at(revision) if revision else here
         commit = self.folder.history().resolve(revision).id if revision else None
         _, wanted = manifests.require()
         seen = await self.observe()
@@ -180,17 +184,25 @@ class AsyncBench(Drawings):
 
         return explain(self.setup, plan, component)
 
-    async def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
-        """Return the plan to a revision that is about to be checked out; raises PicoError where edits would be lost."""
+    async def checkout_plan(self, revision: str | Taken, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision that is about to be checked out, or to what is taken from one for some
+        components; raises PicoError where edits would be lost."""
+        if not isinstance(revision, str):
+            found = await self.plan(manifests=revision.manifests, targets=revision.names, exact=exact)
+            return found.because("checkout")
         self.folder.refuse_edits()
         return (await self.plan(revision, exact=exact)).because("checkout")
 
-    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
-        """Check a revision out with git. Moves nothing; raises PicoError.
+    def checkout_files(self, revision: str | Taken) -> tuple[Diagnostic, ...]:
+        """Check a revision out with git, or write what is taken from one. Moves nothing; raises PicoError.
 
         This bench stays what it is, for a revision can't change which parts there are; a warning says so where the
         revision's own lab differs.
         """
+        if not isinstance(revision, str):
+            revision.write()
+            self.folder.reload()
+            return ()
         bench = self.setup
         self.folder.history().checkout(revision)
         self.folder.reload()

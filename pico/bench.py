@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pico.backends.sim.table import SimulatedTable
     from pico.history.carry import Carried
     from pico.history.merge_commits import MergeMade
+    from pico.history.taken import Taken
     from pico.imports import Imported
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
@@ -132,12 +133,12 @@ class Bench(Reader):
         """Return why a plan is as it is; see `AsyncBench.explain`."""
         return self._bench.explain(plan, component)
 
-    def checkout_plan(self, revision: str, *, exact: bool = False) -> Plan:
-        """Return the plan to a revision that is about to be checked out; refused where edits would be lost."""
+    def checkout_plan(self, revision: str | Taken, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision, or to a part of one, that is about to be checked out."""
         return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
 
-    def checkout_files(self, revision: str) -> tuple[Diagnostic, ...]:
-        """Check a revision out with git. Moves nothing; see `AsyncBench.checkout_files`."""
+    def checkout_files(self, revision: str | Taken) -> tuple[Diagnostic, ...]:
+        """Check a revision, or a part of one, out. Moves nothing; see `AsyncBench.checkout_files`."""
         return self._bench.checkout_files(revision)
 
     def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
