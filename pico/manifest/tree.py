@@ -20,6 +20,8 @@ from pico.manifest.source import Source
 MAX_DEPTH = 32
 MAX_NODES = 100_000
 MAX_DIRECTIVES = 4
+KEPT = 1_000_000
+"""Characters of text whose nodes are kept: 10,000 components, some 30 MiB."""
 _CORE = "tag:yaml.org,2002:"
 _TAGS: dict[str, tuple[type, ...]] = {
     "str": (str,), "int": (int,), "float": (float, int), "bool": (bool,), "null": (type(None),),
@@ -81,7 +83,14 @@ class Document:
 
 
 def parse(source: Source) -> tuple[list[Document], list[Diagnostic]]:
-    """Return the documents of a text, and what is wrong with it as YAML. Empty documents are left out."""
+    """Return the documents of a text, and what is wrong with it as YAML. Empty documents are left out.
+
+    Nodes are not to be changed: a text that is read again (most files are the same from one commit to the next) has
+    the same ones.
+    """
+    known = _recent.roots.get(source.content)
+    if known is not None:
+        return [Document(source, root) for root in known], []
     builder = _Builder(source)
     try:
         _refuse_directives(source)
@@ -90,6 +99,8 @@ def parse(source: Source) -> tuple[list[Document], list[Diagnostic]]:
         return [], [*builder.found, *exc.diagnostics]
     except yaml.YAMLError as exc:
         return [], [*builder.found, explain(source, exc)]
+    if not builder.found:
+        _recent.keep(source.content, tuple(d.root for d in builder.documents))
     return builder.documents, builder.found
 
 
@@ -133,6 +144,25 @@ def _refuse_directives(source: Source) -> None:
             first = next(i for i, line in enumerate(lines) if line.startswith("%"))
             where = source.range(sum(len(line) + 1 for line in lines[:first]))
             raise PicoError(error("yaml", "too many `%` directives", hint="a manifest needs none", source=where))
+
+
+class _Recent:
+    """What texts hold that were read lately and had nothing wrong, up to KEPT characters of them."""
+
+    def __init__(self) -> None:
+        self.roots: dict[str, tuple[Node, ...]] = {}
+        self.size = 0
+
+    def keep(self, content: str, roots: tuple[Node, ...]) -> None:
+        self.roots[content] = roots
+        self.size += len(content)
+        while self.size > KEPT and len(self.roots) > 1:
+            oldest = next(iter(self.roots))
+            self.size -= len(oldest)
+            self.roots.pop(oldest, None)
+
+
+_recent = _Recent()
 
 
 class _Builder:
