@@ -11,7 +11,7 @@ from .summary import COMMANDS, MOVERS
 
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
-    "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
+    "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
     "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
     "--merge", "--report", "--junit", "--pictures",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
@@ -37,6 +37,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "commit": ("-m", "--message", "--capture", "--planned"),
     "log": ("--graph", "--oneline", "--all", "-n", "--number"),
     "drift": ("--detailed-exitcode",),
+    "blame": ("--at", "--history", "--all"),
     "watch": ("--interval", "--looks", "--heal"),
     "do": ("--speed", *_ONE),
     "move": ("--speed", *_ONE),
@@ -117,7 +118,7 @@ def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
 
 
 def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str]:
-    if command in _COMPONENT and not given:
+    if (command in _COMPONENT and not given) or command == "blame":
         yield from _inventory(folder)
     elif command == "do" and len(given) == 1:
         yield from ("move", "stow", "set", "home")

@@ -28,6 +28,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "log": "List commits with what each changed on the table.",
         "diff": "Show what differs between two states, as motions.",
         "show": "Show a revision or a saved plan.",
+        "blame": "Say for each tunable which commit changed it last, and how.",
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
         "merge": "Merge another branch, value by value, and check that the result can stand on the table.",

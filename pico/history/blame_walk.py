@@ -5,9 +5,9 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import PicoError, error
@@ -16,9 +16,11 @@ from pico.history.blame_answer import Answer, RunFile, Unread, answer, dumps, lo
 from pico.history.blame_cache import VERSION, Cache
 from pico.history.blame_flat import Flat, flatten
 from pico.history.blame_flat import loads as flat_from
+from pico.history.blame_how import RunBrief, brief_from, brief_of
 from pico.history.repository import Repository
 from pico.history.trees import is_manifest
 from pico.manifest.files import MAX_BYTES
+from pico.model.run import RunDocument
 from pico.resources import catalog_dir
 
 CACHE = "pico/blame.sqlite"
@@ -51,6 +53,8 @@ class Walker:
         """Return the blame of a commit as what a walk can go on from."""
         start = self._nearest(commit)
         known = self._rebuilt(start) if start else None
+        if known and start == commit:
+            return known
         try:
             steps = self._steps(commit, start if known else None)
             return walk(steps, self._delta, packaged_units, {start: known} if start and known else None)
@@ -73,6 +77,23 @@ class Walker:
         flat = flatten(self._content(name))
         self.cache.put(f"flat {name}", flat.dumps())
         return flat
+
+    def briefs(self, files: Iterable[RunFile]) -> tuple[RunBrief, ...]:
+        """Return what runs changed, by their documents; those that can't be read are left out."""
+        found = (self._brief(path, name) for path, name in files)
+        return tuple(brief for brief in found if brief is not None)
+
+    def _brief(self, path: str, name: str) -> RunBrief | None:
+        text = self.cache.get(f"run {name} {path}")
+        if text is not None:
+            with contextlib.suppress(ValueError, TypeError):
+                return brief_from(text)
+        from pico.trace.read import read_document
+
+        document = read_document(path, self._content(name), PurePosixPath(path).parent.name)
+        brief = brief_of(document) if isinstance(document, RunDocument) else None
+        self.cache.put(f"run {name} {path}", brief.dumps() if brief else "null")
+        return brief
 
     def _content(self, name: str) -> bytes:
         blob = self._git[name]

@@ -1,0 +1,199 @@
+"""`pico blame`: for each leaf of a state its value, the last commit that changed it, and how."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.history.blame import Address, Node
+from pico.history.blame_answer import Answer, Row, Unread
+from pico.history.blame_edits import with_edits
+from pico.history.blame_how import How, RunBrief, how
+from pico.history.blame_leaves import POSE, Leaf, canonical, shown
+from pico.history.blame_walk import Walker
+from pico.history.commit import Commit
+from pico.history.repository import Repository
+from pico.model.catalog import Tunable
+from pico.model.diff import describe_move, describe_value
+from pico.model.pose import Pose
+from pico.model.record import record
+
+
+@record
+class Turn:
+    """One change of a leaf: the `commit` that made it (None: not committed), its first name or short id, and how.
+
+    `before` and `after` are as in a `Change`, None where there is none; `text` says them as a motion. `earlier`: this
+    clone is shallow, and an older commit that it lacks may have made it.
+    """
+
+    commit: str | None = None
+    name: str = ""
+    author: str = ""
+    time: str = ""
+    summary: str = ""
+    how: How
+    before: Any = None
+    after: Any = None
+    text: str = ""
+    earlier: bool = False
+
+
+@record
+class BlamedLeaf:
+    """One leaf of the state: its value (None: it is gone), the unit, and who changed it `last`.
+
+    `history`: all that changed it, newest first, where that was asked for."""
+
+    component: str
+    tunable: str
+    value: Any = None
+    unit: str = ""
+    last: Turn
+    history: tuple[Turn, ...] | None = None
+
+
+@record
+class Blamed:
+    """The leaves of a state, by component, pose first; `commit` whose state it is, with edits where `edited`."""
+
+    commit: str | None = None
+    name: str = ""
+    edited: bool = False
+    leaves: tuple[BlamedLeaf, ...] = ()
+    notes: Mapping[str, str] | None = None
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, history: bool = False) -> Blamed:
+    """Return who last changed each leaf of the lab in `root`: of its state at HEAD with what was edited since, or `at`
+    a revision.
+
+    `what`: components and tunables (`p2`, `p1.angle`, `p2.pose`), all where empty; those that are gone count, too.
+    `history`: with every change of each. Raises PicoError without a repository, for an unknown revision or name, and
+    for damaged objects.
+    """
+    repository = Repository.discover(root)
+    if repository is None:
+        hint = 'make one here: `git init && git add . && git commit -m "the lab as it is"`'
+        raise PicoError(error("git-none", f"{root} is in no Git repository, so there is no history", hint=hint))
+    commit = repository.resolve(at).id if at is not None else repository.head().commit
+    walker = Walker(repository, repository.relative(root))
+    try:
+        found = walker.answer(commit) if commit else Answer()
+        whole = found if at is not None else with_edits(walker, root, commit, found)
+        rows = _chosen(whole.rows, what)
+        turns = _Turns(walker, whole, rows.values(), history=history)
+        leaves = tuple(turns.leaf(address, row) for address, row in rows.items())
+    finally:
+        walker.cache.close()
+    return Blamed(
+        commit=commit,
+        name=at or repository.head().label,
+        edited=any(row.node.commit == "" for row in whole.rows.values()),
+        leaves=leaves,
+        diagnostics=tuple(_skipped(whole.unread)),
+    )
+
+
+def _chosen(rows: Mapping[Address, Row], what: Sequence[str]) -> dict[Address, Row]:
+    """Return the rows that are asked for; of a component as a whole those that are not gone, unless all of it is."""
+    if not what:
+        return {at: row for at, row in rows.items() if row.value is not None or row.node.commit == ""}
+    asked: set[Address] = set()
+    wrong: list[Diagnostic] = []
+    for word in what:
+        component, dot, tunable = word.partition(".")
+        mine = [at for at in rows if at[0] == component]
+        tunable = POSE if tunable == "slot" or tunable.startswith("pose.") else tunable
+        if not mine or (dot and (component, tunable) not in mine):
+            wrong.append(_unknown(component, tunable, mine, rows))
+        elif dot:
+            asked.add((component, tunable))
+        else:
+            there = [at for at in mine if rows[at].value is not None or rows[at].node.commit == ""]
+            asked.update(there or mine)
+    if wrong:
+        raise PicoError(wrong)
+    return {at: row for at, row in rows.items() if at in asked}
+
+
+def _unknown(component: str, tunable: str, mine: Iterable[Address], rows: Iterable[Address]) -> Diagnostic:
+    known = [at[1] for at in mine]
+    if known:
+        hint = did_you_mean(tunable[:40], known)
+        summary = f"no commit up to here gives {component}.{tunable[:40]} a value"
+        return error("unknown-tunable", summary, hint=hint or f"{component} has {', '.join(known)}", address=component)
+    hint = did_you_mean(component[:40], {at[0] for at in rows})
+    summary = f"neither the lab nor its history has a component `{component[:40]}`"
+    return error("unknown-component", summary, hint=hint or "`pico blame` lists them")
+
+
+class _Turns:
+    """Puts nodes, commits and runs together."""
+
+    def __init__(self, walker: Walker, whole: Answer, rows: Iterable[Row], *, history: bool) -> None:
+        self.history, self.shallow = history, walker.shallow
+        nodes = [n for row in rows for n in (row.node.chain() if history else (row.node,))]
+        names = {n.commit for n in nodes if n.commit}
+        self.commits: Mapping[str, Commit] = walker.repository.commits(names)
+        self.runs: dict[str, tuple[RunBrief, ...]] = {
+            name: walker.briefs(whole.runs[name]) for name in names if name in whole.runs
+        }
+
+    def leaf(self, at: Address, row: Row) -> BlamedLeaf:
+        turns = tuple(self.turn(at, node, row.unit) for node in row.node.chain()) if self.history else None
+        last = turns[0] if turns else self.turn(at, row.node, row.unit)
+        value = shown(row.value)
+        return BlamedLeaf(component=at[0], tunable=at[1], value=value, unit=row.unit, last=last, history=turns)
+
+    def turn(self, at: Address, node: Node, unit: str) -> Turn:
+        before, after = (_value(at, n, unit) for n in (node.before, node))
+        text = _text(at, before, after, unit)
+        if not node.commit:
+            return Turn(how=How(kind="edit"), before=before, after=after, text=text)
+        commit = self.commits[node.commit]
+        return Turn(
+            commit=commit.id, name=commit.label, author=commit.author.partition(" <")[0], time=commit.time.isoformat(),
+            summary=commit.summary, how=how(commit, self.runs.get(commit.id, ()), at), before=before, after=after,
+            text=text, earlier=commit.id in self.shallow,
+        )  # fmt: skip
+
+
+def _value(at: Address, node: Node | None, unit: str) -> Any:
+    leaf: Leaf | None = node.value if node else None
+    return shown(canonical(at[1], leaf, unit))
+
+
+def _text(at: Address, before: Any, after: Any, unit: str) -> str:
+    if after is None:
+        return "taken out"
+    if at[1] != POSE:
+        words = describe_value(Tunable(unit=unit), before, after)
+        return words if before is not None else f"set to {words.partition(' → ')[2]}"
+    (slot_a, pose_a), (slot_b, pose_b) = _place(before), _place(after)
+    if before is None:
+        return f"in {slot_b}" if slot_b else f"placed at {pose_b}"
+    return describe_move(slot_a, pose_a, slot_b, pose_b)
+
+
+def _place(value: Any) -> tuple[str | None, Pose]:
+    if isinstance(value, dict) and all(isinstance(n, int | float) for n in value.values()):
+        return None, Pose(**value)
+    return str(value), Pose(0.0, 0.0)
+
+
+def _skipped(unread: Sequence[Unread]) -> list[Diagnostic]:
+    """Return a warning for each manifest that could not be read somewhere in the history."""
+    found: dict[str, list[Unread]] = {}
+    for entry in unread:
+        found.setdefault(entry.path, []).append(entry)
+    result = []
+    for path, entries in sorted(found.items()):
+        names = ", ".join(e.commit[:7] or "the working tree" for e in entries[-3:])
+        more = f" and {len(entries) - 3} more commits" if len(entries) > 3 else ""
+        hint = "what it changed there is told of the next commit in which it can be read"
+        result.append(warning("skipped", f"{path} can't be read at {names}{more}", detail=entries[-1].why, hint=hint))
+    return result
