@@ -115,8 +115,9 @@ class AsyncBench(Drawings):
 
         The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
         `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what must make way
-        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. Raises PicoError for a revision that can't be read, and for a component that there is not; what is
-        physically impossible is in the plan's diagnostics.
+        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. Raises PicoError for
+        a revision that can't be read, and for a component that there is not; what is physically impossible is in the
+        plan's diagnostics.
         """
         from pico.planning import plan
 
@@ -292,7 +293,9 @@ class AsyncBench(Drawings):
         return drift_of(self.setup, await self.observe(), self.state_at("HEAD"))
 
     async def verify(self, revision: str | None = None) -> Verified:
-        """Return how the bench as observed stands against a revision, or the manifest, and its expectations."""
+        """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
+        whether any bench ever stood as that commit (HEAD for the manifest) says."""
+        from pico import recording
         from pico.policy.expectations import check_expectations
 
         wanted = self.state_at(revision) if revision else self.state
@@ -300,6 +303,7 @@ class AsyncBench(Drawings):
         return Verified(
             goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(self.setup, seen, wanted),
             expectations=check_expectations(self.setup, seen, wanted.expect),
+            standing=recording.standing_of(self.folder, revision),
         )  # fmt: skip
 
     async def expected(self, plan: Plan) -> Verified:

@@ -6,10 +6,13 @@ from typing import Any
 
 from pico.model.expectation import Verified
 from pico.model.record import as_json
+from pico.model.standing import Standing
 
 from .diff import lines
 from .report import expectations
-from .style import count
+from .style import count, paint, wrap
+
+_ON: dict[str | None, str] = {"emulated": "emulated devices, never hardware", "hardware": "hardware"}
 
 
 def text(found: Verified) -> str:
@@ -22,10 +25,34 @@ def text(found: Verified) -> str:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
         said = [f"The bench equals {found.goal}{near}."]
     said += expectations(found.expectations) or ["Nothing more is expected: `expect:` in a LabState says what is."]
-    return "\n".join(said)
+    return "\n".join([*said, *(proof(found.standing) if found.standing else [])])
+
+
+def proof(standing: Standing) -> list[str]:
+    """Return in a few lines whether a bench ever stood as a commit says: `4f2c9a1 is verified: ...`."""
+    colors = {"verified": "green", "inherited": "yellow", "planned": "yellow", "unknown": "red"}
+    head = f"{standing.commit[:7]} is {paint(colors[standing.verdict], standing.verdict)}: {standing.why}."
+    return [*wrap(head, ""), *(f"  {line}" for line in _said(standing))]
+
+
+def _said(standing: Standing) -> list[str]:
+    if standing.verdict in ("inherited", "planned"):
+        return ["Nobody has seen this state on a bench: `pico apply` and `pico commit` prove it."]
+    if standing.verdict == "unknown":
+        return []
+    what = (
+        f"Simulated ({standing.evidence}): never hardware." if standing.simulated else f"On {_ON[standing.evidence]}."
+    )
+    when = f" {standing.at[:16].replace('T', ' ')} UTC" if standing.at else ""
+    if standing.run is None:
+        return [what]
+    where = (
+        f"carried by {standing.carried[:7]}" if standing.carried else "that no commit has yet: `pico commit` takes it"
+    )
+    return [what, f"The run ended{when}, {where}; `pico runs show {standing.run}`."]
 
 
 def data(found: Verified) -> dict[str, Any]:
-    """Return schema `pico.verified/v1`: `goal`, `changes` (`before` is live), `expectations`, `observed_at`."""
+    """Return schema `pico.verified/v1`: `goal`, `changes` (`before` is live), `expectations`, `standing`."""
     written: dict[str, Any] = as_json(found)
     return written

@@ -34,10 +34,10 @@ class RunPlace:
 
 @dataclass(frozen=True, slots=True)
 class CarriedRun:
-    """A run that a commit carries."""
+    """A run, and where a commit has it; None for one that no commit has yet."""
 
     document: RunDocument
-    place: RunPlace
+    place: RunPlace | None = None
 
 
 def runs_added(

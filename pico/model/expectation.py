@@ -5,6 +5,7 @@ from __future__ import annotations
 from pico.diagnostics import ExitCode
 from pico.model.diff import Change
 from pico.model.record import record
+from pico.model.standing import Standing
 
 
 @record
@@ -21,13 +22,15 @@ class Expected:
 @record
 class Verified:
     """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `before` is live),
-    and the expectations of the state."""
+    and the expectations of the state. `standing`: of the commit that the goal is, or of HEAD for the manifest; None
+    without one."""
 
     schema: str = "pico.verified/v1"
     goal: str
     observed_at: str = ""
     changes: tuple[Change, ...] = ()
     expectations: tuple[Expected, ...] = ()
+    standing: Standing | None = None
 
     @property
     def off(self) -> tuple[Change, ...]:

@@ -13,16 +13,19 @@ from datetime import datetime
 from pathlib import Path
 
 from pico.backends.lease import BenchLock
+from pico.diagnostics import Diagnostic, PicoError
 from pico.history.folder import LabFolder
 from pico.history.runs import find_runs, read_place
+from pico.history.standing import Standings
 from pico.journal import Journal, RunRecord
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.run import RunDocument
+from pico.model.standing import Standing
 from pico.recording.document import Kept, Recorded, afterwards, read_plan, recorded
 from pico.trace.run import DOCUMENT, Keep, read_runs, run_files
 
-__all__ = ["evidence_of", "pending", "unrecorded"]
+__all__ = ["evidence_of", "pending", "standing_of", "unrecorded"]
 
 
 def pending(folder: LabFolder, seen: Observation | None = None) -> dict[str, bytes]:
@@ -57,6 +60,21 @@ def evidence_of(files: Mapping[str, bytes]) -> str | None:
     """Return the evidence of the last of the runs whose files these are; None where there is none."""
     found = read_runs({path: data for path, data in files.items() if path.endswith(f"/{DOCUMENT}")})
     return found[-1].evidence if found else None
+
+
+def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | None:
+    """Return the standing of a revision, HEAD where None, with what this bench alone knows yet; None where there is no
+    commit. Raises PicoError for an unknown revision."""
+    head = folder.head()
+    if revision is None and (head is None or head.commit is None):
+        return None
+    wrong: list[Diagnostic] = []
+    try:
+        own = [run.document for run in unrecorded(folder)]
+    except PicoError as exc:  # a journal that can't be read: looking must not fail for it
+        own, wrong = [], list(exc.diagnostics)
+    found = Standings(folder, own, wrong).of(folder.history().resolve(revision or "HEAD"))
+    return replace(found, diagnostics=(*wrong, *found.diagnostics))
 
 
 def _kept(folder: LabFolder, journal: Journal, over: list[RunRecord]) -> Iterator[Kept]:

@@ -1,0 +1,109 @@
+"""Whether the state of a commit was ever on a bench, judged by what the commit holds and by the runs in history.
+
+Trailers are copied by `git cherry-pick`, go with `git merge --squash`, and anybody can write them: they count only
+where the digest that they say is that of the commit's own state. A run counts wherever it is in history, for it says
+itself to which state it led.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from pico.diagnostics import Diagnostic, PicoError
+from pico.history import trailers
+from pico.history.commit import Commit
+from pico.history.folder import LabFolder
+from pico.history.runs import CarriedRun, files_at, places_in_history, read_carried, runs_added
+from pico.model.run import STRENGTH, RunDocument
+from pico.model.standing import Standing, Verdict
+from pico.trace.run import intact
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What a commit holds and says: the digest of its state, the runs that it added, its message, how many parents."""
+
+    commit: str
+    state: str
+    message: str = ""
+    added: tuple[str, ...] = ()
+    parents: int = 1
+    carries: bool = False
+
+
+@dataclass
+class Standings:
+    """The standings of the commits of one lab. The history is looked through once, when the first one is asked for.
+
+    `own`: runs of this bench that no commit has yet.
+    """
+
+    folder: LabFolder
+    own: Sequence[RunDocument] = ()
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @cached_property
+    def runs(self) -> Mapping[str, Sequence[CarriedRun]]:
+        """The runs by the digest of the state that they led to, the strongest evidence first, then the latest."""
+        places = places_in_history(self.folder.history(), self.folder.root)
+        carried = read_carried(self.folder.history(), places.values(), self.diagnostics)
+        found: dict[str, list[CarriedRun]] = {}
+        for run in (*carried, *(CarriedRun(document) for document in self.own)):
+            found.setdefault(run.document.state_after, []).append(run)
+        for runs in found.values():
+            runs.sort(key=lambda r: (STRENGTH[r.document.evidence], r.document.ended_at), reverse=True)
+        return found
+
+    def of(self, commit: Commit, state: str | None = None) -> Standing:
+        """Return the standing of a commit; `state`: the digest of its state, where that is known already."""
+        try:
+            state = state or self.folder.historic(commit.id)[1].digest()
+        except PicoError as exc:
+            return Standing(verdict="unknown", commit=commit.id, why=exc.diagnostics[0].summary)
+        wrong: list[Diagnostic] = []
+        for run in self.runs.get(state, ()):
+            if run.place is None or intact(run.document, files_at(self.folder.history(), run.place), wrong):
+                return _verified(commit.id, state, run, tuple(wrong))
+        added = runs_added(self.folder.history(), commit, self.folder.root, wrong)
+        carries = len(commit.parents) > 1 and bool(self.runs)
+        claim = Claim(commit.id, state, commit.message, tuple(d.id for d in added), len(commit.parents), carries)
+        return unproven(claim, tuple(wrong))
+
+
+def standing(folder: LabFolder, commit: Commit) -> Standing:
+    """Return the standing of one commit; for many, `Standings` looks through the history once."""
+    return Standings(folder).of(commit)
+
+
+def unproven(claim: Claim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:
+    """Return the standing of a commit to whose state no run led."""
+
+    def judged(verdict: Verdict, why: str, evidence: str | None = None) -> Standing:
+        return Standing(
+            verdict=verdict, commit=claim.commit, state=claim.state, evidence=evidence, why=why, diagnostics=diagnostics
+        )
+
+    told = trailers.values(claim.message, trailers.STATE)
+    evidence = next(iter(trailers.values(claim.message, trailers.EVIDENCE)), "planned")
+    seen = STRENGTH.get(evidence, 0) > 0
+    if seen and claim.state in told:
+        return judged("verified", "it was taken from the bench as it stood; no run led there", evidence)
+    if claim.added:
+        names = f"the run {claim.added[0]}" if len(claim.added) == 1 else f"{len(claim.added)} runs"
+        return judged("inherited", f"{names} that came with it led to another state")
+    if seen or trailers.values(claim.message, trailers.RUN):
+        return judged("inherited", "its message speaks of another state: it was copied or edited")
+    if claim.parents > 1 and claim.carries:
+        return judged("inherited", "a merge: its sides may have been on a bench, the two together were not")
+    return judged("planned", "no run in this history led to it")
+
+
+def _verified(commit: str, state: str, run: CarriedRun, diagnostics: tuple[Diagnostic, ...]) -> Standing:
+    document = run.document
+    return Standing(
+        verdict="verified", commit=commit, state=state, evidence=document.evidence, run=document.id,
+        at=document.ended_at, carried=run.place.commit if run.place else None,
+        why=f"the run {document.id} led to exactly this state", diagnostics=diagnostics,
+    )  # fmt: skip
