@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-from collections.abc import Mapping, Sequence
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
@@ -75,6 +76,33 @@ def run(
         words = "\n".join(t.decode(errors="replace") for t in (done.stderr, done.stdout) if t)
         raise refusal(words.strip(), doing=doing, hook=_installed(root, hook))
     return done.stdout.decode(errors="surrogateescape")
+
+
+def stream(root: Path, arguments: Sequence[str], *, doing: str) -> Iterator[str]:
+    """Run `git ARGUMENTS` in `root` and yield the lines that it writes while it runs; ended early, it is ended, too.
+
+    Raises PicoError with git's own words where it fails.
+    """
+    with tempfile.TemporaryFile() as said:
+        try:
+            running = subprocess.Popen(
+                ["git", *arguments], cwd=root, env=_environment(root), stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=said,
+            )  # fmt: skip
+        except FileNotFoundError:
+            hint = "install git, or add it to PATH"
+            raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
+        assert running.stdout is not None
+        try:
+            for line in running.stdout:
+                yield line.decode(errors="surrogateescape").rstrip("\n")
+            if running.wait():
+                said.seek(0)
+                raise refusal(said.read().decode(errors="replace").strip(), doing=doing)
+        finally:
+            running.stdout.close()
+            running.kill()
+            running.wait()
 
 
 def answer(root: Path, arguments: Sequence[str]) -> str:
