@@ -218,6 +218,21 @@ def write(history: History, folder: Path) -> list[str]:
     return [marks[f":{v.number + 1}"] for v in history.versions]
 
 
+def follow(history: History, folder: Path) -> str:
+    """Make one more commit, as a person would, and return its id."""
+    history.edit(len(history.versions) - 1)
+    for path, text in written(history, history.versions[-1]).items():
+        (folder / path).write_text(text)
+    who = ["-c", "user.name=A Physicist", "-c", "user.email=a@localhost"]
+    subprocess.run(["git", *who, "commit", "-qam", "one more", "--allow-empty"], cwd=folder, check=True)
+    return subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=folder, text=True).strip()
+
+
+def told(pico: str, folder: Path) -> Any:
+    """Return the whole history of every leaf as the command tells it."""
+    return json.loads(subprocess.check_output([pico, "blame", "--history", "--json"], cwd=folder))
+
+
 def block(text: str) -> str:
     return f"data {len(text.encode())}\n{text}\n"
 
@@ -225,13 +240,14 @@ def block(text: str) -> str:
 def wrong_answers(history: History, ids: Sequence[str], answer: Any) -> list[str]:
     """Return what differs from the truth, a line each."""
     truth = history.versions[-1].truth
-    told = {(leaf["component"], leaf["tunable"]): leaf for leaf in answer["leaves"]}
+    said_of = {(leaf["component"], leaf["tunable"]): leaf for leaf in answer["leaves"]}
     there = {at for at, turn in truth.items() if turn.value is not None}
-    found = [f"{at} is missing or too much" for at in sorted(there ^ told.keys())]
-    for at in sorted(there & told.keys()):
+    found = [f"{at} is missing or too much" for at in sorted(there ^ said_of.keys())]
+    for at in sorted(there & said_of.keys()):
         turn: Turn | None = truth[at]
-        for said in told[at]["history"]:
-            value = said["after"] if not isinstance(said["after"], dict) else tuple(said["after"].values())
+        for said in said_of[at]["history"]:
+            value = said.get("after")
+            value = tuple(value.values()) if isinstance(value, dict) else value
             if turn is None or value != turn.value or said["commit"] != ids[turn.commit]:
                 found.append(f"{at}: {said['commit'][:7]} {value}, but it is {turn}")
                 break
@@ -263,19 +279,10 @@ def main() -> None:
         cold, memory = measure([pico, "blame"], folder)
         warm = min(measure([pico, "blame"], folder)[0] for _ in range(3))
         size = (folder / ".git/pico/blame.sqlite").stat().st_size / 1e6
-        told = subprocess.run([pico, "blame", "--history", "--json"], cwd=folder, capture_output=True, check=True)
-        found = wrong_answers(history, ids, json.loads(told.stdout))
-        history.edit(len(history.versions) - 1)
-        following = [("state/" + p.name, p) for p in sorted((folder / "state").iterdir())]
-        files = written(history, history.versions[-1])
-        for path, file in following:
-            file.write_text(files[path])
-        who = ["-c", "user.name=A Physicist", "-c", "user.email=a@localhost"]
-        subprocess.run(["git", *who, "commit", "-qam", "one more", "--allow-empty"], cwd=folder, check=True)
-        ids.append(subprocess.run(["git", "rev-parse", "HEAD"], cwd=folder, capture_output=True, text=True, check=True).stdout.strip())
+        found = wrong_answers(history, ids, told(pico, folder))
+        ids.append(follow(history, folder))
         more = measure([pico, "blame"], folder)[0]
-        told = subprocess.run([pico, "blame", "--history", "--json"], cwd=folder, capture_output=True, check=True)
-        found += wrong_answers(history, ids, json.loads(told.stdout))
+        found += wrong_answers(history, ids, told(pico, folder))
     merges = sum(len(p) > 1 for p in history.parents)
     print(f"{len(ids)} commits ({merges} merges), {options.components} components in {options.files} files")
     late = cold > COLD or warm - start > WARM
