@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TextIO
 
 import typer
 
@@ -70,8 +70,10 @@ def check(
         from ..views.check_markdown import report as in_markdown
 
         session.say(in_markdown(found).rstrip("\n"))
+        if not sys.stdout.isatty():
+            _show(session, found, sys.stderr)
     else:
-        _show(session, found)
+        _show(session, found, sys.stdout)
     _tell_github(found)
     return int(found.exit_code)
 
@@ -105,7 +107,8 @@ def _write(path: Path, text: str) -> None:
         raise PicoError(error("unwritable", f"cannot write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
-def _show(session: Session, found: Checked) -> None:
+def _show(session: Session, found: Checked, stream: TextIO) -> None:
+    """Show what was found; `stream`: where people read the verdicts, findings go to standard error."""
     from ..views import diagnostics
     from ..views.check_annotations import harmless
 
@@ -113,7 +116,7 @@ def _show(session: Session, found: Checked) -> None:
         session.document(view.data(found))
         return
     safe = harmless if os.environ.get("GITHUB_ACTIONS") else str
-    session.say(safe(view.text(found)))
+    write(stream, safe(view.text(found)))
     wrong = [d for lab in found.labs for d in lab.diagnostics]
     if wrong:
         write(sys.stderr, safe(diagnostics.text(wrong)))

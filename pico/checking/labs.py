@@ -38,7 +38,7 @@ def check(
     roots, alone = _roots(path)
     repository = Repository.discover(roots[0])
     edited = bool(repository and any(repository.changed(root) for root in roots)) and not merging
-    base = _base(repository, revision or merging, environment, edited)
+    base = _base(repository, revision, environment, edited, merging)
     what = _what(repository, edited, merging)
     labs: list[LabChecked] = []
     alike: list[str] = []
@@ -64,13 +64,18 @@ def _roots(path: Path) -> tuple[list[Path], bool]:
 
 
 def _base(
-    repository: Repository | None, revision: str | None, environment: Mapping[str, str] | None, edited: bool
+    repository: Repository | None,
+    revision: str | None,
+    environment: Mapping[str, str] | None,
+    edited: bool,
+    merging: str | None,
 ) -> Against:
     if repository is None:
-        if revision is not None:
-            repository_of_none = f"this lab is in no Git repository, so there is no revision `{revision}`"
-            raise PicoError(error("git-none", repository_of_none))
+        if named := revision or merging:
+            raise PicoError(error("git-none", f"this lab is in no Git repository, so there is no revision `{named}`"))
         return Against(name="nothing: no Git repository")
+    if merging and revision is None:
+        return Against(commit=repository.resolve(merging).id, name=merging)
     return against(repository, revision, os.environ if environment is None else environment, edited=edited)
 
 

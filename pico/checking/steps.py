@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from pico.backends.sim.world import World
 from pico.checking import trial
 from pico.checking.candidate import Candidate, Origin, bench_changes, start
 from pico.checking.verdict import QUESTIONS, Check, LabChecked
-from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
 from pico.history.folder import between
+from pico.manifest.places import find, where
 from pico.merging import overlapping
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
@@ -117,7 +118,15 @@ class _Judge:
         except PicoError as exc:
             problems, expected = tuple(exc.diagnostics), ()
         self.found = replace(self.found, expectations=expected)
-        return _expectations(problems, expected, bool(plan.operations), self.found.fidelity)
+        how = [f"applied in the simulator ({self.found.fidelity})"] if plan.operations else []
+        how += ["with the steps by hand done"] if hands else []
+        return _judged(problems, expected, ", ".join(how) or "nothing moves", self._places(len(expected)))
+
+    def _places(self, number: int) -> list[SourceRange | None]:
+        """Return where the expectations are written, one after the other."""
+        states = self.candidate.manifests.documents.get("LabState", ())
+        found = [where(d, "expect", n, "that") for d in states for n in range(number) if find(d, "expect", n)]
+        return [*found] if len(found) == number else [None] * number
 
     def _tried(self, world: World, plan: Plan) -> tuple[tuple[Diagnostic, ...], tuple[Expected, ...]]:
         """Return what went wrong in the simulator, and what became of the expectations."""
@@ -137,24 +146,23 @@ def _expected(setup: Setup, wanted: LabState, world: World) -> tuple[Expected, .
     return check_expectations(setup, trial.seen_in(world), wanted.expect)
 
 
-def _expectations(
-    problems: tuple[Diagnostic, ...], expected: tuple[Expected, ...], moved: bool, fidelity: str
+def _judged(
+    problems: tuple[Diagnostic, ...], expected: tuple[Expected, ...], how: str, places: Sequence[SourceRange | None]
 ) -> Check:  # fmt: skip
     if problems:
         text = _first([d for d in problems if d.code == "not-reached"] or problems)
         return Check(question="expectations", verdict="failed", broken=True, text=text, diagnostics=problems)
     said = f"{sum(e.holds is True for e in expected)} of {len(expected)} hold" if expected else "nothing is expected"
-    where = f"; applied in the simulator ({fidelity})" if moved else "; nothing moves"
-    failing = tuple(_failure(e) for e in expected if not e.holds)
+    failing = tuple(_failure(e, at) for e, at in zip(expected, places, strict=True) if not e.holds)
     return Check(
-        question="expectations", verdict="failed" if failing else "passed", text=said + where, diagnostics=failing
+        question="expectations", verdict="failed" if failing else "passed", text=f"{said}; {how}", diagnostics=failing
     )
 
 
-def _failure(one: Expected) -> Diagnostic:
+def _failure(one: Expected, at: SourceRange | None) -> Diagnostic:
     verb = "fails" if one.holds is False else "can't be told, which is a failure"
     text = f"the expectation `{one.that}` {verb}{f': {one.message}' if one.message else ''}"
-    return error("expectation", text, detail=one.why)
+    return error("expectation", text, detail=one.why, source=at)
 
 
 def _rule(rule: object) -> Diagnostic:
@@ -168,7 +176,7 @@ def _valid(candidate: Candidate) -> Check:
     found = candidate.manifests.diagnostics
     if not candidate.valid:
         return Check(question="valid", verdict="failed", text=_first(found), diagnostics=found)
-    return Check(question="valid", verdict="passed", text=f"files: {len(candidate.files)}", diagnostics=found)
+    return Check(question="valid", verdict="passed", text=f"{len(candidate.files)} files", diagnostics=found)
 
 
 def _formatted(candidate: Candidate) -> Check:

@@ -57,9 +57,11 @@ def _before(repository: Repository, head: str | None, edited: bool) -> Against:
     if edited:
         return Against(commit=head, name="HEAD")
     parents = repository.resolve(head).parents
-    return (
-        Against(commit=parents[0], name="the commit before") if parents else Against(name="nothing: the first commit")
-    )
+    if parents:
+        return Against(commit=repository.resolve(parents[0]).id, name="the commit before")
+    if _handle(repository).is_shallow:
+        raise PicoError(error("shallow", "this clone holds the last commit, and not the one before", hint=_WHOLE))
+    return Against(name="nothing: the first commit")
 
 
 def _resolved(repository: Repository, handle: Any, name: str, revision: str | None) -> str:
