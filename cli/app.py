@@ -92,12 +92,13 @@ def _hidden_from_function(option: Any) -> Any:
     return own
 
 
-def _share(group: Any, options: list[Any]) -> None:
-    for name, command in group.commands.items():
+def _share(group: Any, options: list[Any], within: str = "") -> None:
+    for own, command in group.commands.items():
+        name = f"{within}{own}"
         taken = {word for p in command.params for word in p.opts} | (set() if name in MOVERS else {LOCK_TIMEOUT})
         command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
         if hasattr(command, "commands"):
-            _share(command, options)
+            _share(command, options, f"{name} ")
 
 
 def run(words: list[str]) -> int:
@@ -111,6 +112,8 @@ def run(words: list[str]) -> int:
         code = exc.exit_code
     except (Exception, KeyboardInterrupt) as exc:
         found, code = _explain(exc, words)
+        if asked(words) == "bisect-step" and code < 128:
+            code += 128  # to `git bisect run` 1 would mean a bad commit
         if isinstance(exc, KeyboardInterrupt) and sys.stderr.isatty():
             write(sys.stderr, "")  # the terminal shows ^C where the cursor was
         if session.debug:

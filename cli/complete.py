@@ -12,7 +12,7 @@ from .summary import COMMANDS, MOVERS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
+    "--expect", "--measure-seconds", "-m", "--message", "--interval", "--looks", "--grace",
     "--merge", "--report", "--junit", "--pictures",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
@@ -57,6 +57,13 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "scan": ("--picture",),
     "find": ("--picture",),
     "import": ("--types", "--dry-run"),
+    "bisect start": ("--expect", "--measure-seconds", "--trust", "--auto-approve", "--fidelity"),
+    "bisect run": ("--expect", "--measure-seconds", "--trust", "--auto-approve", "--fidelity"),
+    "bisect continue": ("--expect", "--auto-approve", "--fidelity"),
+    "bisect good": ("--auto-approve", "--fidelity"),
+    "bisect bad": ("--auto-approve", "--fidelity"),
+    "bisect skip": ("--auto-approve", "--fidelity"),
+    "bisect-step": ("--expect", "--fidelity"),
     "calibrate": (),
     "markers": ("--out", "--paper"),
     "data gc": ("--grace", "--dry-run", "--auto-approve"),
@@ -71,6 +78,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
 }
 OPTIONS |= {name: (*OPTIONS.get(name, ()), "--lock-timeout") for name in MOVERS}
 GROUPS = {
+    "bisect": ("start", "run", "continue", "good", "bad", "skip", "status", "log", "reset"),
     "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
     "catalog": ("list", "show"),
     "git": ("install", "uninstall"),
@@ -89,7 +97,7 @@ COMPONENTS = ("--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
 _REVISION = (
     "plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render",
-    "verify",
+    "verify", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
 )  # fmt: skip
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
@@ -122,7 +130,7 @@ def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str
         yield from _inventory(folder)
     elif command == "do" and len(given) == 1:
         yield from ("move", "stow", "set", "home")
-    elif command in _REVISION and len(given) < (2 if command == "diff" else 1):
+    elif command in _REVISION and len(given) < (2 if command in ("diff", "bisect start", "bisect run") else 1):
         yield from _revisions(folder)
         if command in ("apply", "explain", "graph", "show"):
             yield from (p.name for p in folder.glob("*.plan"))

@@ -29,6 +29,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "diff": "Show what differs between two states, as motions.",
         "show": "Show a revision or a saved plan.",
         "blame": "Say for each tunable which commit changed it last, and how.",
+        "bisect": "Find which configuration broke an expectation, by trials on the bench.",
+        "bisect-step": "Bring the bench to the commit that git bisects and judge it, for `git bisect run`.",
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
         "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
@@ -70,6 +72,7 @@ COMMANDS: dict[str, str] = {name: line for group in GROUPS.values() for name, li
 
 MOVERS = (
     "apply", "resume", "undo", "recover", "checkout", "do", "move", "rotate", "place", "stow", "set", "home",
+    "bisect start", "bisect run", "bisect continue", "bisect good", "bisect bad", "bisect skip", "bisect-step",
 )  # fmt: skip
 """Commands that take the bench: these wait for it with --lock-timeout."""
 

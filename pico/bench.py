@@ -24,6 +24,7 @@ from pico.model.status import Status
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
+    from pico.bisecting import Bisection
     from pico.history.carry import Carried
     from pico.history.merge_commits import MergeMade
     from pico.history.taken import Taken
@@ -253,6 +254,18 @@ class Bench(Reader):
     def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
         """Capture and commit the manifests; see `AsyncBench.commit`."""
         return self._thread.wait(self._bench.commit(message, mode))
+
+    def bisect(self, bad: str, good: str, **options: Any) -> Bisection:
+        """Begin to search for the commit that broke something; see `pico.bisecting.begin`."""
+        from pico import bisecting
+
+        return bisecting.begin(self, bad, good, **options)
+
+    def bisection(self, **options: Any) -> Bisection:
+        """Return the bisection under way; see `pico.bisecting.under_way`."""
+        from pico import bisecting
+
+        return bisecting.under_way(self, **options)
 
     def merge(self, revision: str, message: str = "") -> MergeMade:
         """Merge a revision into what is checked out, where the result can stand on the table; see `pico.merging`."""

@@ -42,6 +42,7 @@ LAYERS: dict[str, set[str]] = {
     },
     "watching": {"diagnostics", "model", "journal", "backends", "async_bench"},
     "saved": {"diagnostics", "model", "execution", "vision", "async_bench"},
+    "bisecting": {"diagnostics", "expressions", "model", "history", "motion", "policy"},
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "policy", "vision", "twin", "backends", "execution", "pictures", "drawings", "recording",
@@ -49,7 +50,7 @@ LAYERS: dict[str, set[str]] = {
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "merging", "saved", "watching",
-        "scans", "imports", "restoring",
+        "scans", "imports", "restoring", "bisecting",
     },
 }  # fmt: skip
 

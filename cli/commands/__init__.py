@@ -11,7 +11,7 @@ from ..scope import Scoped
 from ..summary import COMMANDS
 
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
-GROUPS = ("catalog", "data", "git", "sim")
+GROUPS = ("bisect", "catalog", "data", "git", "sim")
 SCOPED = ("plan", "apply")  # these take names after `--`
 LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option, and git gets its own
 

@@ -107,6 +107,10 @@ class GitBisect:
         """Return the commit under trial."""
         return git.answer(self.root, ["rev-parse", "--verify", "--quiet", HEAD]).strip() or None
 
+    def began_at(self) -> str:
+        """Return the branch, or else the commit, that was checked out when it began."""
+        return self._path("BISECT_START").read_text(encoding="utf-8").strip()
+
     def note(self, what: Mapping[str, Any]) -> None:
         """Append a comment to git's log: on the disk when this returns."""
         import os

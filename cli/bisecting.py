@@ -1,0 +1,111 @@
+"""Takes a bisection on: brings the bench to one configuration after the other, until the first bad one is known."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+
+from .running import Screen, interrupts
+from .session import Session
+from .views import bisect as view
+from .views.run import Progress
+from .waiting import waiting
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+    from pico.bisecting import Bisection, Proposal
+    from pico.model.event import Event
+
+AGAIN = "`pico bisect continue` goes on: what was judged is in git's log"
+
+
+def go_on(session: Session, bench: Bench, search: Bisection, auto_approve: bool) -> int:
+    """Try configurations until the first bad one is known, or until a person has to judge; return the exit code."""
+    shown = len(search.tried)
+    try:
+        while True:
+            try:
+                with waiting("Choosing what to try next"):
+                    proposal = search.propose()
+            finally:
+                for tried in search.tried[shown:]:
+                    session.show(view.Tried, search, tried)
+                shown = len(search.tried)
+            if proposal is None:
+                return _over(session, bench, search)
+            code = _try(session, bench, search, proposal, auto_approve)
+            if code is not None:
+                return code
+            shown = len(search.tried)
+    except PicoError as exc:
+        if exc.exit_code != ExitCode.LOCKED and search.git.under_way(search.git.root) is None:
+            raise
+        raise PicoError([*exc.diagnostics, Diagnostic("note", "bisect", AGAIN)], exc.exit_code) from exc
+    except KeyboardInterrupt:
+        raise PicoError(error("interrupted", "interrupted", hint=AGAIN), ExitCode.INTERRUPTED) from None
+
+
+def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, auto_approve: bool) -> int | None:
+    """Bring the bench to a configuration and have it judged; return an exit code where that is the end of it."""
+    name = bench.name_of(proposal.commit)
+    if not search.task.expect or (proposal.plan.operations and not auto_approve):
+        session.show(view.Proposed, search, proposal, name)
+    if proposal.plan.operations and not auto_approve and not session.confirm(view.question(proposal)):
+        session.say(f"Nothing moved. {AGAIN}; `pico bisect skip` leaves this one out.")
+        return ExitCode.ERROR
+    seconds, code = bring(session, bench, proposal)
+    if code:
+        search.spent(proposal.commit, seconds)
+        session.say(f"{AGAIN}.")
+        return code
+    if not search.task.expect:
+        search.spent(proposal.commit, seconds)
+        session.say(view.judge_it(name))
+        return ExitCode.DONE
+    tried = search.judge(proposal, seconds)
+    session.show(view.Tried, search, tried, proposal)
+    return None
+
+
+def bring(session: Session, bench: Bench, proposal: Proposal) -> tuple[float, int]:
+    """Run the plan of a configuration; return how long the bench took [s], and 0 where it stands as planned."""
+    if not proposal.plan.operations:
+        bench.settle()
+        return 0.0, ExitCode.DONE
+    run = bench.run(proposal.plan)
+    screen = Quiet(session, Progress(proposal.plan))
+    with interrupts(run):
+        for event in run:
+            screen.show(event)
+    screen.clear()
+    report = run.report
+    if report.outcome == "done" and not report.remaining and not report.absent:
+        return report.seconds, ExitCode.DONE
+    from .views import report as report_view
+
+    session.show(report_view, report)
+    if not session.json:
+        session.report(report.diagnostics)
+    return report.seconds, ExitCode.INTERRUPTED if report.outcome == "interrupted" else ExitCode.ERROR
+
+
+class Quiet(Screen):
+    """On a terminal the line that is overwritten; else nothing: a configuration is one line."""
+
+    def show(self, event: Event) -> None:
+        if not self.session.json and not self.progress.line(event):
+            super().show(event)
+
+    def clear(self) -> None:
+        if self.terminal:
+            import sys
+
+            sys.stdout.write("\r\x1b[K")
+
+
+def _over(session: Session, bench: Bench, search: Bisection) -> int:
+    outcome = search.outcome()
+    entry = bench.entry(outcome.first_bad) if outcome.first_bad else None
+    session.show(view.Over, search, outcome, entry, bench.name_of)
+    return ExitCode.DONE if outcome.first_bad else ExitCode.ERROR

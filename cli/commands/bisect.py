@@ -1,0 +1,173 @@
+"""`pico bisect`: which configuration broke an expectation."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode, PicoError, error
+
+from ..arguments import Fidelity, Yes
+from ..session import Session
+
+if TYPE_CHECKING:
+    from pico.history.bisect_git import Verdict
+
+Bad = Annotated[str, typer.Argument(metavar="BAD", help="A revision that is bad.")]
+Good = Annotated[str, typer.Argument(metavar="GOOD", help="An earlier one that is good.")]
+Commit = Annotated[str | None, typer.Argument(metavar="REV", help="Another one than that under trial.")]
+Expect = Annotated[
+    str | None,
+    typer.Option("--expect", metavar="CEL", help="What must hold of the bench: 'p2.pose.x < 530'."),
+]
+Measure = Annotated[
+    float,
+    typer.Option("--measure-seconds", metavar="S", help="How long a measurement takes: weighed against motion.", min=0),
+]
+Trust = Annotated[bool, typer.Option("--trust", help="Do not measure the good and the bad end first.")]
+
+app = typer.Typer(
+    rich_markup_mode=None,
+    no_args_is_help=False,
+    help="Find which configuration broke an expectation, by trials on the bench.",
+)
+
+
+@app.callback(invoke_without_command=True)
+def main(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        raise typer.Exit(status(context))
+
+
+@app.command()
+def start(
+    context: typer.Context, bad: Bad, good: Good, expect: Expect = None, measure_seconds: Measure = 5.0,
+    trust: Trust = False, auto_approve: Yes = False, fidelity: Fidelity = None,
+) -> int:  # fmt: skip
+    """Begin: bring the bench to the first configuration. With --expect it is judged, and so on; else you judge it.
+
+    Nothing is checked out: files and edits stay as they are. What is tried next is chosen by what it costs the bench
+    to get there, and git keeps the log: `git bisect log`, `visualize`, `replay` and `reset` work.
+    """
+    return _begin(context, bad, good, expect, measure_seconds, trust, auto_approve, fidelity)
+
+
+@app.command()
+def run(
+    context: typer.Context, bad: Bad, good: Good, expect: Expect = None, measure_seconds: Measure = 5.0,
+    trust: Trust = False, auto_approve: Yes = False, fidelity: Fidelity = None,
+) -> int:  # fmt: skip
+    """Find the first bad commit, by what --expect says, else by the `expect:` of the bad one.
+
+    Both ends are measured first: if the good one is not good now, the cause is not in the history. A configuration that
+    can't be built, or of which the bench can't tell, is skipped. The same command goes on where it was interrupted.
+    """
+    return _begin(context, bad, good, expect, measure_seconds, trust, auto_approve, fidelity, from_bad=True)
+
+
+@app.command(name="continue")
+def continue_(
+    context: typer.Context, expect: Expect = None, auto_approve: Yes = False, fidelity: Fidelity = None
+) -> int:  # fmt: skip
+    """Go on with the bisection under way, from the bench as it stands."""
+    from ..bisecting import go_on
+
+    session = _approving(context, auto_approve)
+    bench = session.bench(fidelity)
+    return go_on(session, bench, bench.bisection(expect=expect), auto_approve)
+
+
+@app.command()
+def good(
+    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None
+) -> int:  # fmt: skip
+    """The configuration under trial is good; go on to the next."""
+    return _told(context, "good", commit, auto_approve, fidelity)
+
+
+@app.command()
+def bad(
+    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None
+) -> int:  # fmt: skip
+    """The configuration under trial is bad; go on to the next."""
+    return _told(context, "bad", commit, auto_approve, fidelity)
+
+
+@app.command()
+def skip(
+    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None
+) -> int:  # fmt: skip
+    """Nobody can tell whether the configuration under trial is good; go on to another."""
+    return _told(context, "skip", commit, auto_approve, fidelity)
+
+
+@app.command()
+def status(context: typer.Context) -> int:
+    """Show what was tried, what is under trial, and how many are left."""
+    from ..views import bisect as view
+
+    session = Session.of(context)
+    bench = session.bench()
+    search = bench.bisection()
+    session.show(view.Standing, search, search.outcome(), bench.name_of)
+    return ExitCode.DONE
+
+
+@app.command()
+def log(context: typer.Context) -> int:
+    """Print git's log of the bisection, for `git bisect replay`."""
+    session = Session.of(context)
+    text = session.bench().bisection().git.log()
+    if session.json:
+        session.document({"schema": "pico.bisect/v1", "kind": "log", "log": text})
+    else:
+        sys.stdout.write(text)
+    return ExitCode.DONE
+
+
+@app.command()
+def reset(context: typer.Context) -> int:
+    """End the bisection. Files and bench stay as they are."""
+    session = Session.of(context)
+    session.bench().bisection().git.reset()
+    if session.json:
+        session.document({"schema": "pico.bisect/v1", "kind": "reset"})
+    session.say("The bisection is over. The bench stays where it is; `pico apply` brings it to the manifest.")
+    return ExitCode.DONE
+
+
+def _begin(
+    context: typer.Context, bad: str, good: str, expect: str | None, measure: float, trust: bool, auto_approve: bool,
+    fidelity: str | None, *, from_bad: bool = False,
+) -> int:  # fmt: skip
+    from ..bisecting import go_on
+    from ..views import bisect as view
+
+    session = _approving(context, auto_approve)
+    bench = session.bench(fidelity)
+    search = bench.bisect(bad, good, expect=expect, from_bad=from_bad, measure=measure, trust=trust)
+    session.show(view.Begun, search)
+    return go_on(session, bench, search, auto_approve)
+
+
+def _told(
+    context: typer.Context, verdict: Verdict, commit: str | None, auto_approve: bool, fidelity: str | None
+) -> int:  # fmt: skip
+    from ..bisecting import go_on
+    from ..views import bisect as view
+
+    session = _approving(context, auto_approve)
+    bench = session.bench(fidelity)
+    search = bench.bisection()
+    tried = search.told(verdict, bench.folder.history().resolve(commit).id if commit else None)
+    session.show(view.Tried, search, tried)
+    return go_on(session, bench, search, auto_approve)
+
+
+def _approving(context: typer.Context, auto_approve: bool) -> Session:
+    session = Session.of(context)
+    if session.json and not auto_approve:
+        raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
+    return session

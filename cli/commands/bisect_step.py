@@ -1,0 +1,59 @@
+"""`pico bisect-step`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode, PicoError, error
+
+from ..arguments import Fidelity
+from ..session import Session
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+    from pico.model.plan import Plan
+
+CODES = {"good": 0, "bad": 1, "skip": 125}
+Expect = Annotated[str, typer.Option("--expect", metavar="CEL", help="What must hold of the bench: 'p2.pose.x < 530'.")]
+
+
+def bisect_step(context: typer.Context, expect: Expect, fidelity: Fidelity = None) -> int:
+    """Bring the bench to the commit that git bisects and judge it, for `git bisect run`.
+
+    `git bisect run pico bisect-step --expect 'p2.pose.x < 530'`, best after `git bisect start --no-checkout`. Does not
+    ask. Exits with 0 where it is good, 1 where it is bad, 125 where it can't be built or told, and from 128 on where
+    the bench is in trouble, so that git stops: 128 more than the exit code of `pico apply`.
+    """
+    from pico.bisecting.records import Proposal
+    from pico.bisecting.step import Step, bisecting, step
+
+    from ..bisecting import bring
+    from ..views import bisect as view
+
+    session = Session.of(context)
+    try:
+        bench = session.bench(fidelity)
+    except PicoError as exc:
+        if not bisecting(session.folder):
+            raise
+        found = Step(commit="HEAD", verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
+        session.show(view.Step, found)
+        return CODES[found.verdict]
+
+    def run(plan: Plan) -> float:
+        return _run(session, bench, plan, bring(session, bench, Proposal(commit="", plan=plan)))
+
+    found = step(bench, expect, run)
+    session.show(view.Step, found)
+    return CODES[found.verdict]
+
+
+def _run(session: Session, bench: Bench, plan: Plan, ended: tuple[float, int]) -> float:
+    seconds, code = ended
+    if code:
+        text = f"the bench did not get to {bench.goal_name(plan)}"
+        hint = "`pico status` shows how it stands; `git bisect run` again goes on"
+        raise PicoError(error("not-there", text, hint=hint), ExitCode(code))
+    return seconds

@@ -1,0 +1,126 @@
+"""The commits between good and bad as configurations of one bench: which of them are one to it, and how far apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from pico.bisecting.costs import Leaves, PlanSeconds, leaves
+from pico.diagnostics import PicoError
+from pico.history.bisect import Choice, Suspects, choices, halfway
+from pico.history.folder import LabFolder
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.state import LabState
+
+READ = 256
+"""So many commits are read at most for one choice, spread over all; the next choice is among fewer."""
+Lineage = Sequence[tuple[str, tuple[str, ...]]]
+"""Commits, parents first, each with its parents."""
+
+
+@dataclass
+class Configurations:
+    """The configurations of commits on a bench; each is read once."""
+
+    folder: LabFolder
+    setup: Setup
+    unreadable: dict[str, str] = field(default_factory=dict)
+    _states: dict[str, LabState] = field(default_factory=dict)
+    _leaves: dict[str, Leaves] = field(default_factory=dict)
+    _known: dict[Leaves, Leaves] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.clock = PlanSeconds(self.setup)
+
+    def state(self, commit: str) -> LabState | None:
+        """Return the state of a commit on this bench; None, with the reason in `unreadable`, where there is none."""
+        if commit in self.unreadable:
+            return None
+        if commit not in self._states:
+            try:
+                self._states[commit] = self.folder.state_at(commit)
+            except PicoError as exc:
+                self.unreadable[commit] = exc.diagnostics[0].summary
+                return None
+        return self._states[commit]
+
+    def leaves(self, commit: str) -> Leaves | None:
+        """Return the leaves of a commit's state: equal for commits that are one to this bench."""
+        if commit not in self._leaves:
+            state = self.state(commit)
+            if state is None:
+                return None
+            fresh = leaves(self.setup, state)
+            self._leaves[commit] = self._known.setdefault(fresh, fresh)
+        return self._leaves[commit]
+
+    def seconds(self, a: str, b: str) -> float:
+        """Return about how long the bench needs from one readable commit to another [s]."""
+        first, then = self.leaves(a), self.leaves(b)
+        return self.clock.between(first, then) if first and then and first is not then else 0.0
+
+    def read(self, lineage: Lineage) -> list[str]:
+        """Return the commits that are read for a choice among these: the last, and at most READ spread over all."""
+        names = [commit for commit, _ in lineage]
+        step = max(1, -(-len(names) // READ))
+        return [c for n, c in enumerate(names) if (len(names) - 1 - n) % step == 0]
+
+    def suspects(self, lineage: Lineage, skipped: frozenset[str]) -> Suspects:
+        """Return the commits as the choice sees them. One that changed nothing on this bench can't be the first bad
+        one, and is not worth a trial."""
+        number = {commit: n for n, (commit, _) in enumerate(lineage)}
+        parents = [[number[p] for p in before if p in number] for _, before in lineage]
+        looked = set(self.read(lineage))
+        weight, testable = [], set[int]()
+        for n, (commit, before) in enumerate(lineage):
+            same = commit in looked and self._as_a_parent(commit, before, looked)
+            weight.append(0.0 if same else 1.0)
+            if commit in looked and not same and commit not in skipped and self.leaves(commit):
+                testable.add(n)
+        testable.discard(len(lineage) - 1)
+        tried = frozenset(number[c] for c in skipped if c in number)
+        return Suspects(parents, weight, frozenset(testable), tried)
+
+    def _as_a_parent(self, commit: str, parents: Sequence[str], looked: set[str]) -> bool:
+        own = self.leaves(commit)
+        if own is None or len(looked) < 2:
+            return False
+        return any((p in looked or p in self._leaves) and self.leaves(p) is own for p in parents)
+
+    def ranked(
+        self, lineage: Lineage, suspects: Suspects, seen: Observation, measure: float, by_halves: bool = False
+    ) -> list[Choice]:
+        """Return what to try next from the bench as it stands, the best first; `by_halves`: the middle one, as git."""
+        names = [commit for commit, _ in lineage]
+        goals = {n: self.clock.to(seen, state) for n in suspects.testable if (state := self.state(names[n]))}
+        if by_halves:
+            middle = halfway(suspects)
+            return [] if middle is None else [Choice(middle, goals[middle], measure)]
+        return choices(suspects, goals.__getitem__, lambda a, b: self.seconds(names[a], names[b]), measure)
+
+    def halved(self, lineage: Lineage, first_bad: str, start: str, measure: float) -> float | None:
+        """Return how long halving would have taken about from `start` to find `first_bad` [s]; None where not all
+        commits can be read."""
+        number = {commit: n for n, (commit, _) in enumerate(lineage)}
+        if len(lineage) > READ or first_bad not in number or any(self.leaves(c) is None for c in (start, *number)):
+            return None
+        bits = self.suspects(lineage, frozenset()).ancestors()
+        rest, at, total = list(lineage), start, 0.0
+        while len(rest) > 1:
+            suspects = self.suspects(rest, frozenset())
+            middle = halfway(suspects)
+            if middle is None:
+                break
+            trial = rest[middle][0]
+            total += self.seconds(at, trial) + measure
+            at, before = trial, bits[number[trial]]
+            bad = bool(before >> number[first_bad] & 1)
+            rest = [entry for entry in rest if bool(before >> number[entry[0]] & 1) == bad]
+        return total
+
+
+def alike(configurations: Configurations, judged: Mapping[str, str], commit: str) -> str | None:
+    """Return a judged commit that is the same configuration as another one."""
+    own = configurations.leaves(commit)
+    return next((c for c in judged if own is not None and configurations.leaves(c) is own), None)

@@ -1,0 +1,71 @@
+"""Whether a configuration is good: expectations against the bench as observed; and what keeps one from being tried."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.expressions import ExpressionError, Language
+from pico.history.bisect_git import Verdict
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.plan import Plan
+from pico.model.state import Expectation
+from pico.model.vocabulary import functions_of, names_of, spoken_of, values_of
+from pico.policy.expectations import check_expectations, shown
+
+UNSURE = frozenset({"missing", "toppled", "held", "uncertain", "hand-full"})
+"""Diagnostics of a plan that are about the bench as it stands, not about where it should go."""
+
+
+def verdict(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> tuple[Verdict, str]:
+    """Return what the bench as observed is, and the values that decided.
+
+    Bad where an expectation fails; `skip` where none fails and one can't be told; else good.
+    """
+    found = check_expectations(setup, seen, expect)
+    failed = [one for one in found if one.holds is False]
+    unknown = [one for one in found if one.holds is None]
+    if failed:
+        return "bad", "; ".join(one.why or f"`{one.that}` fails" for one in failed)
+    if unknown:
+        return "skip", f"can't be told: {unknown[0].why or unknown[0].that}"
+    values, _ = values_of(setup, seen, spoken_of(setup, (one.that for one in expect)))
+    said = [shown(one.that, values) or f"`{one.that}` holds" for one in expect]
+    return "good", "; ".join(dict.fromkeys(said))
+
+
+def require_expression(setup: Setup, text: str) -> None:
+    """Raise PicoError where an expression makes no sense on this bench."""
+    names = spoken_of(setup, [text])
+    try:
+        Language(names_of(setup, names), functions_of(setup)).compile(text)
+    except ExpressionError as exc:
+        hint = "it speaks of components, as `expect:` does: `p2.pose.x < 530`, `distance(p1, p2) > 100`"
+        caret = " " * exc.start + "^" * (min(exc.end, len(text)) - exc.start)
+        raise PicoError(error("expression", f"{exc}", detail=f"{text}\n{caret}", hint=hint)) from exc
+
+
+def require_known(seen: Observation, plan: Plan) -> None:
+    """Raise PicoError where nobody can say how the bench stands: then no plan of any configuration can be trusted."""
+    found = [d for d in plan.diagnostics if d.code in UNSURE]
+    found += [p for p in seen.problems if p.severity == "error" and p not in found]
+    if found or plan.absent:
+        absent = [error("missing", f"{name} is not seen where it could stand") for name in plan.absent if not found]
+        raise PicoError([*(_as_error(d) for d in found), *absent])
+
+
+def _as_error(d: Diagnostic) -> Diagnostic:
+    return error(d.code, d.summary, detail=d.detail, hint=d.hint, address=d.address)
+
+
+def impossible(plan: Plan) -> str:
+    """Return why the bench can't be brought to a configuration, or must not; empty where it can."""
+    for d in plan.diagnostics:
+        if d.severity == "error":
+            return d.summary
+    for rule in plan.policy:
+        if not rule.get("holds") and rule.get("level") == "mandatory":
+            return f"denied by the lab's policy: {rule.get('rule')}: {rule.get('text')}"
+    by_hand = [op for op in plan.operations if op.primitive == "operator"]
+    return f"{by_hand[0].component} needs a person" if by_hand else ""
