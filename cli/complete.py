@@ -29,7 +29,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "resume": ("--auto-approve", "--fidelity", "--stop-on-error"),
     "undo": ("--auto-approve", "--fidelity"),
     "recover": ("--done", "--not-done", "--auto-approve", "--fidelity"),
-    "checkout": ("--auto-approve", "--fidelity"),
+    "checkout": ("--auto-approve", "--files-only", "--fidelity"),
     "explain": ("--fidelity",),
     "graph": ("--format", "--out", "--fidelity"),
     "fmt": ("--check",),

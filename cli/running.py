@@ -55,10 +55,12 @@ class Screen:
         self.session.say(line)
 
 
-def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = None, **options: Any) -> int:
+def execute(
+    session: Session, bench: Bench, plan: Plan, record: Path | None = None, *, after: str | None = None, **options: Any
+) -> int:
     """Run a plan, show how it goes and what became of it; return the exit code.
 
-    `record`: where a film of it goes; `options` are those of `AsyncBench.run`.
+    `record`: where a film of it goes; `after`: what to do once it is done; `options` are those of `AsyncBench.run`.
     """
     recording = None
     if record:
@@ -72,7 +74,7 @@ def execute(session: Session, bench: Bench, plan: Plan, record: Path | None = No
         for event in run:
             screen.show(event)
             events += [event] if record else []
-    session.show(report_view, run.report, after=_after(plan))
+    session.show(report_view, run.report, after=_after(plan) if after is None else after)
     if not session.json:
         session.report(run.report.diagnostics)
     if record and recording and recording.snapshots:

@@ -134,6 +134,12 @@ class Bench(Reader):
         """Return why a plan is as it is; see `AsyncBench.explain`."""
         return self._bench.explain(plan, component)
 
+    def taken(self, revision: str, names: Sequence[str]) -> Taken:
+        """Return what the manifests must say for parts of a state to be as in a revision; see `pico.restoring`."""
+        from pico import restoring
+
+        return restoring.take(self.folder, revision, names)
+
     def checkout_plan(self, revision: str | Taken, *, exact: bool = False) -> Plan:
         """Return the plan to a revision, or to a part of one, that is about to be checked out."""
         return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))

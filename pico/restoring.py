@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
-from pico.diagnostics import Diagnostic, PicoError
-from pico.history import carry
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.history import carry, taken
 from pico.history.carry import Carried
 from pico.history.folder import LabFolder
+from pico.history.taken import Taken
 from pico.manifest.load import Manifests
 from pico.merging import impossible, overlapping
 
@@ -24,6 +26,21 @@ def cherry_pick(
 ) -> tuple[Carried, ...]:
     """Do once more what revisions changed; see `pico.history.carry.cherry_pick`. Nothing moves, no run is copied."""
     return carry.cherry_pick(folder, revisions, out_of_reach, mainline=mainline, commit=commit)
+
+
+def take(folder: LabFolder, revision: str, names: Sequence[str]) -> Taken:
+    """Return what the manifests must say for components or tunables to be as in a revision; see `pico.history.taken`.
+
+    Raises PicoError as that does, and (exit 3) where one of them could not stand beside the rest of the manifest.
+    """
+    found = taken.take(folder, revision, names)
+    parts = {name.partition(".")[0] for name in found.names} if found.changes else set()
+    wrong = [d for d in overlapping(found.manifests) if parts & set(re.findall(r"\w+", d.summary))]
+    if wrong:
+        hint = "name the other component, too, if it is to move as well; nothing was written"
+        text = f"{revision} -- {' '.join(found.names)} does not fit the rest of the manifest"
+        raise PicoError([*wrong, error("taken-impossible", text, hint=hint)], ExitCode.IMPOSSIBLE)
+    return found
 
 
 def out_of_reach(wanted: Manifests, before: Manifests) -> tuple[Diagnostic, ...]:

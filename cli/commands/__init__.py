@@ -12,7 +12,7 @@ from ..summary import COMMANDS
 
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
 GROUPS = ("bisect", "catalog", "data", "git", "sim")
-SCOPED = ("plan", "apply")  # these take names after `--`
+SCOPED = ("plan", "apply", "checkout")  # these take names after `--`
 LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option, and git gets its own
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,25 +10,44 @@ from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, Yes
 from ..running import execute, question
+from ..scope import scope_of
 from ..session import Session
 from ..views import plan as view
+from ..views import taken as taken_view
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+    from pico.history.taken import Taken
+    from pico.model.plan import Plan
+
+FilesOnly = Annotated[bool, typer.Option("--files-only", help="Only the files; the bench stays as it is.")]
 
 
 def checkout(
     context: typer.Context,
     revision: Annotated[str, typer.Argument(metavar="REV", help="A branch, tag or commit.")],
     auto_approve: Yes = False,
+    files_only: FilesOnly = False,
     fidelity: Fidelity = None,
 ) -> int:
     """Go to a revision: files and bench.
 
-    Plans from the revision's own files, asks, runs `git checkout`, then moves the bench. Refused where the manifest
-    holds changes that are not committed. If a move fails, the files stay at REV and `pico status` tells the truth.
+    Plans from the revision's own files, asks, runs `git checkout`, then moves the bench. With names after `--` only
+    these components or single tunables are taken from REV into the manifest, value by value: `pico checkout e1 -- p2
+    p1.angle`. Refused where edits that are not committed would be lost, save by `HEAD -- COMPONENT`, which drops
+    those of the component. If a move fails, the files stay at REV and
+    `pico status` tells the truth.
     """
     session = Session.of(context)
     bench = session.bench(fidelity)
-    plan = bench.checkout_plan(revision)
-    session.show(view, plan, head=bench.head_name(), goal=bench.goal_name(plan))
+    named = scope_of(context)
+    what = bench.taken(revision, named) if named else revision
+    before = bench.here()
+    if files_only:
+        return _files(session, bench, what, before)
+    plan = bench.checkout_plan(what)
+    goal = bench.goal_name(plan) if isinstance(what, str) else taken_view.goal(bench.name_of(revision))
+    session.show(view, plan, head=bench.head_name(), goal=goal)
     if not session.json:
         session.report(plan.diagnostics)
     if plan.errored:
@@ -38,8 +57,39 @@ def checkout(
     if plan.operations and not auto_approve and (session.json or not session.confirm("\n" + question(plan))):
         session.say("Nothing moved; the files are where they were.")
         return ExitCode.ERROR
-    notes = bench.checkout_files(revision)
+    return _go(session, bench, what, plan, before)
+
+
+def _go(session: Session, bench: Bench, what: str | Taken, plan: Plan, before: str) -> int:
+    """Bring files and bench there, and return the exit code."""
+    notes = bench.checkout_files(what)
     if not session.json:
         session.report(notes)
-    session.say(f"\nThe files are at {bench.head_name()}.")
-    return execute(session, bench, plan) if plan.operations else ExitCode.DONE
+    if isinstance(what, str):
+        session.say(f"\nThe files are at {bench.head_name()}. Go back with `pico checkout {before}`.")
+        back = ""
+    else:
+        session.say(f"\n{taken_view.text(what)}")
+        back = taken_view.next_step(what)
+    if plan.operations:
+        return execute(session, bench, plan, after=back)
+    session.say(back)
+    return ExitCode.DONE
+
+
+def _files(session: Session, bench: Bench, what: str | Taken, before: str) -> int:
+    """Bring the files there and nothing else."""
+    if isinstance(what, str):
+        bench.folder.refuse_edits()
+    notes = bench.checkout_files(what)
+    if session.json:
+        session.document(taken_view.data(what, commit=bench.head_commit()))
+        return ExitCode.DONE
+    session.report(notes)
+    if isinstance(what, str):
+        session.say(f"The files are at {bench.head_name()}; nothing moved: `pico plan` shows what would.")
+        session.say(f"Go back with `pico checkout {before} --files-only`.")
+    else:
+        session.say(f"{taken_view.text(what)}\nNothing moved: `pico plan` shows what would.")
+        session.say(taken_view.next_step(what, files_only=True))
+    return ExitCode.DONE

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.history.folder import Entry, LabFolder
@@ -12,9 +11,6 @@ from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.plan import Plan, plan_from_json
 from pico.model.state import LabState
-
-if TYPE_CHECKING:
-    from pico.history.taken import Taken
 
 
 class Reader:
@@ -53,16 +49,15 @@ class Reader:
         """Return the commit that a revision names, with its physical diff; raises PicoError."""
         return self.folder.entry(self.folder.history().resolve(revision))
 
-    def taken(self, revision: str, names: tuple[str, ...]) -> Taken:
-        """Return what the manifests must say for components or tunables to be as in a revision; raises PicoError."""
-        from pico.history.taken import take
-
-        return take(self.folder, revision, names)
-
     def head_name(self) -> str:
         """Return what is checked out as a person calls it; empty without Git."""
         head = self.folder.head()
         return head.label if head else ""
+
+    def here(self) -> str:
+        """Return what to check out to come back to what is checked out now: the branch, else the commit's short id."""
+        head = self.folder.head()
+        return (head.branch or (head.commit or "")[:7]) if head else ""
 
     def head_commit(self) -> str | None:
         """Return the id of the commit checked out; None without Git or before the first commit."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -35,11 +35,12 @@ class Taken:
         write_files(Path(), self.files)
 
 
-def take(folder: LabFolder, revision: str, names: tuple[str, ...]) -> Taken:
+def take(folder: LabFolder, revision: str, names: Iterable[str]) -> Taken:
     """Return what the manifests must say for `names` (`p2`, `p1.angle`) to be as in a revision. Writes nothing.
 
     A component that the revision does not have goes home. Raises PicoError for what the lab does not have, for tunables
-    of which an edit that is not committed would be lost, and where the result is no valid state of this bench.
+    of which an edit that is not committed would be lost (save to HEAD, for that can mean nothing else), and where the
+    result is no valid state of this bench.
     """
     named = read_addresses(folder.setup, names)
     _, then = folder.historic(revision)
@@ -49,7 +50,8 @@ def take(folder: LabFolder, revision: str, names: tuple[str, ...]) -> Taken:
     written = _written(files, _owners(folder, revision, then, edits), edits)
     manifests = load_files({**files, **written}, setup=folder.setup)
     changes = diff_states(folder.setup, folder.state, manifests.require()[1])
-    _refuse_edited(folder, changes)
+    if revision not in ("HEAD", "@"):
+        _refuse_edited(folder, changes)
     return Taken(revision, tuple(addresses(named)), written, changes, manifests)
 
 
@@ -121,7 +123,7 @@ def _refuse_edited(folder: LabFolder, changes: tuple[Change, ...]) -> None:
     edited = {(c.component, c.tunable): c for c in folder.diff("HEAD")}
     lost = [edited[c.component, c.tunable] for c in changes if (c.component, c.tunable) in edited]
     if lost:
-        hint = '`pico commit -m "why"` keeps the edit, `pico stash` shelves it; other edits are no obstacle'
+        hint = '`pico commit -m "why"` keeps the edit, `pico checkout HEAD -- COMPONENT` drops it; others may stay'
         raise PicoError(
             [
                 error(
