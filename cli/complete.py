@@ -12,7 +12,7 @@ from .summary import COMMANDS, MOVERS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "--expect", "--measure-seconds", "-m", "--message", "--interval", "--looks", "--grace",
+    "--expect", "--measure-seconds", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
     "--merge", "--report", "--junit", "--pictures",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
