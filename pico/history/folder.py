@@ -27,7 +27,8 @@ from pico.model.state import LabState, home_state
 if TYPE_CHECKING:
     from pico.history.repository import Repository
 
-_STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
+STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
+"""Matches the content of a file that holds states alone, nothing of the bench."""
 
 
 @record
@@ -94,7 +95,7 @@ class LabFolder:
         A revision without a Lab of its own is read against the bench as it is now.
         """
         files = self.history().files(revision, self.root)
-        bench = tuple(sorted((p, data) for p, data in files.items() if not _STATE_ONLY.search(data)))
+        bench = tuple(sorted((p, data) for p, data in files.items() if not STATE_ONLY.search(data)))
         if bench not in self._benches:
             self._benches[bench] = load_files(_named(revision, files)).setup
         return load_files(_named(revision, files), setup=self._benches[bench] or self.setup).require()

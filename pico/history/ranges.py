@@ -1,4 +1,4 @@
-"""Which commits a person means: `e1`, `A..B`, `A...B`, `^A`, as git reads them, with an answer to what can't be meant."""
+"""Which commits are meant: `e1`, `A..B`, `A...B`, `^A`, as git reads them, with an answer to what can't be meant."""
 
 from __future__ import annotations
 

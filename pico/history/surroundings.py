@@ -84,3 +84,12 @@ def _packaged(kind: str) -> Node | None:
 def _units(kind: Node | None) -> dict[str, str]:
     tunables = at(kind, "tunables")
     return {name: text(tunables, name, "unit") for name in tunables.entries} if isinstance(tunables, Map) else {}
+
+
+def components_in(data: bytes) -> frozenset[str]:
+    """Return the components that a manifest holds; none where it can't be read."""
+    found: set[str] = set()
+    for document in _parsed("manifest", data):
+        components = at(document.root, "components") if text(document.root, "kind") == "LabState" else None
+        found |= components.entries.keys() if isinstance(components, Map) else set()
+    return frozenset(found)
