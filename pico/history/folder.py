@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import re
-import shutil
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -14,14 +15,21 @@ from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.commit import Commit, Head
+from pico.history.contents import contents, nothing
 from pico.history.run_files import run_trailers, write_once
 from pico.history.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
-from pico.manifest.files import read_folder
+from pico.history.underway import require_resolved
+from pico.history.write_files import write_file
+from pico.history.write_lock import write_lock
+from pico.manifest.edit import capture
+from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files, load_folder
+from pico.model.address import Named
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
 from pico.model.record import record
 from pico.model.report import Captured, Committed
+from pico.model.run import RunDocument
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
@@ -33,11 +41,16 @@ STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*
 
 @record
 class Entry:
-    """One commit with what it changed on the table against its first parent, or why that can't be told."""
+    """One commit with what it changed on the table against its first parent, or why that can't be told.
+
+    Where the history was asked for it: the `runs` that it carries, and the `evidence` for its state.
+    """
 
     commit: Commit
     changes: tuple[Change, ...] = ()
     unreadable: str = ""
+    runs: tuple[RunDocument, ...] = ()
+    evidence: str = ""
 
 
 class LabFolder:
@@ -46,6 +59,8 @@ class LabFolder:
     def __init__(self, path: Path) -> None:
         self.root = find_lab(path)
         self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
+        self._files: dict[str, bytes] = {}
+        self._writing = False
         self.reload()
 
     def reload(self) -> None:
@@ -53,8 +68,14 @@ class LabFolder:
 
         `setup`: the bench as it is now, with its types; `state`: the desired state, what the working tree says.
         """
+        files, found = read_folder(self.root)
+        if files == self._files and not found:
+            return
         self.manifests = load_folder(self.root)
         self.setup, self.state = self.manifests.require()
+        self._files = files
+        shown = shown_path(self.root)
+        self._benches[_bench_of({os.path.relpath(p, shown): data for p, data in files.items()})] = self.setup
 
     @cached_property
     def repository(self) -> Repository | None:
@@ -95,7 +116,7 @@ class LabFolder:
         A revision without a Lab of its own is read against the bench as it is now.
         """
         files = self.history().files(revision, self.root)
-        bench = tuple(sorted((p, data) for p, data in files.items() if not STATE_ONLY.search(data)))
+        bench = _bench_of(files)
         if bench not in self._benches:
             self._benches[bench] = load_files(_named(revision, files)).setup
         return load_files(_named(revision, files), setup=self._benches[bench] or self.setup).require()
@@ -150,17 +171,48 @@ class LabFolder:
         if edited:
             raise PicoError(_edited(edited))
 
-    def capture(self, live: LabState) -> Captured:
-        """Write what `live` says otherwise than the manifests, beyond tolerance, into them; raises PicoError."""
-        from pico.manifest.edit import capture
+    @contextmanager
+    def writing(self, doing: str) -> Iterator[None]:
+        """Be the only one who by PICO writes files of this lab and its repository; they are read anew.
 
-        before = self.state
-        files, _ = read_folder(self.root)
-        written = capture(files, self.setup, before, live)
-        for path, data in written.items():
-            _replace(Path(path), data)
-        self.reload()
-        return Captured(changes=diff_states(self.setup, before, self.state), files=tuple(sorted(written)))
+        Who is inside may enter again. Raises PicoError where another one takes too long (`Repository.writing`).
+        """
+        if self._writing:
+            yield
+            return
+        here = write_lock(self.root / ".pico" / "write.lock", doing)
+        with self.repository.writing(doing) if self.repository else here:
+            self._writing = True
+            try:
+                self.reload()
+                yield
+            finally:
+                self._writing = False
+
+    def capture(self, live: LabState, named: Named | None = None, *, write: bool = True) -> Captured:
+        """Write what `live` says otherwise than the manifests, beyond tolerance, into them; raises PicoError.
+
+        `named`: only these tunables. Without `write`, say what would be written.
+        """
+        if not write:
+            return self._captured(live, named, write=False)
+        with self.writing("pico capture"):
+            return self._captured(live, named, write=True)
+
+    def _captured(self, live: LabState, named: Named | None, *, write: bool) -> Captured:
+        before, files = self.state, self._files
+        spliced = capture(files, self.setup, before, live, named)
+        if write:
+            for name, data in sorted(spliced.items()):
+                write_file(Path(name), data, self.root / ".pico")
+            self.reload()
+        after = self.state if write else load_files(files | spliced, setup=self.setup).require()[1]
+        return Captured(
+            changes=diff_states(self.setup, before, after),
+            files=tuple(sorted(spliced)),
+            written=write,
+            patch="".join(_patch(name, files[name], spliced[name]) for name in sorted(spliced)),
+        )
 
     def commit(
         self,
@@ -170,24 +222,29 @@ class LabFolder:
         *,
         runs: Mapping[str, bytes] = MappingProxyType({}),
         meta: Mapping[str, str] = MappingProxyType({}),
+        named: Named | None = None,
     ) -> Committed:
-        """Commit the manifests as they are, with the files of runs, and return the commit; raises PicoError.
+        """Commit the manifests as they are, with notes and the files of runs, and return the commit; raises PicoError.
 
         `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
-        `meta`: what `--meta key=value` gave. Trailers say the digest of the state and of the lab, the `evidence`, the
-        runs with their plans, and `meta`; they go into the block of trailers that `message` has.
+        `meta`: what `--meta key=value` gave. `named`: only files that hold these components. Trailers say the digest of
+        the state and of the lab, the `evidence`, the runs with their plans, and `meta`; they go into the block of
+        trailers that `message` has. Where a merge is under way, this ends it.
         """
         require_meta(meta)
         repository = self.history()
-        written = [write_once(self.root / path, data) for path, data in sorted(runs.items())]
-        paths: list[str | Path] = [*repository.changed(self.root), *written]
-        if not paths:
-            hint = "`pico status` shows the bench, `pico log` what there is"
-            raise PicoError(error("nothing-to-commit", "nothing to commit: the manifests are as in HEAD", hint=hint))
-        digest, lab = self.state.digest(), self.setup.lab
-        added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
-        added += [(META, f"{key}={value}") for key, value in sorted(meta.items())]
-        made = repository.commit(paths, with_trailers(message, [*added, *run_trailers(runs)]))
+        found: list[Diagnostic] = []
+        with self.writing("pico commit"):
+            ending = require_resolved(repository.root, repository.own)
+            content = contents(self, None if ending else named)
+            if not content.paths and not runs and not ending:
+                raise PicoError(nothing(named))
+            written = [write_once(self.root, path, data) for path, data in sorted(runs.items())]
+            digest, lab = content.state.digest(), self.setup.lab
+            added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
+            added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
+            text = with_trailers(message, added)
+            made = repository.commit(content.paths, text, ignored=written, whole=bool(ending), diagnostics=found)
         return Committed(
             commit=made.id,
             message=message.strip(),
@@ -196,9 +253,16 @@ class LabFolder:
             changes=self.entry(made).changes,
             captured=captured,
             realized=evidence != "planned",
+            evidence=evidence,
             runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
             meta=meta,
+            diagnostics=tuple(found),
         )
+
+
+def _bench_of(files: Mapping[str, bytes]) -> tuple[tuple[str, bytes], ...]:
+    """Return the files that describe the bench: all that may hold more than states."""
+    return tuple(sorted((p, data) for p, data in files.items() if not STATE_ONLY.search(data)))
 
 
 def _named(revision: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -225,12 +289,10 @@ def between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Chang
     return diff_states(Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog}), state_a, state_b)
 
 
-def _replace(path: Path, data: bytes) -> None:
-    """Write a file so that a reader sees the old one or the new one; its permissions stay."""
-    fresh = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    fresh.write_bytes(data)
-    shutil.copymode(path, fresh)
-    fresh.replace(path)
+def _patch(name: str, before: bytes, after: bytes) -> str:
+    old, new = (data.decode(errors="replace").splitlines(keepends=True) for data in (before, after))
+    lines = difflib.unified_diff(old, new, f"a/{name}", f"b/{name}", n=1)
+    return "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
 
 
 def _edited(paths: tuple[str, ...]) -> Diagnostic:
