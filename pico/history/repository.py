@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import datetime, timedelta, timezone
 from pathlib import Path, PurePosixPath
@@ -86,9 +86,14 @@ class Repository:
         return self._git
 
     @property
+    def own(self) -> Path:
+        """The folder of Git's own files that this working tree alone has: `.git` of the main one."""
+        return Path(self._git.path)
+
+    @property
     def common(self) -> Path:
         """The folder of Git's own files that all worktrees share: `.git` of the main one."""
-        own = Path(self._git.path)
+        own = self.own
         shared = own / "commondir"
         return (own / shared.read_text().strip()).resolve() if shared.is_file() else own
 
@@ -157,12 +162,15 @@ class Repository:
         inside = absolute.relative_to(self.root).as_posix()
         return "" if inside == "." else inside
 
-    def changed(self, folder: str | Path = "") -> tuple[str, ...]:
-        """Return the manifests below `folder` that differ from HEAD or are not committed, relative to the root."""
+    def changed(self, folder: str | Path = "", counts: Callable[[str], bool] = is_manifest) -> tuple[str, ...]:
+        """Return the manifests below `folder` that differ from HEAD or are not committed, relative to the root.
+
+        Other files where `counts` says so of their paths.
+        """
         arguments = ["status", "--porcelain", "-z", "--untracked-files=all", "--no-renames", "--"]
         listed = git.run(self.root, [*arguments, self.relative(folder) or "."], doing="list what was edited")
         paths = (entry[3:] for entry in listed.split("\0") if entry)
-        return tuple(sorted(p for p in paths if is_manifest(p)))
+        return tuple(sorted(p for p in paths if counts(p)))
 
     def log(
         self,
@@ -234,10 +242,10 @@ class Repository:
             raise PicoError(error("message", "a commit needs a message", hint='say why: `pico commit -m "..."`'))
         forced = tuple(self.relative(p) for p in ignored)
         names = tuple(dict.fromkeys((*(self.relative(p) or "." for p in paths), *forced)))
-        if not names:
+        if not names and not whole:
             raise PicoError(error("nothing-to-commit", "there is nothing to commit", hint="nothing differs from HEAD"))
         with self.writing("pico commit"):
-            head, own = self.head(), Path(self._git.path)
+            head, own = self.head(), self.own
             branch = [self.common / "refs" / "heads" / head.branch] if head.branch else []
             what = Landing(
                 message=message, paths=names, ignored=forced, head=head.commit, refs=(own / "HEAD", *branch),

@@ -3,32 +3,32 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import PicoError, error
 from pico.history.trailers import PLAN, RUN, Trailers
+from pico.history.write_files import write_file
+
+RUNS = "runs"
 
 
-def write_once(path: Path, data: bytes) -> Path:
-    """Write a file whole or not at all, and return its path; one that holds the same already is left as it is.
+def write_once(root: Path, name: str, data: bytes) -> Path:
+    """Write a file of a run below the lab's folder `root`, whole or not at all, and return its path.
 
-    Raises PicoError where another file stands there, and where the folder can't be written.
+    One that holds the same already is left as it is. Raises PicoError where another file stands there, where `name` is
+    not below `runs/`, and where the folder can't be written.
     """
-    fresh = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    path = root / name
+    if PurePosixPath(name).parts[:1] != (RUNS,) or not path.resolve().is_relative_to(root.resolve() / RUNS):
+        raise PicoError(error("outside", f"{path} is no place for a file of a run", hint=f"they are in {root / RUNS}"))
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         if path.is_symlink() or path.exists():
             if path.is_file() and not path.is_symlink() and path.read_bytes() == data:
                 return path
             hint = "a run is written once; where no commit has this file, delete it and commit again"
             raise PicoError(error("run-exists", f"{path} exists, and says something else", hint=hint))
-        with fresh.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        fresh.replace(path)
+        write_file(path, data, root / ".pico")
     except OSError as exc:
         raise PicoError(error("folder", f"can't write {path}: {exc.strerror or exc}")) from exc
     return path

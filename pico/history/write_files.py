@@ -21,3 +21,20 @@ def write_files(root: Path, files: Mapping[str, bytes | None]) -> None:
         if path.exists():
             shutil.copymode(path, fresh)
         fresh.replace(path)
+
+
+def write_file(path: Path, data: bytes, scratch: Path) -> None:
+    """Write one file whole or not at all, first into the folder `scratch`, so that a kill leaves nothing beside it.
+
+    It is on the disk before it takes the other's place. Only for who holds the lock of writers.
+    """
+    scratch.mkdir(parents=True, exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    fresh = scratch / "write.tmp"
+    with fresh.open("wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+    if path.exists():
+        shutil.copymode(path, fresh)
+    fresh.replace(path)

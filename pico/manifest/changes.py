@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from pico.model.address import Named, holds
 from pico.model.catalog import Tunable
 from pico.model.diff import value_distance
 from pico.model.lab import Setup
@@ -19,11 +20,13 @@ Changes = Mapping[str, Mapping[str, Change] | None]
 """For each component the entries that change; None takes the whole component out."""
 
 
-def differences(setup: Setup, wanted: LabState, live: LabState) -> dict[str, dict[str, Change]]:
+def differences(
+    setup: Setup, wanted: LabState, live: LabState, named: Named | None = None
+) -> dict[str, dict[str, Change]]:
     """Return for each component the entries to write so that `wanted` says what `live` is.
 
     A component that `live` lacks (not seen) and one that the inventory lacks stay as they are; tunables that `wanted`
-    does not name stay unnamed, except of a component that it does not name at all.
+    does not name stay unnamed, except of a component that it does not name at all. `named`: only these tunables.
     """
     changes: dict[str, dict[str, Change]] = {}
     for name in sorted(live.components.keys() & setup.lab.inventory.keys()):
@@ -33,6 +36,8 @@ def differences(setup: Setup, wanted: LabState, live: LabState) -> dict[str, dic
             entries |= _values(setup, name, wanted.components[name], seen)
         elif entries:
             entries |= {k: rounded(setup, name, k, v) for k, v in sorted(seen.values.items()) if _known(setup, name, k)}
+        if named is not None:
+            entries = {k: v for k, v in entries.items() if holds(named, name, "pose" if k == "slot" else k)}
         if entries:
             changes[name] = entries
     return changes

@@ -13,6 +13,7 @@ from pico.manifest.kinds import kind_of
 from pico.manifest.source import Source
 from pico.manifest.splice import Editor, apply_splices
 from pico.manifest.tree import Document, Map, Node, Scalar, parse, plain
+from pico.model.address import Named
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, Value, convert
@@ -50,21 +51,24 @@ def set_values(text: str, changes: Changes) -> str:
     return mark + result
 
 
-def capture(files: Mapping[str, bytes], setup: Setup, wanted: LabState, live: LabState) -> dict[str, bytes]:
+def capture(
+    files: Mapping[str, bytes], setup: Setup, wanted: LabState, live: LabState, named: Named | None = None
+) -> dict[str, bytes]:
     """Return the manifests that must change for the files' state (`wanted`) to say what `live` is.
 
-    Only values that differ beyond tolerance change. A component that no file names is put into the file that holds
-    most. Raises PicoError for files that hold no LabState, or one that can't be written to.
+    Only values that differ beyond tolerance change, and of these only those `named`. A component that no file names is
+    put into the file that holds most. Raises PicoError for files that hold no LabState, or one that can't be written
+    to.
     """
-    changes = differences(setup, wanted, live)
+    changes = differences(setup, wanted, live, named)
     if not changes:
         return {}
     texts = {path: data.decode("utf-8") for path, data in sorted(files.items()) if _is_state(path, data)}
-    named = {path: _named(text) for path, text in texts.items()}
     if not texts:
         raise PicoError(error("no-state", "the lab has no LabState", hint="add a file with `kind: LabState`"))
-    owner = {name: path for path, names in named.items() for name in names}
-    largest = max(texts, key=lambda path: len(named[path]))
+    held = {path: _named(text) for path, text in texts.items()}
+    owner = {name: path for path, names in held.items() for name in names}
+    largest = max(texts, key=lambda path: len(held[path]))
     by_file: dict[str, dict[str, Mapping[str, Change]]] = {}
     for name, entries in changes.items():
         by_file.setdefault(owner.get(name, largest), {})[name] = entries
@@ -77,6 +81,13 @@ def largest_state(files: Mapping[str, bytes]) -> str:
     if not texts:
         raise PicoError(error("no-state", "the lab has no LabState", hint="add a file with `kind: LabState`"))
     return max(texts, key=lambda path: len(_named(texts[path])))
+
+
+def components_of(data: bytes) -> frozenset[str]:
+    """Return the components that the LabStates in a file name; none of a file that can't be read."""
+    source = decode("manifest", data)[0] if b"LabState" in data else None
+    documents = parse(source)[0] if source else []
+    return frozenset(name for d in documents if kind_of(d)[0] == "LabState" for name, _ in _parts(d))
 
 
 def _is_state(path: str, data: bytes) -> bool:

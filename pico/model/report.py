@@ -59,10 +59,15 @@ class RunReport:
 
 @record
 class Captured:
-    """What a capture wrote: the changes from the manifest as it was to the live state, and the files, sorted."""
+    """What a capture wrote: the changes from the manifest as it was to the live state, and the files, sorted.
+
+    `written`: false where it was only asked for. `patch`: the lines, as a unified diff.
+    """
 
     changes: tuple[Change, ...] = ()
     files: tuple[str, ...] = ()
+    written: bool = True
+    patch: str = ""
 
 
 @record
@@ -70,7 +75,7 @@ class Committed:
     """A commit that was made: its id and message, what it changed against its parent, and the digest of its state.
 
     `captured`: what was taken from the bench for it. `realized`: the bench stood as the commit says when it was made.
-    `runs`: the ids of the runs that it carries. `meta`: what `--meta` recorded.
+    `evidence`: what that rests on. `runs`: the ids of the runs that it carries. `meta`: what `--meta` recorded.
     """
 
     commit: str
@@ -80,8 +85,10 @@ class Committed:
     changes: tuple[Change, ...] = ()
     captured: tuple[Change, ...] = ()
     realized: bool = True
+    evidence: str = ""
     runs: tuple[str, ...] = ()
     meta: Mapping[str, str] = field(default_factory=dict)
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 @record

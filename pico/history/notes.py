@@ -1,0 +1,56 @@
+"""What people say of a part: `notes/PART.md` in the lab's folder, one line each, so that appends merge (`union`)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import PurePosixPath
+
+from pico.diagnostics import PicoError, error
+from pico.model.record import record
+
+FOLDER = "notes"
+_LINE = re.compile(r"[-*] (\d{4}-\d{2}-\d{2}) ([^:]+): (.*)")
+
+
+@record
+class Note:
+    """One note on a part: the day as YYYY-MM-DD, who wrote it, and what. Day and author are empty for a line that
+    somebody wrote by hand in another form."""
+
+    text: str
+    day: str = ""
+    author: str = ""
+
+
+def note_path(part: str) -> str:
+    """Return where the notes on a part are, relative to the lab."""
+    return f"{FOLDER}/{part}.md"
+
+
+def is_note(path: str) -> bool:
+    """Return whether a path relative to the lab is that of notes."""
+    found = PurePosixPath(path)
+    return found.suffix == ".md" and found.parts[:-1] == (FOLDER,) and not found.name.startswith(".")
+
+
+def notes(files: Mapping[str, bytes], part: str) -> tuple[Note, ...]:
+    """Return the notes on a part, oldest first, from the files of a lab by path relative to it."""
+    text = files.get(note_path(part), b"").decode("utf-8", errors="replace")
+    lines = (line.strip() for line in text.splitlines())
+    return tuple(sorted((_read(line) for line in lines if line and not line.startswith("#")), key=lambda n: n.day))
+
+
+def with_note(before: bytes, day: str, author: str, text: str) -> bytes:
+    """Return the notes on a part with one more at their end; raises PicoError for a text that is empty."""
+    said = " ".join(text.split())
+    if not said:
+        raise PicoError(error("note", "the note is empty", hint='`pico note p2 "scratched at the rim"`'))
+    who = " ".join(author.replace(":", " ").split()) or "somebody"
+    missing = b"\n" if before and not before.endswith(b"\n") else b""
+    return before + missing + f"- {day} {who}: {said}\n".encode()
+
+
+def _read(line: str) -> Note:
+    match = _LINE.fullmatch(line)
+    return Note(text=match[3], day=match[1], author=match[2]) if match else Note(text=line.lstrip("-* "))
