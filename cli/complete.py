@@ -52,6 +52,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "check": ("--merge", "--report", "--markdown", "--junit", "--pictures", "--fidelity"),
     "revert": ("-m", "--message", "--mainline", "--no-commit"),
     "cherry-pick": ("--mainline", "--no-commit"),
+    "stash": ("-m", "--message"),
     "render": ("--out", "--view", "--manifest", "--plan", "--size"),
     "ruler": ("--picture",),
     "scan": ("--picture",),
@@ -136,6 +137,8 @@ def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str
             yield from (p.name for p in folder.glob("*.plan"))
     elif command == "explain" and len(given) == 1:
         yield from _inventory(folder)
+    elif command == "stash" and not given:
+        yield from ("push", "pop", "list", "drop")
     elif command == "completion":
         yield from ("bash", "zsh", "fish")
 

@@ -39,6 +39,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "cherry-pick": "Change on this branch what commits of another one changed on the table, in the manifests only.",
         "push": "Send the large data of runs to where it is kept, then the commits with `git push`.",
         "pull": "Get commits with `git pull`, then the large data of their runs. Moves nothing.",
+        "stash": "Shelve the edits of the manifests, or bring them back. The bench is not shelved: nothing moves.",
         "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
     },
     "One operation at a time": {

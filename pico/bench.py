@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from pico.bisecting import Bisection
     from pico.history.carry import Carried
     from pico.history.merge_commits import MergeMade
+    from pico.history.stash import Stash
     from pico.history.taken import Taken
     from pico.imports import Imported
     from pico.planning.explain import Explanation
@@ -292,6 +293,13 @@ class Bench(Reader):
         from pico import restoring
 
         return restoring.cherry_pick(self.folder, revisions, mainline=mainline, commit=commit)
+
+    @property
+    def stash(self) -> Stash:
+        """The stash of the repository: edits of the manifests that are shelved; see `pico.history.stash`."""
+        from pico.history.stash import Stash
+
+        return Stash(self.folder)
 
     def render(
         self,
