@@ -62,12 +62,17 @@ def runs_at(
 
 
 def places_in_history(
-    repository: Repository, folder: str | Path = "", tips: Iterable[str] | None = None, *, since: float | None = None
+    repository: Repository,
+    folder: str | Path = "",
+    tips: Iterable[str] | None = None,
+    *,
+    hidden: Iterable[str] = (),
+    since: float | None = None,
 ) -> dict[str, RunPlace]:
-    """Return where each run was added, by its id: looking through all that `tips` (commit ids; every branch and tag,
-    and HEAD) reach, back to `since` [s since 1970]."""
+    """Return where each run was added, by its id: looking through all that `tips` (commit ids; None: every branch and
+    tag, and HEAD) reach and `hidden` do not, back to `since` [s since 1970]."""
     trees, found = _Trees(repository, repository.relative(folder)), {}
-    for handle in _walk(repository, tips, since):
+    for handle in _walk(repository, tips, hidden, since):
         for place in trees.added(handle):
             found[place.id] = place  # the older one counts
     return found
@@ -126,7 +131,9 @@ def files_at(repository: Repository, place: RunPlace, names: Iterable[str] | Non
     }
 
 
-def _walk(repository: Repository, tips: Iterable[str] | None, since: float | None) -> Iterator[Any]:
+def _walk(
+    repository: Repository, tips: Iterable[str] | None, hidden: Iterable[str], since: float | None
+) -> Iterator[Any]:
     """Yield the commits that `tips` reach, newest first."""
     from pygit2.enums import SortMode
 
@@ -134,6 +141,8 @@ def _walk(repository: Repository, tips: Iterable[str] | None, since: float | Non
     walker = handle.walk(None, SortMode.TIME if since is not None else SortMode.TOPOLOGICAL | SortMode.TIME)
     for tip in tip_ids(repository) if tips is None else tips:
         walker.push(tip)
+    for commit in hidden:
+        walker.hide(commit)
     for commit in walker:
         if since is not None and commit.commit_time < since - SLACK:
             return

@@ -16,6 +16,7 @@ LARGEST = 1 << 20
 """Bytes above which no document of a run is read."""
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 _STATE = re.compile(r"sha256:[0-9a-f]{64}")
+_HASH = re.compile(r"[0-9a-f]{64}")
 _DAY = re.compile(r"\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}[.0-9]*(?:Z|[+-]\d{2}:\d{2})")
 
 
@@ -69,6 +70,9 @@ def _wrong(document: RunDocument, name: str) -> str:
         return f"it says that it is of the run {document.id[:60]!r}"
     if not _DAY.fullmatch(document.started_at) or (document.ended_at and not _DAY.fullmatch(document.ended_at)):
         return "it does not say when the run was"
+    named = [f.sha256 for f in document.files.values()] + [a.sha256 for a in document.artifacts]
+    if not all(_HASH.fullmatch(sha256) for sha256 in named):
+        return "it names a file by what is no SHA-256"
     states = (document.state_before, document.state_after)
     return "" if all(_STATE.fullmatch(s) for s in states) else "it does not say which states the run led from and to"
 
