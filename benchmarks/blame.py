@@ -276,7 +276,7 @@ def main() -> None:
         write(tiny, small)
         measure([pico, "blame"], small)
         start = min(measure([pico, "blame"], small)[0] for _ in range(3))
-        cold, memory = measure([pico, "blame"], folder)
+        cold = measure([pico, "blame"], folder)[0]
         warm = min(measure([pico, "blame"], folder)[0] for _ in range(3))
         size = (folder / ".git/pico/blame.sqlite").stat().st_size / 1e6
         found = wrong_answers(history, ids, told(pico, folder))
@@ -286,7 +286,7 @@ def main() -> None:
     merges = sum(len(p) > 1 for p in history.parents)
     print(f"{len(ids)} commits ({merges} merges), {options.components} components in {options.files} files")
     late = cold > COLD or warm - start > WARM
-    print(f"start-up {start:.2f} s · cold {cold:.2f} s (bar {COLD:g}), {memory:.0f} MiB · warm {warm:.2f} s,", end=" ")
+    print(f"start-up {start:.2f} s · cold {cold:.2f} s (bar {COLD:g}) · warm {warm:.2f} s,", end=" ")
     print(f"{warm - start:.2f} beside start-up (bar {WARM:g}) · next {more:.2f} s · cache {size:.1f} MB")
     print(f"{len(found)} of {len(history.versions[-1].truth)} answers wrong", *found[:10], sep="\n  ")
     sys.exit(1 if found or late else 0)
