@@ -26,13 +26,11 @@ class Begun:
 
     @staticmethod
     def text(search: Bisection) -> str:
-        task, left = search.task, search.left()
-        ends = f"{_name(task.good_name, task.good)} (good) and {_name(task.bad_name, task.bad)} (bad)"
-        head = f"{count(left, 'commit')} between {ends} may be the first bad one: "
-        head += f"about {count(search.expected_trials(left), 'configuration')} to try, "
-        head += f"{seconds(task.measure)} a measurement."
-        by = [f"  `{one.that}`" for one in task.expect] or ["  A person judges each."]
-        return "\n".join([*wrap(head, ""), *by])
+        left = search.left()
+        if left < 2:
+            return _asked(search)
+        trials = count(search.expected_trials(left), "configuration")
+        return f"{_asked(search)}\n{count(left, 'commit')} may be the first bad one: about {trials} to try."
 
     @staticmethod
     def data(search: Bisection) -> dict[str, Any]:
@@ -111,7 +109,7 @@ class Standing:
                     "`pico bisect good`, `bad` or `skip` judges it; `pico bisect continue` brings the bench to it."
                 )
             last = f"{last} {next_step}"
-        return "\n".join([Begun.text(search).partition("\n")[2], *rows, *wrap(last, "")])
+        return "\n".join([_asked(search), *rows, *wrap(last, "")])
 
     @staticmethod
     def data(search: Bisection, outcome: Outcome, name_of: Callable[[str], str]) -> dict[str, Any]:
@@ -148,6 +146,14 @@ def question(proposal: Proposal) -> str:
 def judge_it(name: str) -> str:
     """Return what a person has to do now."""
     return "\n".join(wrap(f"The bench stands as {name}. Look, then say `pico bisect good`, `bad` or `skip`.", ""))
+
+
+def _asked(search: Bisection) -> str:
+    """Return between what, by what, and how long that takes."""
+    task = search.task
+    by = " and ".join(f"`{one.that}`" for one in task.expect) or "what a person sees"
+    ends = f"{_name(task.good_name, task.good)} (good) and {_name(task.bad_name, task.bad)} (bad)"
+    return "\n".join(wrap(f"Between {ends}, by {by}, {task.measure:g} s a measurement.", ""))
 
 
 def _found(entry: Entry) -> list[str]:

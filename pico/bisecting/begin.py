@@ -42,6 +42,10 @@ def begin(
     running = _left(bench, ends)
     if running is not None and (running.task.expect == wanted or not wanted):
         return running
+    if running is not None and running.left() > 1:
+        asked = " and ".join(f"`{one.that}`" for one in running.task.expect) or "what a person says"
+        hint = "`pico bisect continue` goes on with it, `pico bisect reset` ends it"
+        raise PicoError(error("bisect", f"the bisection under way asks for {asked}", hint=hint))
     require_order(history.root, *ends, (bad, good))
     task = Task(
         bad=ends[0], good=ends[1], bad_name=bad, good_name=good, expect=wanted, measure=measure, trust=trust

@@ -88,15 +88,10 @@ class Configurations:
             return False
         return any((p in looked or p in self._leaves) and self.leaves(p) is own for p in parents)
 
-    def ranked(
-        self, lineage: Lineage, suspects: Suspects, seen: Observation, measure: float, by_halves: bool = False
-    ) -> list[Choice]:
-        """Return what to try next from the bench as it stands, the best first; `by_halves`: the middle one, as git."""
+    def ranked(self, lineage: Lineage, suspects: Suspects, seen: Observation, measure: float) -> list[Choice]:
+        """Return what to try next from the bench as it stands, the best first."""
         names = [commit for commit, _ in lineage]
         goals = {n: self.clock.to(seen, state) for n in suspects.testable if (state := self.state(names[n]))}
-        if by_halves:
-            middle = halfway(suspects)
-            return [] if middle is None else [Choice(middle, goals[middle], measure)]
         return choices(suspects, goals.__getitem__, lambda a, b: self.seconds(names[a], names[b]), measure)
 
     def halved(self, lineage: Lineage, first_bad: str, start: str, measure: float) -> float | None:

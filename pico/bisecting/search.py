@@ -42,13 +42,12 @@ class Builder(Protocol):
 class Bisection:
     """A bisection under way: `propose`, bring the bench there, then `judge` (an expectation) or `told` (a person).
 
-    `tried`: everything that was judged so far, also what needed no trial. `by_halves`: choose as git does.
+    `tried`: everything that was judged so far, also what needed no trial.
     """
 
     def __init__(self, bench: Builder, git: GitBisect, task: Task, tried: Sequence[Tried] = ()) -> None:
         self.bench, self.git, self.task = bench, git, task
         self.tried = list(tried)
-        self.by_halves = False
         self.mended: str | None = None
         self.said = ""
         self._configurations = Configurations(bench.folder, bench.setup)
@@ -75,9 +74,9 @@ class Bisection:
             if not suspects.testable:
                 return None
             seen = self.bench.observe()
-            ranked = self._configurations.ranked(lineage, suspects, seen, self.task.measure, self.by_halves)
+            ranked = self._configurations.ranked(lineage, suspects, seen, self.task.measure)
             names = [commit for commit, _ in lineage]
-            best = self._planned(ranked[: 1 if self.by_halves else PLANNED], names, seen)
+            best = self._planned(ranked[:PLANNED], names, seen)
             if best is not None:
                 return self._proposal(*best, left=len(lineage))
         return None
