@@ -38,9 +38,10 @@ def stash(
     if action == "list":
         session.show(view, action, bench.stash.shelves())
         return 0
-    shelf = {"push": lambda: bench.stash.push(message), "pop": lambda: bench.stash.pop(name)}.get(
-        action, lambda: bench.stash.drop(name)
-    )()
+    if action == "push":
+        shelf = bench.stash.push(message or name)
+    else:
+        shelf = bench.stash.pop(name) if action == "pop" else bench.stash.drop(name)
     apart = _apart(bench) if shelf and action != "drop" else None
     session.show(view, action, (shelf,) if shelf else (), apart=apart)
     return 0

@@ -117,7 +117,7 @@ def _step(
     if way == "revert" and parent is None:
         raise PicoError(rootless(name))
     made = manifest_tree(handle, handle[commit.id].tree, inside)
-    was = manifest_tree(handle, handle[parent.id].tree, inside) if parent else manifest_tree(handle, (), "")
+    was = manifest_tree(handle, handle[parent.id].tree, inside) if parent else manifest_tree(handle, None, "")
     base, theirs = (made, was) if way == "revert" else (was, made)
     called = labels(way, head, name)
     union = unite_trees(handle, base, onto, theirs, called)

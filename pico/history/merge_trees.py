@@ -45,11 +45,11 @@ def unite_trees(handle: Any, base: str, ours: str, theirs: str, labels: Labels) 
 
 
 def manifest_tree(handle: Any, tree: Any, folder: str) -> str:
-    """Write a tree with the manifests of `tree` (empty: none) below `folder`, at their paths, and return its id."""
+    """Write a tree with the manifests of `tree` (None: of nothing) below `folder`, at their paths; return its id."""
     import pygit2
 
     index = pygit2.Index()
-    top = _below(tree, folder)
+    top = _below(tree, folder) if tree is not None else None
     for path, entry in _entries(top, f"{folder}/" if folder else "") if top is not None else ():
         if is_manifest(path):
             index.add(pygit2.IndexEntry(path, entry.id, entry.filemode))
