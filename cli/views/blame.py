@@ -7,6 +7,7 @@ from typing import Any
 
 from pico.history.blame_how import How
 from pico.history.blamed import Blamed, BlamedLeaf, Turn
+from pico.history.notes import Note
 from pico.model.record import as_json
 
 from .style import WIDTH, columns, count, paint, place, shorten, width
@@ -20,10 +21,8 @@ def text(blamed: Blamed, *, asked: bool) -> str:
         return "No state has been committed yet." if blamed.commit is None else f"The state at {blamed.name} is empty."
     changed = [leaf.history for leaf in blamed.leaves if leaf.history is not None]
     lines = _histories(blamed) if changed else _table(blamed.leaves)
-    said = [
-        f"{paint('bold', part)}: {line}" for part, note in (blamed.notes or {}).items() for line in note.splitlines()
-    ]
-    below = [""] * bool(said) + said + ([] if asked else ["", _tally(blamed)])
+    noted = [f"{paint('bold', part)}: {n.text}{_by(n)}" for part, found in blamed.notes.items() for n in found]
+    below = [""] * bool(noted) + noted + ([] if asked else ["", _tally(blamed)])
     return "\n".join([*lines, *below, *_shallow(blamed)])
 
 
@@ -80,6 +79,10 @@ def _tally(blamed: Blamed) -> str:
     edited = ", with edits that are not committed" if blamed.edited else ""
     what = f"{count(len(blamed.leaves), 'tunable')} of {count(parts, 'component')}"
     return f"{what} at {blamed.name}{edited}. `pico blame COMPONENT --history` shows every change of one."
+
+
+def _by(note: Note) -> str:
+    return paint("dim", f"  ({note.author}, {note.day})") if note.author else ""
 
 
 def _shallow(blamed: Blamed) -> list[str]:

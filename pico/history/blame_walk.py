@@ -68,6 +68,12 @@ class Walker:
         """Return the manifests of a commit: their ids by path below the lab."""
         return {path: name for path, name in _below(self._tree(commit)) if is_manifest(path)}
 
+    def content(self, commit: str, path: str) -> bytes:
+        """Return a file of the lab at a commit; empty where there is none."""
+        tree = self._tree(commit)
+        entry = tree[path] if tree is not None and path in tree else None
+        return self._content(str(entry.id)) if entry is not None and _regular(entry.filemode) else b""
+
     def flat(self, name: str) -> Flat:
         """Return what a manifest says, by the id of its content."""
         text = self.cache.get(f"flat {name}")
@@ -96,7 +102,7 @@ class Walker:
         return brief
 
     def _content(self, name: str) -> bytes:
-        blob = self._git[name]
+        blob = self._git[name]  # of one that is too large, as much as makes the reader say so
         return bytes(blob.data) if blob.size <= MAX_BYTES else b"#" * (MAX_BYTES + 1)
 
     def _kept(self, commit: str) -> Answer | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,9 @@ from pico.history.blame_how import How, RunBrief, how
 from pico.history.blame_leaves import POSE, Leaf, canonical, shown
 from pico.history.blame_walk import Walker
 from pico.history.commit import Commit
+from pico.history.notes import Note, note_path, notes
 from pico.history.repository import Repository
+from pico.manifest.files import MAX_BYTES
 from pico.model.catalog import Tunable
 from pico.model.diff import describe_move, describe_value
 from pico.model.pose import Pose
@@ -57,13 +60,15 @@ class BlamedLeaf:
 
 @record
 class Blamed:
-    """The leaves of a state, by component, pose first; `commit` whose state it is, with edits where `edited`."""
+    """The leaves of a state, by component, pose first; `commit` whose state it is, with edits where `edited`.
+
+    `notes`: those on the components that were asked for."""
 
     commit: str | None = None
     name: str = ""
     edited: bool = False
     leaves: tuple[BlamedLeaf, ...] = ()
-    notes: Mapping[str, str] | None = None
+    notes: Mapping[str, tuple[Note, ...]] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -87,6 +92,8 @@ def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, histor
         rows = _chosen(whole.rows, what)
         turns = _Turns(walker, whole, rows.values(), history=history)
         leaves = tuple(turns.leaf(address, row) for address, row in rows.items())
+        parts = dict.fromkeys(leaf.component for leaf in leaves) if what else ()
+        noted = {part: _notes(walker, root, commit if at else None, part) for part in parts}
     finally:
         walker.cache.close()
     return Blamed(
@@ -94,8 +101,20 @@ def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, histor
         name=at or repository.head().label,
         edited=any(row.node.commit == "" for row in whole.rows.values()),
         leaves=leaves,
+        notes={part: said for part, said in noted.items() if said},
         diagnostics=tuple(_skipped(whole.unread)),
     )
+
+
+def _notes(walker: Walker, root: Path, commit: str | None, part: str) -> tuple[Note, ...]:
+    """Return the notes on a part, at a commit or in the working tree."""
+    path = note_path(part)
+    if commit:
+        data = walker.content(commit, path)
+    else:
+        file = root / path
+        data = file.read_bytes()[:MAX_BYTES] if file.is_file() and not file.is_symlink() else b""
+    return notes({path: data}, part)
 
 
 def _chosen(rows: Mapping[Address, Row], what: Sequence[str]) -> dict[Address, Row]:

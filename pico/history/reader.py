@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.history.folder import Entry, LabFolder
+from pico.history.notes import Note
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.plan import Plan, plan_from_json
 from pico.model.state import LabState
+
+if TYPE_CHECKING:
+    from pico.history.blamed import Blamed
+    from pico.history.compare import StateDiff
+    from pico.history.log import Log
+    from pico.history.shown import Shown
 
 
 class Reader:
@@ -41,13 +49,60 @@ class Reader:
         """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
         return self.folder.diff(a, b)
 
-    def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
-        """Yield the commits that changed the lab, newest first, with their physical diffs; raises PicoError."""
-        return self.folder.log(revision, every=every, limit=limit)
+    def compare(
+        self, a: str | None = None, b: str | None = None, names: Sequence[str] = (), *, at: Path | None = None
+    ) -> StateDiff:
+        """Return all that differs from revision `a` (HEAD; it may be a range) to `b` (the working tree).
+
+        `names`: of these components and files alone, paths relative to `at` (the lab). Raises PicoError.
+        """
+        from pico.history.compare import compare
+        from pico.history.scope import read_scope
+
+        scope = read_scope(self.folder, names, at or self.root, past=True)
+        return compare(self.folder, a, b, scope)
+
+    def log(
+        self,
+        *revisions: str,
+        every: bool = False,
+        limit: int | None = None,
+        names: Sequence[str] = (),
+        at: Path | None = None,
+        options: Sequence[str] = (),
+        graph: bool = False,
+    ) -> Log:
+        """Return the commits that changed the lab, newest first, with their physical diffs; see `pico.history.log`.
+
+        `revisions`: also ranges, HEAD for none. `names`: only those that changed these components or files, paths
+        relative to `at` (the lab). `options` are those of `git rev-list`. Raises PicoError, also while it is read.
+        """
+        from pico.history.log import Asked, Log
+        from pico.history.scope import read_scope
+
+        scope = read_scope(self.folder, names, at or self.root, past=True)
+        asked = Asked(
+            revisions=revisions, every=every, options=tuple(options), limit=limit, scope=scope, topological=graph
+        )
+        return Log(self.folder, asked)
+
+    def show(self, what: str = "HEAD") -> Shown:
+        """Return what a revision, or `REV:COMPONENT`, did and holds; see `pico.history.shown`. Raises PicoError."""
+        from pico.history.shown import show
+
+        return show(self.folder, what)
 
     def entry(self, revision: str) -> Entry:
         """Return the commit that a revision names, with its physical diff; raises PicoError."""
         return self.folder.entry(self.folder.history().resolve(revision))
+
+    def notes(self, part: str) -> tuple[Note, ...]:
+        """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
+        return self.folder.notes(part)
+
+    def note(self, part: str, text: str) -> Note:
+        """Note something on a part, for the next commit to take along; raises PicoError."""
+        return self.folder.note(part, text)
 
     def head_name(self) -> str:
         """Return what is checked out as a person calls it; empty without Git."""
@@ -86,12 +141,13 @@ class Reader:
             if is_file:
                 return plan_from_json(path.read_bytes())
             return word
-        if self._is_revision(word):
+        if self.is_revision(word):
             hint = f"`./{word}` is the file; rename it to mean the revision"
             raise PicoError(error("ambiguous", f"`{word}` is both a file and a revision", hint=hint))
         return plan_from_json(path.read_bytes())
 
-    def _is_revision(self, word: str) -> bool:
+    def is_revision(self, word: str) -> bool:
+        """Return whether there is a revision of this name."""
         try:
             return self.folder.repository is not None and bool(self.folder.repository.resolve(word))
         except PicoError:
