@@ -13,7 +13,7 @@ SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
     "--expect", "--measure-seconds", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
-    "--merge", "--report", "--junit", "--pictures",
+    "--component", "--merge", "--report", "--junit", "--pictures",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -37,6 +37,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "commit": ("-m", "--message", "--capture", "--planned"),
     "log": ("--graph", "--oneline", "--all", "-n", "--number"),
     "drift": ("--detailed-exitcode",),
+    "runs list": ("--all", "--component"),
     "blame": ("--at", "--history", "--all"),
     "watch": ("--interval", "--looks", "--heal"),
     "do": ("--speed", *_ONE),
@@ -83,6 +84,7 @@ GROUPS = {
     "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
     "catalog": ("list", "show"),
     "git": ("install", "uninstall"),
+    "runs": ("list", "show", "compare"),
     "data": ("status", "push", "pull", "fsck", "gc"),
 }
 FIXED = {
@@ -94,11 +96,11 @@ FIXED = {
     "--paper": ("a4", "letter"),
     "--example": ("minimal", "shel", "crowded", "two_arms"),
 }
-COMPONENTS = ("--after", "--explain", "--target", "--exclude")
+COMPONENTS = ("--component", "--after", "--explain", "--target", "--exclude")
 _COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
 _REVISION = (
     "plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render",
-    "verify", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
+    "verify", "runs list", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
 )  # fmt: skip
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 

@@ -32,6 +32,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "bisect": "Find which configuration broke an expectation, by trials on the bench.",
         "bisect-step": "Bring the bench to the commit that git bisects and judge it, for `git bisect run`.",
         "verify": "Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.",
+        "runs": "List the runs that commits carry, show one, or compare two.",
         "drift": "Show where the bench has left the last commit. Moves nothing.",
         "merge": "Merge another branch, value by value, and check that the result can stand on the table.",
         "check": "Check a change as a pull request: valid, buildable, as expected in the simulator, allowed.",

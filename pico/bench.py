@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from pico.imports import Imported
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
+    from pico.recording.comparing import Comparison
+    from pico.recording.listing import Listed
+    from pico.recording.loading import Loaded
     from pico.twin.film import Caption
     from pico.twin.picture import Image, View
     from pico.twin.ruler import Measured
@@ -156,6 +159,24 @@ class Bench(Reader):
     def place(self, component: str, *, after: str, distance: float) -> Plan:
         """Return the plan that places a component `distance` mm after another along its beam."""
         return self._thread.wait(self._bench.place(component, after=after, distance=distance))
+
+    def runs(self, revision: str | None = None, **options: Any) -> tuple[Listed, ...]:
+        """Return the runs that commits carry, and those that none has yet; see `pico.recording.listing.list_runs`."""
+        from pico.recording.listing import list_runs
+
+        return list_runs(self.folder, revision, **options)
+
+    def recorded_run(self, word: str | None = None) -> Loaded:
+        """Return a run by the beginning of its id, the last one for None; see `pico.recording.loading.load_run`."""
+        from pico.recording.loading import load_run
+
+        return load_run(self.folder, word)
+
+    def compare_runs(self, a: str, b: str) -> Comparison:
+        """Return two runs side by side; see `pico.recording.comparing`."""
+        from pico.recording.comparing import compare_runs
+
+        return compare_runs(self.setup, self.recorded_run(a), self.recorded_run(b))
 
     def run(self, plan: Plan, **options: Any) -> Run:
         """Start a plan and return its run: iterate over it for its events. `options`: see `AsyncBench.run`."""

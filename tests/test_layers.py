@@ -50,7 +50,7 @@ LAYERS: dict[str, set[str]] = {
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "merging", "saved", "watching",
-        "scans", "imports", "restoring", "bisecting",
+        "scans", "imports", "restoring", "bisecting", "recording",
     },
 }  # fmt: skip
 

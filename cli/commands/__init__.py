@@ -11,7 +11,7 @@ from ..scope import Scoped
 from ..summary import COMMANDS
 
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
-GROUPS = ("bisect", "catalog", "data", "git", "sim")
+GROUPS = ("bisect", "catalog", "data", "git", "runs", "sim")
 SCOPED = ("plan", "apply", "checkout")  # these take names after `--`
 LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option, and git gets its own
 

@@ -1,0 +1,126 @@
+"""One run with everything that is known of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pico.model.record import as_json
+from pico.model.run import RunDocument
+
+from .diff import lines
+from .report import expectations
+from .runs import COLORS, deed, moment, shown
+from .style import columns, count, number, paint, place, seconds
+
+if TYPE_CHECKING:
+    from pico.recording.loading import Loaded
+    from pico.trace.operations import OperationRun
+
+PROVES = {
+    "kinematic": "kinematic: simulated, never hardware",
+    "physics": "physics: simulated, never hardware",
+    "emulated": "emulated devices, never hardware",
+    "hardware": "hardware",
+}
+
+
+def text(run: Loaded) -> str:
+    """Return what it was for, how it ended, what it changed, its operations, and what it ran with."""
+    d = run.document
+    block = [*_head(run), "", *_changed(d)]
+    if run.operations:
+        head = [paint("dim", cell) for cell in ("from", "took", "planned", "operation", "", "how it ended")]
+        block += ["", "Operations:", *columns([head, *(_operation(op) for op in run.operations)], indent="  ")]
+    block += ["", *expectations(d.expectations)] if d.expectations else []
+    return "\n".join([*block, "", *_with(run)])
+
+
+def _head(run: Loaded) -> list[str]:
+    d = run.document
+    where = f"carried by {run.commit.label} ({run.commit.short})" if run.commit else "no commit has it yet"
+    total = sum(d.tally.values())
+    ended = f"{d.tally.get('done', 0)} of {count(total, 'operation')} done in {seconds(d.seconds)}"
+    by = f" by {shown(d.operator)}" if d.operator else ""
+    resumed = f", taken up again {count(d.resumed, 'time')}" if d.resumed else ""
+    return [
+        f"{paint('yellow', f'run {shown(d.id)}')}  {where}",
+        f"{shown(deed(d))}, {moment(d.started_at)} UTC{by}{resumed}",
+        f"{paint(COLORS[d.outcome], d.outcome.capitalize())}: {ended} · {PROVES.get(d.evidence, d.evidence)}",
+    ]
+
+
+def _changed(d: RunDocument) -> list[str]:
+    moved = [c for c in d.changes if not c.tolerated]
+    within = len(d.changes) - len(moved)
+    block = ["Changed:", *lines(moved)] if moved else ["It changed nothing beyond tolerance."]
+    block += [f"  {count(within, 'tunable')} within tolerance"] if within else []
+    if d.afterwards:
+        block += ["Between its end and the commit, by no operation:", *lines(d.afterwards)]
+    return block
+
+
+def _operation(op: OperationRun) -> list[str]:
+    name = f"{op.id}" + (f" (attempt {op.attempt})" if op.attempt > 1 else "")
+    what = f"{op.primitive} {op.address}"
+    to = op.arguments.get("to")
+    return [
+        "-" if op.start is None else f"{op.start:.1f} s",
+        "-" if op.seconds is None else seconds(op.seconds),
+        "-" if op.planned is None else seconds(op.planned),
+        shown(name),
+        shown(what + (f" → {_place(to)}" if to is not None else "")),
+        _ended(op),
+    ]
+
+
+def _place(to: Any) -> str:
+    try:
+        return place(to)
+    except (KeyError, TypeError, ValueError, AttributeError):  # written by another program
+        return str(to)
+
+
+def _ended(op: OperationRun) -> str:
+    said = op.outcome
+    error_mm, error_deg = op.data.get("error_mm"), op.data.get("error_deg")
+    if isinstance(error_mm, int | float) and isinstance(error_deg, int | float):
+        said += f", {number(error_mm)} mm, {number(error_deg)}° off"
+    if op.settled:
+        said += f", as {'the bench was seen later' if op.settled == 'observation' else shown(op.settled) + ' said'}"
+    if op.error:
+        said += f": {shown(str(op.error.get('summary', '')))}"
+    return paint(COLORS[op.outcome], said) if op.outcome in ("done", "failed") else paint("yellow", said)
+
+
+def _with(run: Loaded) -> list[str]:
+    """Return what it ran with, and where its data is."""
+    d = run.document
+    rows = [["state", f"{_short(d.state_before)} → {_short(d.state_after)}"]]
+    if d.observed:
+        how = "observed" if d.observed.looked else "as the operations saw it, nobody looked afterwards"
+        rows.append(["", f"{_short(d.observed.state)} {how}, {moment(d.observed.at)} UTC"])
+    rows += [["planned from", d.parent[:7]]] if d.parent else []
+    rows += [["goal", f"{shown(d.goal)} ({d.goal_commit[:7]})"]] if d.goal_commit else []
+    rows += [["plan", _short(d.plan)], ["lab", f"{shown(d.lab.name)} {_short(d.lab.digest)}"]]
+    rows += [["calibration", _short(d.calibration)]] if d.calibration else []
+    rows += [["seed", str(d.seed)]] if d.seed is not None else []
+    rows += [["environment", shown(", ".join(f"{k} {v}" for k, v in d.environment.items()))]] if d.environment else []
+    rows += [["versions", shown(", ".join(f"{k} {v}" for k, v in d.versions.items()))]] if d.versions else []
+    rows += [["files", ", ".join(f"{shown(name)} {f.size} bytes" for name, f in d.files.items())]] if d.files else []
+    for here in run.artifacts:
+        where = "here" if here.present else paint("red", "not here: `pico data pull`")
+        rows.append(["artifact", f"{shown(here.artifact.name)} {here.artifact.size} bytes, {where}"])
+    return columns([[paint("dim", name), value] for name, value in rows])
+
+
+def _short(digest: str) -> str:
+    return shown(digest.removeprefix("sha256:")[:12])
+
+
+def data(run: Loaded) -> dict[str, Any]:
+    """Return `pico.recorded/v1`: `document`, `commit`, `operations`, `measurements`, `artifacts`, diagnostics."""
+    found: dict[str, Any] = {"schema": "pico.recorded/v1", "document": as_json(run.document)}
+    found |= {"commit": run.commit.id} if run.commit else {}
+    for name in ("operations", "measurements", "artifacts", "diagnostics"):
+        found[name] = as_json(getattr(run, name))
+    return found

@@ -1,0 +1,67 @@
+"""The runs that there are, a line each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import Diagnostic
+from pico.model.record import as_json
+from pico.model.run import RunDocument
+
+from .style import columns, count, paint, plain, seconds, shorten
+
+if TYPE_CHECKING:
+    from pico.recording.listing import Listed
+
+COLORS = {"done": "green", "failed": "red", "interrupted": "yellow", "killed": "red"}
+
+
+def text(found: Sequence[Listed], _: Sequence[Diagnostic] = ()) -> str:
+    """Return a line a run: id, what led where, evidence, outcome, seconds, commit."""
+    if not found:
+        return "No run here has moved anything; `pico runs list --all` looks at every branch and tag."
+    head = [paint("dim", cell) for cell in ("run", "when (UTC)", "what", "evidence", "outcome", "took", "commit")]
+    rows = [_row(one) for one in found]
+    own = sum(one.commit is None for one in found)
+    last = [f"{count(own, 'run')} that no commit has yet: `pico commit` takes {'it' if own == 1 else 'them'}."]
+    return "\n".join([*columns([head, *rows]), *(["", *last] if own else [])])
+
+
+def _row(one: Listed) -> list[str]:
+    d = one.document
+    return [
+        shown(d.id),
+        moment(d.started_at),
+        shorten(deed(d), 26),
+        d.evidence,
+        paint(COLORS[d.outcome], d.outcome),
+        seconds(d.seconds),
+        one.commit.label if one.commit else paint("yellow", "not yet"),
+    ]
+
+
+def deed(d: RunDocument) -> str:
+    """Return what a run was for: `apply e1`, `undo 2026...`, `move p2`."""
+    goal = shown(d.goal)
+    if d.cause.kind in ("undo", "resume", "recover") or not d.cause.kind:
+        of = f" {shown(d.cause.of)}" if d.cause.of else ""
+        return f"{shown(d.cause.kind)}{of}" if d.cause.kind else goal
+    return goal if d.cause.kind == "single" else f"{shown(d.cause.kind)} {goal}"
+
+
+def moment(at: str) -> str:
+    """Return `2026-11-21 10:11` of a time in ISO 8601."""
+    return at[:16].replace("T", " ")
+
+
+def shown(value: str) -> str:
+    """Return what a file of somebody else says, without what would steer the terminal."""
+    return "".join(c if c.isprintable() else "?" for c in plain(value))
+
+
+def data(found: Sequence[Listed], wrong: Sequence[Diagnostic] = ()) -> dict[str, Any]:
+    """Return schema `pico.runs/v1`: `runs`, each `document` with its `commit` (absent where none has it yet), and
+    `diagnostics`."""
+    runs = [{"document": as_json(one.document), **({"commit": one.commit.id} if one.commit else {})} for one in found]
+    return {"schema": "pico.runs/v1", "runs": runs, "diagnostics": as_json(list(wrong))}
