@@ -1,8 +1,9 @@
 """Merges random edits of two branches, and counts what is lost: `python benchmarks/merges.py --cases 2000`.
 
 Every case goes through the merge itself, with either side called ours; `--git` cases go through each command of git,
-and through `git merge` with a driver that is missing, killed at random, or never set. `--impossible` merges are
-clean as text and can't stand on the table. Prints a line each; the exit code is 1 where anything is wrong.
+`--failing` ones through `git merge` with a driver that is missing, killed at random, or never set. `--impossible`
+ones are clean as text and can't stand on the table: merge, plan and check must refuse them. Prints a line each; the
+exit code is 1 where anything is wrong.
 """
 
 from __future__ import annotations
@@ -44,7 +45,8 @@ def main() -> int:
     """Run everything and return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--cases", type=int, default=2000)
-    parser.add_argument("--git", type=int, default=50, help="cases for each command of git, and for each failure")
+    parser.add_argument("--git", type=int, default=50, help="cases for each command of git")
+    parser.add_argument("--failing", type=int, default=50, help="cases for each way in which the driver fails")
     parser.add_argument("--first", type=int, default=0, help="seed of the first of these; each command gets its own")
     parser.add_argument("--impossible", type=int, default=200)
     options = parser.parse_args()
@@ -57,9 +59,9 @@ def main() -> int:
             ("git revert", box.revert), ("git stash pop", box.stash_pop),
         ):  # fmt: skip
             wrong += told(name, islice(cases, options.git), lambda c, run=run: faults(c, run(c)))
-        for name in ("never set", "missing", "killed"):
+        for name in ("never set", "missing", "killed") if options.failing else ():
             box.break_driver(name)
-            wrong += told(f"driver {name}", islice(cases, options.git), lambda c: _unmarked(c, box.merge(c)))
+            wrong += told(f"driver {name}", islice(cases, options.failing), lambda c: _unmarked(c, box.merge(c)))
     with tempfile.TemporaryDirectory() as folder:
         wrong += impossible(Path(folder), options.impossible)
     return 1 if wrong else 0
@@ -171,13 +173,19 @@ class Box:
         self.git("config", "merge.pico.driver", command().replace(sys.executable, str(stand_in)))
 
 
+COMMANDED = 10
+"""Each so manieth impossible merge is also put to the `pico check` command, in a process of its own."""
+
+
 def impossible(folder: Path, count: int) -> int:
-    """Merge branches that put two parts into one place, and return how many `pico merge` or `pico plan` let through."""
+    """Merge branches that put two parts into one place, and return how many of them `pico merge`, `pico plan` or
+    `pico check` let through, or refused without naming both."""
     from pico.bench import Bench
+    from pico.checking import check
     from pico.merging import merge as merge_checked
 
     root = make_example("shel", folder / "shel").root
-    rng, through, git = random.Random(1), 0, ["git", "-C", str(root)]
+    rng, through, git, commanded = random.Random(1), 0, ["git", "-C", str(root)], 0
     for number in range(count):
         a, b = _two_places(root, rng)
         for branch, (name, pose) in (("a", a), ("b", b)):
@@ -195,13 +203,29 @@ def impossible(folder: Path, count: int) -> int:
         with Bench.open(root) as bench:
             planned = bench.plan()
         ok = names <= refused and planned.errored and names <= _pairs(planned.diagnostics, names)
+        for base in (None, "main"):  # where the branch began, by itself and named
+            checked = check(root, base, environment={})
+            ok &= checked.exit_code == ExitCode.IMPOSSIBLE and names <= _pairs(checked.labs[0].diagnostics, names)
+        if number % COMMANDED == 0:
+            commanded += 1
+            ok &= _refused_by_command(root, names)
         through += not ok
         if not ok:
             print(f"  {number}: {a} and {b}")
     print(
-        f"{count} merges clean as text and impossible on the table: {through} let through, or without the pair's names"
+        f"{count} merges clean as text and impossible on the table, put to merge, plan and check ({commanded} also to"
     )
+    print(f"the command): {through} let through, or without the pair's names")
     return through
+
+
+def _refused_by_command(root: Path, names: set[str]) -> bool:
+    """Return whether `pico check`, in the working tree and against main, exits with 3 and says both names."""
+    pico = [sys.executable, "-c", "import sys; from pico_cli.main import main; sys.exit(main())", "check"]
+    done = [subprocess.run([*pico, *base], cwd=root, capture_output=True, text=True, check=False)
+            for base in ((), ("main",))]  # fmt: skip
+    said = [next((line for line in d.stderr.splitlines() if line.startswith("error")), "") for d in done]
+    return all(d.returncode == ExitCode.IMPOSSIBLE for d in done) and all(n in line for n in names for line in said)
 
 
 def _pairs(found: object, names: set[str]) -> set[str]:

@@ -114,15 +114,17 @@ def faults(c: Case, merged: str) -> list[str]:
 
 
 def losses(c: Case, merged: str) -> list[Leaf]:
-    """Return the values that a side set and that are in no version of a merge, markers or not.
+    """Return the values that a side set and that a merge lost in silence: which are not in their place, or, where there
+    are markers, nowhere.
 
-    What git's own merge leaves may hold a component twice, which is loud: every command refuses such a file.
+    Git's own merge may leave a component twice, which every command refuses, and values between its markers beside
+    another component, where a person finds them.
     """
-    was, lost = state_of(c.base), []
+    was, lost, loud = state_of(c.base), [], "<<<<<<<" in merged
     for side, text_of_side in (("ours", c.ours), ("theirs", c.theirs)):
         seen = set(_stated(view(merged, side)))
         edited = {(leaf, value) for leaf, value in state_of(text_of_side).items() if value != was.get(leaf)}
-        lost += [leaf for leaf, _ in edited - seen]
+        lost += [(n, k) for (n, k), v in edited - seen if not (loud and f"{k.rpartition('.')[2]}: {v}" in merged)]
     return sorted(set(lost))
 
 
