@@ -1,13 +1,15 @@
 """How much time at the bench `pico bisect` needs to find the commit that broke something, beside halving.
 
     python benchmarks/bisecting.py [--commits 128] [--seeds 10] [--measure 5] [--merges] [--scattered]
+        [--suspicion 1]
 
 Builds labs of about thirty parts with a random history (a commit moves or turns one to five parts, as a sub-assembly is
 worked on; with --scattered parts from anywhere; with --merges branches that were worked on at the same time) and plants
 a commit that breaks an expectation. `pico bisect run` then searches in the simulated bench, kinematic: it measures both
 ends, plans, moves and measures for real. From the same place `git bisect` does, with `pico bisect-step`, which always
-takes the middle. Prints a line a seed and the ratios of the simulated seconds of the search, a measurement counted
-with --measure seconds. The exit code is 1 where a wrong commit is named.
+takes the middle. The expectation speaks of one part, so that commits which moved it are suspected first; with
+`--suspicion 1` all are alike, and only the costs are weighed. Prints a line a seed and the ratios of the simulated
+seconds of the search, a measurement counted with --measure seconds. The exit code is 1 where a wrong commit is named.
 """
 
 from __future__ import annotations
@@ -50,7 +52,7 @@ class Found:
     reckoned: float = 0.0
 
 
-def cheapest(lab: Written, measure: float) -> Found:
+def cheapest(lab: Written, measure: float, suspicion: float) -> Found:
     """Search with `pico bisect run`."""
     said = io.StringIO()
     words = [
@@ -66,7 +68,7 @@ def cheapest(lab: Written, measure: float) -> Found:
         "kinematic",
     ]
     with redirect_stdout(said):
-        pico([*words, "--measure-seconds", str(measure)])
+        pico([*words, "--measure-seconds", str(measure), "--suspicion", str(suspicion)])
     events: list[dict[str, Any]] = [json.loads(line) for line in said.getvalue().splitlines()]
     if events[-1].get("kind") != "over":
         print(f"  {events[-1]}")
@@ -114,6 +116,7 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="first seed")
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--measure", type=float, default=5.0, help="seconds a measurement")
+    parser.add_argument("--suspicion", type=float, default=10.0, help="as of `pico bisect run`; 1: all commits alike")
     parser.add_argument("--merges", action="store_true", help="with branches and merges")
     parser.add_argument("--scattered", action="store_true", help="commits move parts from anywhere")
     given = parser.parse_args()
@@ -125,7 +128,7 @@ def main() -> int:
             lab = history(Path(folder), seed, given.commits, merges=given.merges, scattered=given.scattered)
             with Bench.open(lab.root, fidelity="kinematic") as bench:
                 _stand(bench, "main")
-            ours = cheapest(lab, given.measure)
+            ours = cheapest(lab, given.measure, given.suspicion)
             gits = halved(lab, given.measure)
         cpu = time.process_time() - began
         missed = [f.commit for f in (ours, gits) if f.commit != lab.first_bad]

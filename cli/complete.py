@@ -12,7 +12,7 @@ from .summary import COMMANDS, MOVERS
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
     "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "--expect", "--measure-seconds", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
+    "--expect", "--measure-seconds", "--suspicion", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
     "--component", "--merge", "--report", "--junit", "--pictures",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
@@ -59,8 +59,8 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "scan": ("--picture",),
     "find": ("--picture",),
     "import": ("--types", "--dry-run"),
-    "bisect start": ("--expect", "--measure-seconds", "--trust", "--auto-approve", "--fidelity"),
-    "bisect run": ("--expect", "--measure-seconds", "--trust", "--auto-approve", "--fidelity"),
+    "bisect start": ("--expect", "--measure-seconds", "--trust", "--suspicion", "--auto-approve", "--fidelity"),
+    "bisect run": ("--expect", "--measure-seconds", "--trust", "--suspicion", "--auto-approve", "--fidelity"),
     "bisect continue": ("--expect", "--auto-approve", "--fidelity"),
     "bisect good": ("--auto-approve", "--fidelity"),
     "bisect bad": ("--auto-approve", "--fidelity"),

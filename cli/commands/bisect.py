@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -27,6 +27,15 @@ Measure = Annotated[
     typer.Option("--measure-seconds", metavar="S", help="How long a measurement takes: weighed against motion.", min=0),
 ]
 Trust = Annotated[bool, typer.Option("--trust", help="Do not measure the good and the bad end first.")]
+Suspicion = Annotated[
+    float,
+    typer.Option(
+        "--suspicion",
+        metavar="TIMES",
+        help="How many times likelier a commit is that changed a part that the expression speaks of; 1: all are alike.",
+        min=1,
+    ),
+]
 
 app = typer.Typer(
     rich_markup_mode=None,
@@ -44,27 +53,29 @@ def main(context: typer.Context) -> None:
 @app.command()
 def start(
     context: typer.Context, bad: Bad, good: Good, expect: Expect = None, measure_seconds: Measure = 5.0,
-    trust: Trust = False, auto_approve: Yes = False, fidelity: Fidelity = None,
+    trust: Trust = False, suspicion: Suspicion = 10.0, auto_approve: Yes = False, fidelity: Fidelity = None,
 ) -> int:  # fmt: skip
     """Begin: bring the bench to the first configuration. With --expect it is judged, and so on; else you judge it.
 
     Nothing is checked out: files and edits stay as they are. What is tried next is chosen by what it costs the bench
     to get there, and git keeps the log: `git bisect log`, `visualize`, `replay` and `reset` work.
     """
-    return _begin(context, bad, good, expect, measure_seconds, trust, auto_approve, fidelity)
+    how = {"expect": expect, "measure": measure_seconds, "trust": trust, "suspicion": suspicion}
+    return _begin(context, bad, good, how, auto_approve, fidelity)
 
 
 @app.command()
 def run(
     context: typer.Context, bad: Bad, good: Good, expect: Expect = None, measure_seconds: Measure = 5.0,
-    trust: Trust = False, auto_approve: Yes = False, fidelity: Fidelity = None,
+    trust: Trust = False, suspicion: Suspicion = 10.0, auto_approve: Yes = False, fidelity: Fidelity = None,
 ) -> int:  # fmt: skip
     """Find the first bad commit, by what --expect says, else by the `expect:` of the bad one.
 
     Both ends are measured first: if the good one is not good now, the cause is not in the history. A configuration that
     can't be built, or of which the bench can't tell, is skipped. The same command goes on where it was interrupted.
     """
-    return _begin(context, bad, good, expect, measure_seconds, trust, auto_approve, fidelity, from_bad=True)
+    how = {"expect": expect, "measure": measure_seconds, "trust": trust, "suspicion": suspicion, "from_bad": True}
+    return _begin(context, bad, good, how, auto_approve, fidelity)
 
 
 @app.command(name="continue")
@@ -139,15 +150,14 @@ def reset(context: typer.Context) -> int:
 
 
 def _begin(
-    context: typer.Context, bad: str, good: str, expect: str | None, measure: float, trust: bool, auto_approve: bool,
-    fidelity: str | None, *, from_bad: bool = False,
+    context: typer.Context, bad: str, good: str, how: dict[str, Any], auto_approve: bool, fidelity: str | None
 ) -> int:  # fmt: skip
     from ..bisecting import go_on
     from ..views import bisect as view
 
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity)
-    search = bench.bisect(bad, good, expect=expect, from_bad=from_bad, measure=measure, trust=trust)
+    search = bench.bisect(bad, good, **how)
     session.show(view.Begun, search)
     return go_on(session, bench, search, auto_approve)
 

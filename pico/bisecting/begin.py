@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,15 +20,15 @@ MEASURE = 5.0
 
 def begin(
     bench: Builder, bad: str, good: str, *, expect: str | None = None, from_bad: bool = False,
-    measure: float = MEASURE, trust: bool = False,
+    measure: float = MEASURE, trust: bool = False, suspicion: float = 10.0,
 ) -> Bisection:  # fmt: skip
     """Begin to bisect between two revisions, or go on where the same one is under way. Nothing moves yet, and no file
     is touched.
 
     `expect`: the expression that must hold; without it a person judges, or with `from_bad` what the bad revision
-    expects. `measure`: how long a measurement takes [s]. `trust`: the ends are not measured. Raises PicoError for
-    revisions between which nothing can be found, for an expression that makes no sense, and where another bisection is
-    under way.
+    expects. `measure`: how long a measurement takes [s]. `trust`: the ends are not measured. `suspicion`: how many
+    times likelier a commit is that changed what is spoken of; 1: all are alike. Raises PicoError for revisions between
+    which nothing can be found, for an expression that makes no sense, and where another bisection is under way.
     """
     history = bench.folder.history()
     ends = history.resolve(bad).id, history.resolve(good).id
@@ -48,7 +49,8 @@ def begin(
         raise PicoError(error("bisect", f"the bisection under way asks for {asked}", hint=hint))
     require_order(history.root, *ends, (bad, good))
     task = Task(
-        bad=ends[0], good=ends[1], bad_name=bad, good_name=good, expect=wanted, measure=measure, trust=trust
+        bad=ends[0], good=ends[1], bad_name=bad, good_name=good, expect=wanted, measure=measure, trust=trust,
+        suspicion=suspicion,
     )  # fmt: skip
     if running is not None:
         running.git.reset()
@@ -76,8 +78,8 @@ def under_way(bench: Builder, *, expect: str | None = None, measure: float | Non
         if ends.bad is None or not ends.good:
             raise PicoError(error("bisect", "git knows no bad and no good commit yet", hint="`git bisect bad COMMIT`"))
         found = Task(bad=ends.bad, good=ends.good[0], trust=True)
-    found = Task(
-        bad=found.bad, good=found.good, bad_name=found.bad_name, good_name=found.good_name, trust=found.trust,
+    found = replace(
+        found,
         expect=found.expect if expect is None else (Expectation(that=expect),),
         measure=found.measure if measure is None else measure,
     )  # fmt: skip

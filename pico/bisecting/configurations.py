@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from pico.bisecting.costs import Leaves, PlanSeconds, leaves
@@ -66,27 +66,37 @@ class Configurations:
         step = max(1, -(-len(names) // READ))
         return [c for n, c in enumerate(names) if (len(names) - 1 - n) % step == 0]
 
-    def suspects(self, lineage: Lineage, skipped: frozenset[str]) -> Suspects:
+    def suspects(
+        self, lineage: Lineage, skipped: frozenset[str], spoken: Collection[str] = (), suspicion: float = 1.0
+    ) -> Suspects:
         """Return the commits as the choice sees them. One that changed nothing on this bench can't be the first bad
-        one, and is not worth a trial."""
+        one, and is not worth a trial; one that changed a component that is `spoken` of is `suspicion` times as likely
+        to be it as others."""
         number = {commit: n for n, (commit, _) in enumerate(lineage)}
         parents = [[number[p] for p in before if p in number] for _, before in lineage]
         looked = set(self.read(lineage))
         weight, testable = [], set[int]()
         for n, (commit, before) in enumerate(lineage):
             same = commit in looked and self._as_a_parent(commit, before, looked)
-            weight.append(0.0 if same else 1.0)
+            likely = not spoken or not self._as_a_parent(commit, before, looked, spoken)
+            weight.append(0.0 if same else 1.0 if likely else 1.0 / suspicion)
             if commit in looked and not same and commit not in skipped and self.leaves(commit):
                 testable.add(n)
         testable.discard(len(lineage) - 1)
         tried = frozenset(number[c] for c in skipped if c in number)
         return Suspects(parents, weight, frozenset(testable), tried)
 
-    def _as_a_parent(self, commit: str, parents: Sequence[str], looked: set[str]) -> bool:
-        own = self.leaves(commit)
-        if own is None or len(looked) < 2:
+    def _as_a_parent(
+        self, commit: str, parents: Sequence[str], looked: set[str], names: Collection[str] = ()
+    ) -> bool:  # fmt: skip
+        """Return whether a commit is as one of its parents, as far as they were looked at; `names`: in these parts."""
+        own = self.leaves(commit) if commit in looked else None
+        if own is None:
             return False
-        return any((p in looked or p in self._leaves) and self.leaves(p) is own for p in parents)
+        others = [self.leaves(p) for p in parents if p in looked or p in self._leaves]
+        if not names:
+            return any(other is own for other in others)
+        return any(_of(other, names) == _of(own, names) for other in others if other is not None)
 
     def ranked(self, lineage: Lineage, suspects: Suspects, seen: Observation, measure: float) -> list[Choice]:
         """Return what to try next from the bench as it stands, the best first."""
@@ -113,6 +123,10 @@ class Configurations:
             bad = bool(before >> number[first_bad] & 1)
             rest = [entry for entry in rest if bool(before >> number[entry[0]] & 1) == bad]
         return total
+
+
+def _of(whole: Leaves, names: Collection[str]) -> list[object]:
+    return [leaf for leaf in whole if leaf[0] in names]
 
 
 def alike(configurations: Configurations, judged: Mapping[str, str], commit: str) -> str | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, PicoError, error
@@ -11,7 +12,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.state import Expectation
-from pico.model.vocabulary import functions_of, names_of, spoken_of, values_of
+from pico.model.vocabulary import functions_of, measured, names_of, spoken_of, values_of
 from pico.policy.expectations import check_expectations, shown
 
 UNSURE = frozenset({"missing", "toppled", "held", "uncertain", "hand-full"})
@@ -33,6 +34,15 @@ def verdict(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> t
     values, _ = values_of(setup, seen, spoken_of(setup, (one.that for one in expect)))
     said = [shown(one.that, values) or f"`{one.that}` holds" for one in expect]
     return "good", "; ".join(dict.fromkeys(said))
+
+
+def decisive(setup: Setup, expect: Sequence[Expectation]) -> frozenset[str]:
+    """Return the components whose poses and set-points decide; none where something measured does, for that may depend
+    on everything."""
+    names = spoken_of(setup, (one.that for one in expect))
+    words = {word for one in expect for word in re.findall(r"[A-Za-z_]\w*\.[A-Za-z_]\w*", one.that)}
+    numbers = {f"{name}.{m}" for name in names for m in measured(setup.type_of(name).measurables)}
+    return frozenset() if words & numbers else frozenset(names)
 
 
 def require_expression(setup: Setup, text: str) -> None:

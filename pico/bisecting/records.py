@@ -16,7 +16,8 @@ End = Literal["", "good", "bad", "fork"]
 @record
 class Task:
     """Two commits, `bad` and `good`, by id, and how the user called them; what is expected (nothing: a person judges);
-    how long a measurement takes [s]; whether the ends are taken on `trust`, without a measurement."""
+    how long a measurement takes [s]; whether the ends are taken on `trust`, without a measurement; how many times
+    likelier a commit is that changed a component that is spoken of (`suspicion`)."""
 
     bad: str
     good: str
@@ -25,6 +26,7 @@ class Task:
     expect: tuple[Expectation, ...] = ()
     measure: float = 5.0
     trust: bool = False
+    suspicion: float = 10.0
 
 
 @record

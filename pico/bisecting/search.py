@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from pico.bisecting.configurations import Configurations, Lineage, alike
-from pico.bisecting.judging import impossible, require_known, verdict
+from pico.bisecting.judging import decisive, impossible, require_known, verdict
 from pico.bisecting.records import End, Outcome, Proposal, Task, Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.history.bisect import Choice
@@ -51,6 +51,7 @@ class Bisection:
         self.mended: str | None = None
         self.said = ""
         self._configurations = Configurations(bench.folder, bench.setup)
+        self._spoken = decisive(bench.setup, task.expect)
 
     def propose(self) -> Proposal | None:
         """Return what to try next, None where the search is over: see `outcome`.
@@ -70,7 +71,7 @@ class Bisection:
                 return None
             if self._without_trial(ends, lineage):
                 continue
-            suspects = self._configurations.suspects(lineage, ends.skipped)
+            suspects = self._configurations.suspects(lineage, ends.skipped, self._spoken, self.task.suspicion)
             if not suspects.testable:
                 return None
             seen = self.bench.observe()
