@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.drawings import Drawings
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
+from pico.model.address import read_addresses
 from pico.model.diff import Change
 from pico.model.drift import drift_of
 from pico.model.expectation import Verified
@@ -18,7 +20,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import Request, asked, read_values, require_seen
-from pico.model.status import Status, compare, refuse_unapplied
+from pico.model.status import Status, compare
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -322,31 +324,38 @@ class AsyncBench(Drawings):
         """Return the tunables of a component as observed: `value`, `unit`, `status` of each; raises PicoError."""
         return read_values(self.setup, await self.observe(), component, tunable)
 
-    async def capture(self) -> Captured:
-        """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest."""
-        return self.folder.capture(live_state(self.setup, await self.observe(), sure=True))
+    async def capture(self, *only: str, write: bool = True) -> Captured:
+        """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest.
 
-    async def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
-        """Capture and commit the manifests.
-
-        `strict` refuses edits that were never applied; `capture`: the bench wins; `planned`: the manifest wins, and
-        the commit says where it was never realized. Unless `planned`, it carries the runs that no commit has yet.
-        Raises PicoError.
+        `only`: these components or tunables (`p2`, `p1.angle`). Without `write`, say what would be written.
         """
-        seen = await self.observe()
-        status = compare(self.setup, self.folder.committed(), self.state, seen)
-        if mode == "strict":
-            refuse_unapplied(status)
-        if mode == "planned":
-            never = any(row.off or row.note for row in status.rows)
-            return self.folder.commit(message, (), "planned" if never else self.fidelity)
-        from pico import recording
+        named = read_addresses(self.setup, only) if only else None
+        return self.folder.capture(live_state(self.setup, await self.observe(), sure=True), named, write=write)
 
-        captured = self.folder.capture(live_state(self.setup, seen, sure=True))
-        runs = recording.pending(self.folder, seen)
-        stands = not any(not c.tolerated for c in drift_of(self.setup, seen, self.state))
-        evidence = (recording.evidence_of(runs) or self.fidelity) if stands else "planned"
-        return self.folder.commit(message, captured.changes, evidence, runs=runs)
+    async def commit(
+        self,
+        message: str | None = None,
+        mode: CommitMode = "strict",
+        *,
+        only: Collection[str] = (),
+        meta: Mapping[str, str] = MappingProxyType({}),
+    ) -> Committed:
+        """Capture and commit the manifests, with the runs that led to what they say; raises PicoError.
+
+        `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`:
+        the bench wins; `planned`: the manifest wins, and the commit says where it was never realized. `only`, `meta`:
+        see `pico.committing.Asked`.
+        """
+        from pico.committing import Asked, commit
+
+        asked = Asked(message=message, mode=mode, only=only, meta=meta)
+        return commit(self.folder, await self.observe(), asked, observed=self.fidelity)
+
+    async def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = ()) -> str:
+        """Return the message that `commit` writes where nobody says why."""
+        from pico.committing import Asked, draft
+
+        return draft(self.folder, await self.observe(), Asked(mode=mode, only=only))
 
     async def _planned(self, revision: str | None) -> Plan:
         return await self.plan(revision)

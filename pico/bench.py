@@ -275,13 +275,17 @@ class Bench(Reader):
         """Return the tunables of a component as observed."""
         return self._thread.wait(self._bench.read(component, tunable))
 
-    def capture(self) -> Captured:
-        """Write what the bench shows otherwise than the manifest into the manifest."""
-        return self._thread.wait(self._bench.capture())
+    def capture(self, *only: str, write: bool = True) -> Captured:
+        """Write what the bench shows otherwise than the manifest into the manifest; see `AsyncBench.capture`."""
+        return self._thread.wait(self._bench.capture(*only, write=write))
 
-    def commit(self, message: str, mode: CommitMode = "strict") -> Committed:
+    def commit(self, message: str | None = None, mode: CommitMode = "strict", **options: Any) -> Committed:
         """Capture and commit the manifests; see `AsyncBench.commit`."""
-        return self._thread.wait(self._bench.commit(message, mode))
+        return self._thread.wait(self._bench.commit(message, mode, **options))
+
+    def draft(self, mode: CommitMode = "strict", **options: Any) -> str:
+        """Return the message that `commit` writes where nobody says why."""
+        return self._thread.wait(self._bench.draft(mode, **options))
 
     def bisect(self, bad: str, good: str, **options: Any) -> Bisection:
         """Begin to search for the commit that broke something; see `pico.bisecting.begin`."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -64,6 +64,10 @@ SELECT i.data FROM records AS s JOIN records AS i ON i.key = s.key AND i.phase =
 WHERE s.phase = 1 AND json_extract(i.data, '$.robot') = ? AND json_extract(i.data, '$.primitive') IN ('move', 'stow')
   AND json_extract(i.data, '$.arguments.from.held') IS NULL ORDER BY s.seq DESC LIMIT 1
 """
+_SUCCESSES = """
+SELECT e.component, e.run, i.data, e.data FROM records AS e JOIN records AS i ON i.key = e.key AND i.phase = 0
+WHERE e.kind = 'done' OR e.kind = 'resolved' AND json_extract(e.data, '$.outcome') = 'done' ORDER BY e.seq DESC
+"""
 
 
 @record
@@ -104,6 +108,15 @@ class Unsettled:
     operation: Operation
     before: ObservedComponent | None
     ended: bool
+
+
+@record
+class Success:
+    """An operation that succeeded in a run, and its component as observed `after` it, where anybody looked."""
+
+    run: str
+    operation: Operation
+    after: ObservedComponent | None
 
 
 def utc_now() -> str:
@@ -295,6 +308,14 @@ class Journal:
         with self._guarded():
             row = self._db.execute(_LAST_PICK, (robot,)).fetchone()
         return operation_from_json(json.loads(row[0])) if row else None
+
+    def successes(self, components: Collection[str]) -> Iterator[Success]:
+        """Yield the operations on some components that succeeded, the last one first."""
+        with self._guarded():
+            for name, run, intent, end in self._db.execute(_SUCCESSES):
+                if name in components:
+                    operation, after = operation_from_json(json.loads(intent)), json.loads(end).get("after")
+                    yield Success(run=run, operation=operation, after=observed_from_json(after))
 
     def unfinished(self) -> tuple[JournalRecord, ...]:
         """Return the `started` records without an end: what was under way when a process was killed."""

@@ -37,6 +37,8 @@ LAYERS: dict[str, set[str]] = {
         "diagnostics", "model", "manifest", "history", "motion", "planning", "policy", "twin", "backends", "execution",
         "pictures", "merging",
     },
+    "evidence": {"model", "journal"},
+    "committing": {"diagnostics", "model", "history", "recording", "evidence"},
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },
@@ -46,11 +48,12 @@ LAYERS: dict[str, set[str]] = {
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "policy", "vision", "twin", "backends", "execution", "pictures", "drawings", "recording",
+        "committing",
     },
     "bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "merging", "saved", "watching",
-        "scans", "imports", "restoring", "bisecting", "recording",
+        "scans", "imports", "committing", "restoring", "bisecting", "recording",
     },
 }  # fmt: skip
 

@@ -14,8 +14,10 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.contents import contents, nothing
+from pico.history.notes import Note, note_path, notes, require_part, with_note
 from pico.history.run_files import run_trailers, write_once
 from pico.history.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
 from pico.history.underway import require_resolved
@@ -195,24 +197,39 @@ class LabFolder:
         `named`: only these tunables. Without `write`, say what would be written.
         """
         if not write:
-            return self._captured(live, named, write=False)
+            return self.preview(live, named)[0]
         with self.writing("pico capture"):
-            return self._captured(live, named, write=True)
-
-    def _captured(self, live: LabState, named: Named | None, *, write: bool) -> Captured:
-        before, files = self.state, self._files
-        spliced = capture(files, self.setup, before, live, named)
-        if write:
-            for name, data in sorted(spliced.items()):
+            captured = self._spliced(live, named)
+            for name, data in sorted(captured.items()):
                 write_file(Path(name), data, self.root / ".pico")
+            before, files = self.state, self._files
             self.reload()
-        after = self.state if write else load_files(files | spliced, setup=self.setup).require()[1]
-        return Captured(
-            changes=diff_states(self.setup, before, after),
-            files=tuple(sorted(spliced)),
-            written=write,
-            patch="".join(_patch(name, files[name], spliced[name]) for name in sorted(spliced)),
-        )
+            return _captured(diff_states(self.setup, before, self.state), files, captured, written=True)
+
+    def preview(self, live: LabState, named: Named | None = None) -> tuple[Captured, LabState]:
+        """Return what a capture would write, and the state that the manifests would then hold; raises PicoError."""
+        captured = self._spliced(live, named)
+        after = load_files(self._files | captured, setup=self.setup).require()[1]
+        return _captured(diff_states(self.setup, self.state, after), self._files, captured, written=False), after
+
+    def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
+        return capture(self._files, self.setup, self.state, live, named)
+
+    def notes(self, part: str) -> tuple[Note, ...]:
+        """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
+        require_part(self.setup, part)
+        path = self.root / note_path(part)
+        return notes({note_path(part): path.read_bytes()} if path.is_file() else {}, part)
+
+    def note(self, part: str, text: str) -> Note:
+        """Note something on a part; its author and day are those that git would give a commit. Raises PicoError."""
+        require_part(self.setup, part)
+        author, day = git.author(self.root)
+        with self.writing("pico note"):
+            path = self.root / note_path(part)
+            before = path.read_bytes() if path.is_file() else b""
+            write_file(path, with_note(before, day, author, text), self.root / ".pico")
+        return self.notes(part)[-1]
 
     def commit(
         self,
@@ -287,6 +304,13 @@ def between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Chang
         slots={**bench_a.lab.slots, **bench_b.lab.slots},
     )
     return diff_states(Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog}), state_a, state_b)
+
+
+def _captured(
+    changes: tuple[Change, ...], before: Mapping[str, bytes], after: Mapping[str, bytes], *, written: bool
+) -> Captured:
+    patch = "".join(_patch(name, before[name], after[name]) for name in sorted(after))
+    return Captured(changes=changes, files=tuple(sorted(after)), written=written, patch=patch)
 
 
 def _patch(name: str, before: bytes, after: bytes) -> str:

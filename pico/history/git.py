@@ -7,6 +7,7 @@ import re
 import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from types import MappingProxyType
 
@@ -118,6 +119,16 @@ def given(path: Path) -> tuple[str, Path] | None:
     folder = os.environ.get("GIT_DIR")
     tree = Path(os.environ.get("GIT_WORK_TREE") or ".").resolve()
     return (str(Path(folder).absolute()), tree) if folder and path.resolve().is_relative_to(tree) else None
+
+
+def author(root: Path) -> tuple[str, str]:
+    """Return whom git would name as the author of a commit made now, and the day (YYYY-MM-DD); raises PicoError."""
+    said = run(root, ["var", "GIT_AUTHOR_IDENT"], doing="tell who you are")
+    name, _, when = said.strip().rpartition("> ")
+    seconds, _, zone = when.partition(" ")
+    away = timedelta(hours=int(zone[1:3]), minutes=int(zone[3:5])) * (-1 if zone.startswith("-") else 1)
+    day = datetime.fromtimestamp(int(seconds), timezone(away))
+    return name.partition(" <")[0], day.strftime("%Y-%m-%d")
 
 
 def index(root: Path, folder: Path) -> Path:

@@ -6,7 +6,8 @@ import re
 from collections.abc import Mapping
 from pathlib import PurePosixPath
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.model.lab import Setup
 from pico.model.record import record
 
 FOLDER = "notes"
@@ -21,6 +22,13 @@ class Note:
     text: str
     day: str = ""
     author: str = ""
+
+
+def require_part(setup: Setup, part: str) -> None:
+    """Raise PicoError where the bench has no such part."""
+    if part not in setup.lab.inventory:
+        hint = did_you_mean(part, setup.lab.inventory)
+        raise PicoError(error("unknown-component", f"the lab has no part `{part}`", hint=hint))
 
 
 def note_path(part: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
@@ -164,10 +164,24 @@ def _deviation(goal: Pose, live: Pose) -> str:
     return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
 
 
-def refuse_unapplied(status: Status) -> None:
-    """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied."""
-    edits = [row for row in status.rows if row.off and (row.edited or row.committed is None)]
+def refuse_unapplied(status: Status, components: Collection[str] | None = None) -> None:
+    """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied.
+
+    Edits of a part that nobody sees, or not surely, count as well: nobody can say that they were. `components`: only of
+    these.
+    """
+    rows = [row for row in status.rows if components is None or row.component in components]
+    unsure = {row.component: row.note for row in rows if row.note}
+    edits = [
+        row for row in rows
+        if (row.edited or row.committed is None) and (row.off or (row.component in unsure and row.desired is not None))
+    ]  # fmt: skip
     if edits:
-        names = ", ".join(row.address for row in edits[:6]) + (" and others" if len(edits) > 6 else "")
+        shown = [f"{row.address}{_why(unsure, row)}" for row in edits[:6]]
+        names = ", ".join(shown) + (" and others" if len(edits) > 6 else "")
         hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the edit is committed, unproven"
         raise PicoError(error("unapplied", f"the manifest holds edits that were never applied: {names}", hint=hint))
+
+
+def _why(unsure: Mapping[str, str], row: StatusRow) -> str:
+    return f" ({unsure[row.component]})" if row.component in unsure and not row.off else ""

@@ -1,0 +1,121 @@
+"""Committing what stands on the bench: who wins where bench and manifest differ, what the commit rests on and says.
+
+All of it happens in one go under the lock of writers, on the files as they are by then: what two people commit at once
+is in one commit or in the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from pico import recording
+from pico.diagnostics import PicoError
+from pico.evidence import changed_by, evidence, stands
+from pico.history.contents import Contents, contents, nothing
+from pico.history.default_message import default_message
+from pico.history.folder import LabFolder
+from pico.history.trailers import EVIDENCE, require_meta, values
+from pico.history.underway import message_of, require_resolved
+from pico.model.address import Named, read_addresses
+from pico.model.diff import Change, diff_states
+from pico.model.observation import Observation, live_state
+from pico.model.report import Captured, Committed
+from pico.model.state import LabState, home_state
+from pico.model.status import compare, refuse_unapplied
+
+CommitMode = Literal["strict", "capture", "planned"]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What somebody wants to be committed.
+
+    `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`: the
+    bench wins; `planned`: the manifest wins. `only`: components, or single tunables, whose files are to be committed
+    and that may be captured; all where empty. `meta`: what else is to be recorded.
+    """
+
+    message: str | None = None
+    mode: CommitMode = "strict"
+    only: Collection[str] = ()
+    meta: Mapping[str, str] = field(default_factory=dict)
+
+
+def commit(folder: LabFolder, seen: Observation, asked: Asked, *, observed: str) -> Committed:
+    """Capture and commit; return the commit. `observed`: what the observation counts as.
+
+    A commit that ends a merge, a cherry-pick or a revert captures nothing: it is about two histories, and a hypothesis
+    until the bench stands so. Every commit at whose state the bench stands carries the runs that no other has yet.
+    Raises PicoError: for edits that were never applied, nothing to commit, and what git refuses.
+    """
+    require_meta(asked.meta)
+    repository = folder.history()
+    with folder.writing("pico commit"):
+        ending = require_resolved(repository.root, repository.own)
+        named = read_addresses(folder.setup, asked.only) if asked.only and not ending else None
+        captured = Captured()
+        if not ending:
+            _refuse(folder, seen, asked, named)
+        if not ending and asked.mode != "planned":
+            captured = folder.capture(live_state(folder.setup, seen, sure=True), named)
+        content = contents(folder, named)
+        realized = stands(folder.setup, seen, content.state)
+        runs = recording.pending(folder, seen) if realized else {}
+        if not (content.paths or runs or ending):
+            raise PicoError(nothing(named))
+        changes = _changes(folder, content.state)
+        message = asked.message
+        if message is None:
+            message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
+        counts = _evidence(folder, seen, content.state, changes, runs, observed)
+        return folder.commit(message, captured.changes, counts, runs=runs, meta=asked.meta, named=named)
+
+
+def draft(folder: LabFolder, seen: Observation, asked: Asked) -> str:
+    """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
+    repository = folder.history()
+    ending = require_resolved(repository.root, repository.own)
+    if ending:
+        return message_of(repository.own)
+    named = read_addresses(folder.setup, asked.only) if asked.only else None
+    _refuse(folder, seen, asked, named)
+    live = live_state(folder.setup, seen, sure=True)
+    captured, state = (Captured(), folder.state) if asked.mode == "planned" else folder.preview(live, named)
+    among = named.keys() | (contents(folder, named).components or ()) if named else folder.setup.lab.inventory
+    changes = tuple(c for c in _changes(folder, state) if c.component in among)
+    return default_message(changes, captured.files)
+
+
+def _refuse(folder: LabFolder, seen: Observation, asked: Asked, named: Named | None) -> None:
+    """Raise PicoError where what is to be committed holds edits that were never applied, and nobody said who wins."""
+    if asked.mode != "strict":
+        return
+    status = compare(folder.setup, folder.committed(), folder.state, seen)
+    refuse_unapplied(status, contents(folder, named).components if named else None)
+
+
+def _changes(folder: LabFolder, state: LabState) -> tuple[Change, ...]:
+    """Return what a commit of `state` changes on the table; a first commit is compared with every part at home."""
+    before = folder.committed()
+    return diff_states(folder.setup, home_state(folder.setup) if before is None else before, state)
+
+
+def _message(folder: LabFolder, content: Contents, changes: tuple[Change, ...], runs: Mapping[str, bytes]) -> str:
+    inside = folder.history().relative(folder.root)
+    paths = (path.removeprefix(f"{inside}/") if inside else path for path in content.paths)
+    return default_message(changes, (*paths, *sorted(runs)))
+
+
+def _evidence(
+    folder: LabFolder, seen: Observation, state: LabState, changes: tuple[Change, ...], runs: Mapping[str, bytes],
+    observed: str,
+) -> str:  # fmt: skip
+    documents = [data for path, data in runs.items() if path.endswith("/run.json")]
+    changed = {(c.component, c.tunable) for c in changes} | changed_by(documents)
+    head = folder.history().head().commit
+    known = values(folder.history().resolve(head).message, EVIDENCE) if head else ()
+    return evidence(
+        folder.setup, folder.root, seen, state, changed, observed=observed, before=known[-1] if known else ""
+    )

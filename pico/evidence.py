@@ -1,0 +1,114 @@
+"""What a commit rests on: of each tunable that it changes, what brought the bench there.
+
+The rule: a state at which the bench did not stand, beyond tolerance, is `planned`, whoever asked for it. Otherwise each
+tunable that the commit changes, or that a run in it changed, counts as what brought it there: the last run in which an
+operation on it succeeded, if it still stands where that left it; else (a hand, another program) whatever looked. The
+commit has the weakest of them. Where it changes none of them, it keeps the evidence of the commit before.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Iterable
+from contextlib import closing
+from pathlib import Path
+
+from pico.journal import Journal
+from pico.model.diff import value_distance
+from pico.model.drift import drift_of
+from pico.model.lab import Setup
+from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.operation import Operation
+from pico.model.pose import angle_between
+from pico.model.run import STRENGTH
+from pico.model.state import LabState, place_of
+
+Tunables = Collection[tuple[str, str]]
+"""Tunables by component and name; `pose` for where it stands."""
+
+
+def stands(setup: Setup, seen: Observation, state: LabState) -> bool:
+    """Return whether the bench as observed stands as a state says, within its tolerances."""
+    return all(change.tolerated for change in drift_of(setup, seen, state))
+
+
+def evidence(
+    setup: Setup, root: Path, seen: Observation, state: LabState, changed: Tunables, *, observed: str, before: str
+) -> str:
+    """Return what a commit of `state` rests on.
+
+    `changed`: the tunables that it changes; `observed`: what an observation counts as; `before`: the evidence of the
+    commit before, empty for none. Raises PicoError where the journal can't be read.
+    """
+    if not stands(setup, seen, state):
+        return "planned"
+    known = [(c, t) for c, t in changed if c in setup.lab.inventory]
+    if not known:
+        return before if before in STRENGTH and before != "planned" else observed
+    brought = _brought(setup, root / ".pico" / "journal.sqlite", state, known)
+    return min((brought.get(one) or observed for one in known), key=lambda e: STRENGTH.get(e, 0))
+
+
+def _brought(setup: Setup, path: Path, state: LabState, tunables: Tunables) -> dict[tuple[str, str], str | None]:
+    """Return the evidence of the runs that brought tunables where a state has them; None or nothing where no run did.
+
+    `path`: the journal.
+    """
+    found: dict[tuple[str, str], str | None] = {}
+    if not path.exists():
+        return found
+    wanted = set(tunables)
+    with closing(Journal(path)) as journal:
+        for success in journal.successes({component for component, _ in wanted}):
+            one = (success.operation.component, _tunable(success.operation))
+            if one in wanted - found.keys():
+                found[one] = _of_run(journal, success.run) if _there(setup, state, one, success.after) else None
+            if len(found) == len(wanted):
+                break
+    return found
+
+
+def _tunable(operation: Operation) -> str:
+    """Return which tunable an operation changes; empty for none."""
+    if operation.primitive in ("move", "stow"):
+        return "pose"
+    return str(operation.arguments.get("tunable", "")) if operation.primitive in ("set", "home") else ""
+
+
+def _there(setup: Setup, state: LabState, one: tuple[str, str], part: ObservedComponent | None) -> bool:
+    """Whether a state has a tunable where its component was observed."""
+    component, tunable = one
+    kind = setup.type_of(component)
+    if part is None:
+        return False
+    if tunable == "pose":
+        slot, goal = place_of(setup, state, component)
+        if part.pose is None:
+            return False
+        if slot is not None:
+            return slot_at(setup, part.pose) == slot
+        near = part.pose.distance(goal) <= kind.pose.tolerance.position
+        return near and abs(angle_between(part.pose.yaw, goal.yaw)) <= kind.pose.tolerance.yaw
+    value, own = part.values.get(tunable), kind.tunables.get(tunable)
+    goal_value = state.components[component].values.get(tunable) if component in state.components else None
+    if value is None or value.value is None or goal_value is None or own is None:
+        return False
+    return value_distance(own, value.value, goal_value) <= own.tolerance
+
+
+def _of_run(journal: Journal, run: str) -> str | None:
+    """Return the weakest evidence of all times that a run was taken up, as its plan says where nothing else does."""
+    known = [str(about["evidence"]) for about in journal.about(run)[0] if about.get("evidence") in STRENGTH]
+    if known:
+        return min(known, key=lambda e: STRENGTH[e])
+    fidelity = json.loads(journal.document(run) or "{}").get("fidelity")
+    return fidelity if fidelity in STRENGTH else None
+
+
+def changed_by(documents: Iterable[bytes]) -> set[tuple[str, str]]:
+    """Return the tunables that runs changed beyond tolerance, from the documents of these."""
+    found: set[tuple[str, str]] = set()
+    for data in documents:
+        changes = json.loads(data).get("changes", ())
+        found |= {(c["component"], c["tunable"]) for c in changes if not c.get("tolerated")}
+    return found
