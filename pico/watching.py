@@ -101,7 +101,7 @@ async def heal_plan(bench: AsyncBench, found: Drifted) -> Plan | None:
     plan = await bench.plan("HEAD", targets=names)
     if plan.errored:
         raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
-    return plan if plan.operations else None
+    return plan.because("heal") if plan.operations else None
 
 
 def require_heal(setup: Setup) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
@@ -10,6 +11,8 @@ from pico.model.run import RunDocument
 from .diff import lines
 from .runs import deed, moment, shown
 from .style import columns, count, paint, seconds, shorten
+
+_HASH = re.compile(r"[0-9a-f]{40,64}")
 
 if TYPE_CHECKING:
     from pico.recording.comparing import Comparison, Pair
@@ -54,7 +57,13 @@ def _pair(p: Pair) -> list[str]:
         apart = p.b.seconds - p.a.seconds
         longer = f"{apart:+.1f} s" if abs(apart) >= 0.05 else "="
     a, b = _outcome(p.a), _outcome(p.b)
-    return [shown(f"{p.primitive} {p.address}"), _took(p.a), _took(p.b), longer, a if a == b else f"{a} → {b}"]
+    return [
+        shown(f"{p.primitive} {p.address}" + (f" → {p.to}" if p.to else "")),
+        _took(p.a),
+        _took(p.b),
+        longer,
+        a if a == b else f"{a} → {b}",
+    ]
 
 
 def _took(op: OperationRun | None) -> str:
@@ -68,7 +77,8 @@ def _outcome(op: OperationRun | None) -> str:
 def _fact(value: Any) -> str:
     if value is None:
         return "-"
-    return shorten(shown(str(value).removeprefix("sha256:")), 36)
+    word = str(value).removeprefix("sha256:")
+    return word[:12] if _HASH.fullmatch(word) else shorten(shown(word), 36)
 
 
 def data(found: Comparison) -> dict[str, Any]:

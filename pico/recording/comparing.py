@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from pico.model.diff import Change
+from pico.model.diff import Change, show_value
 from pico.model.lab import Setup
 from pico.model.record import as_json, record
 from pico.model.run import RunDocument
@@ -18,10 +18,11 @@ from pico.trace.operations import OperationRun
 
 @record
 class Pair:
-    """One operation in both runs, the last attempt of each: None where the other run alone has it."""
+    """One operation in both runs, the last attempt of each; None where the other run alone has it. `to`: the value set."""
 
     primitive: str
     address: str
+    to: str = ""
     a: OperationRun | None = None
     b: OperationRun | None = None
 
@@ -77,20 +78,21 @@ def _pairs(a: Iterable[OperationRun], b: Iterable[OperationRun]) -> Iterator[Pai
     """Yield the operations that both have, matched by what they do, then those of one alone."""
     first, second = _by_deed(a), _by_deed(b)
     for key in dict.fromkeys((*first, *second)):
-        yield Pair(primitive=key[0], address=key[1], a=first.get(key), b=second.get(key))
+        yield Pair(primitive=key[0], address=key[1], to=key[2], a=first.get(key), b=second.get(key))
 
 
-def _by_deed(found: Iterable[OperationRun]) -> dict[tuple[str, str, int], OperationRun]:
-    """Return the last attempt of each operation by primitive, address, and the how-manieth such it is."""
+def _by_deed(found: Iterable[OperationRun]) -> dict[tuple[str, str, str, int], OperationRun]:
+    """Return the last attempt of each operation by primitive, address, value to set, and the how-manieth such it is."""
     last: dict[str, OperationRun] = {}
     for op in found:
         if op.id not in last or op.attempt > last[op.id].attempt:
             last[op.id] = op
-    counted: Counter[tuple[str, str]] = Counter()
+    counted: Counter[tuple[str, str, str]] = Counter()
     keyed = {}
     for op in last.values():
-        counted[op.primitive, op.address] += 1
-        keyed[op.primitive, op.address, counted[op.primitive, op.address]] = op
+        deed = (op.primitive, op.address, show_value(op.arguments.get("to")) if op.primitive == "set" else "")
+        counted[deed] += 1
+        keyed[*deed, counted[deed]] = op
     return keyed
 
 

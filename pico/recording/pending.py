@@ -22,20 +22,21 @@ from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.run import RunDocument
 from pico.model.standing import Standing
+from pico.model.state import LabState
 from pico.recording.document import Kept, Recorded, afterwards, read_plan, recorded
 from pico.trace.run import DOCUMENT, Keep, read_runs, run_files
 
 
-def pending(folder: LabFolder, seen: Observation | None = None) -> dict[str, bytes]:
+def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
     """Return the files of the runs that no commit has yet, by path relative to the lab; raises PicoError.
 
-    `seen`: the bench as it is, which makes the state of the manifests that of the last run where it stands so (see
-    `RunDocument.state_after`). What is too big for a commit goes to the content store of the repository. What a commit
-    that failed left of them in the working tree goes.
+    `seen`: the bench as it is, which makes the `state` that is to be committed (None: that of the manifests) the one to
+    which the last run led, where it stands so (see `RunDocument.state_after`). What is too big for a commit goes to the
+    content store of the repository. What a commit that failed left of them in the working tree goes.
     """
     runs = unrecorded(folder)
     if runs and seen is not None:
-        runs[-1] = _committed(folder, runs[-1], seen)
+        runs[-1] = _committed(folder, runs[-1], seen, state or folder.state)
     files: dict[str, bytes] = {}
     for run in runs:
         files |= run_files(run.document, run.trace, run.measurements, keep=_keep(folder))
@@ -109,12 +110,12 @@ def _names(run: RunRecord) -> list[str]:
     return [run.run, *(f"{run.run}-r{n}" for n in range(1, run.resumed + 1))]
 
 
-def _committed(folder: LabFolder, run: Recorded, seen: Observation) -> Recorded:
-    """Return the last run, as leading to the state that is committed, where the bench stands so."""
+def _committed(folder: LabFolder, run: Recorded, seen: Observation, state: LabState) -> Recorded:
+    """Return the last run, as leading to the `state` that is committed, where the bench stands so."""
     live = live_state(folder.setup, seen)
     document = replace(run.document, afterwards=afterwards(folder.setup, run, live))
-    if not any(not c.tolerated for c in drift_of(folder.setup, seen, folder.state)):
-        document = replace(document, state_after=folder.state.digest())
+    if not any(not c.tolerated for c in drift_of(folder.setup, seen, state)):
+        document = replace(document, state_after=state.digest())
     return replace(run, document=document)
 
 
