@@ -27,6 +27,10 @@ from pico.history.blame_lines import read_lines
 from pico.history.blame_walk import CACHE, Walker, packaged_units
 from pico.history.blamed import Blamed, blame
 from pico.history.repository import Repository
+from pico.model.diff import Change
+from pico.model.plan import LabRef
+from pico.model.run import Cause, RunDocument
+from pico.trace.run import run_files
 
 Git = Any
 HEAD = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: t}\ncomponents:\n"
@@ -450,3 +454,91 @@ def test_only_what_is_new_is_read(git: Git, lab: Path, monkeypatch: pytest.Monke
     commit(git, "b moved")
     assert last(blame(lab, ["a.angle", "b"])) == {"a.angle": "turned to 3", "b.pose": "b moved"}
     assert len(read) == 1
+
+
+# --- how it was changed
+
+
+def run_document(name: str, changes: Sequence[str], afterwards: Sequence[str] = (), **cause: str) -> RunDocument:
+    def made(addresses: Sequence[str]) -> tuple[Change, ...]:
+        return tuple(Change(component=a.partition(".")[0], tunable=a.partition(".")[2]) for a in addresses)
+
+    nothing = "sha256:" + "0" * 64
+    return RunDocument(
+        id=name, lab=LabRef(name="t", digest=nothing), state_before=nothing, state_after=nothing, plan=nothing,
+        cause=Cause(**({"kind": "apply"} | cause)), evidence="physics", started_at=f"2026-01-01T00:00:{name[-2:]}Z",
+        outcome="done", changes=made(changes), afterwards=made(afterwards),
+    )  # fmt: skip
+
+
+def carry(root: Path, *documents: RunDocument) -> None:
+    for document in documents:
+        for path, data in run_files(document, (), ()).items():
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            (root / path).write_bytes(data)
+
+
+def hows(found: Blamed) -> dict[str, str]:
+    return {f"{x.component}.{x.tunable}": f"{x.last.how.kind} {x.last.how.run or ''}".strip() for x in found.leaves}
+
+
+REALIZED = ("-m", "Pico-Evidence: physics\nPico-Lab: t sha256:0")
+
+
+def test_a_leaf_is_blamed_on_the_last_run_that_changed_it_else_on_a_hand(git: Git, lab: Path) -> None:
+    put(lab, A + B + "  c: {slot: s7, angle: 1}\n")
+    carry(
+        lab,
+        run_document("r01", ["a.pose", "a.angle", "b.pose"]),
+        run_document("r02", ["a.angle"], ["b.pose", "a.pose"], kind="recipe", recipe="scan.yaml", step="4"),
+        run_document("r03", ["a.pose"], ["a.angle"]),
+    )
+    commit(git, "runs and a hand", *REALIZED)
+    found = blame(lab)
+    assert hows(found) == {
+        "a.pose": "run r03", "a.angle": "run r02", "b.pose": "run r01", "c.pose": "hand", "c.angle": "hand",
+    }  # fmt: skip
+    how = next(leaf.last.how for leaf in found.leaves if leaf.tunable == "angle")
+    assert (how.cause, how.recipe, how.step, how.evidence) == ("recipe", "scan.yaml", "4", "physics")
+    assert hows(blame(lab)) == hows(found)
+
+
+def test_what_changed_after_the_run_was_changed_by_hand(git: Git, lab: Path) -> None:
+    put(lab, A + B)
+    carry(lab, run_document("r01", ["a.pose", "b.pose"], ["a.pose"]))
+    commit(git, "captured", *REALIZED)
+    assert hows(blame(lab, ["a.pose", "b"])) == {"a.pose": "hand", "b.pose": "run r01"}
+
+
+def test_a_planned_commit_and_one_that_does_not_say(git: Git, lab: Path) -> None:
+    put(lab, A)
+    commit(git, "with git")
+    put(lab, A + B)
+    commit(git, "planned", "-m", "Pico-Evidence: planned\nPico-Lab: t sha256:0")
+    put(lab, A + B + "  c: {slot: s7}\n")
+    commit(git, "before runs were kept", "-m", "Pico-Evidence: kinematic\nPico-State: sha256:0")
+    assert hows(blame(lab)) == {"a.pose": "commit", "a.angle": "commit", "b.pose": "planned", "c.pose": "commit"}
+
+
+def test_a_damaged_run_is_no_run(git: Git, lab: Path) -> None:
+    put(lab, A)
+    carry(lab, run_document("r01", ["a.pose"]))
+    (lab / "runs/2026/01/r01/run.json").write_text("{")
+    commit(git, "damaged", *REALIZED)
+    for _ in range(2):
+        assert hows(blame(lab, ["a.pose"])) == {"a.pose": "hand"}
+
+
+def test_a_merge_did_not_make_the_runs_that_it_merges(git: Git, lab: Path) -> None:
+    put(lab, A)
+    commit(git, "base")
+    git("checkout", "-q", "-b", "side")
+    put(lab, A + B)
+    carry(lab, run_document("r01", ["b.pose", "c.pose"]))
+    commit(git, "side", *REALIZED)
+    git("checkout", "-q", "main")
+    commit(git, "other")
+    git("merge", "-q", "--no-commit", "--no-ff", "side")
+    put(lab, A + B + "  c: {slot: s7}\n")
+    commit(git, "merge")
+    assert hows(blame(lab, ["b", "c.pose"])) == {"b.pose": "run r01", "c.pose": "merge"}
