@@ -14,6 +14,7 @@ VALUES = (
     "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
     "--expect", "--measure-seconds", "--suspicion", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
     "--component", "--merge", "--report", "--junit", "--pictures",
+    "--since", "--until", "--author", "--grep",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
     "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
 )  # fmt: skip
@@ -35,7 +36,10 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "fmt": ("--check",),
     "parts": ("--free",),
     "commit": ("-m", "--message", "--capture", "--planned"),
-    "log": ("--graph", "--oneline", "--all", "-n", "--number"),
+    "log": (
+        "--graph", "--oneline", "--all", "-n", "--number", "--since", "--until", "--author", "--grep", "--first-parent",
+        "--merges", "--no-merges",
+    ),
     "drift": ("--detailed-exitcode",),
     "runs list": ("--all", "--component"),
     "blame": ("--at", "--history", "--all"),
@@ -47,7 +51,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "stow": ("--speed", *_ONE),
     "set": _ONE,
     "home": _ONE,
-    "diff": ("--picture",),
+    "diff": ("--picture", "--stat", "--exit-code"),
     "push": ("--no-data",),
     "merge": ("-m", "--message"),
     "check": ("--merge", "--report", "--markdown", "--junit", "--pictures", "--fidelity"),

@@ -76,10 +76,9 @@ class Session:
         """Print one JSON document, in one line."""
         write(sys.stdout, json.dumps(data, ensure_ascii=False, default=str))
 
-    def say(self, text: str) -> None:
-        """Print text for people; nothing with `--json`."""
-        if not self.json:
-            write(sys.stdout, text)
+    def say(self, text: str) -> bool:
+        """Print text for people; nothing with `--json`. Return whether somebody may still read."""
+        return self.json or write(sys.stdout, text)
 
     def report(self, diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> None:
         """Print diagnostics: on standard error for people, on standard output as JSON."""
@@ -103,17 +102,23 @@ class Session:
 
 
 def colored(stream: TextIO) -> bool:
-    """Return whether color helps: on a terminal, unless NO_COLOR (no-color.org) or TERM=dumb say no."""
-    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    """Return whether color helps: on a terminal or in its pager, unless NO_COLOR (no-color.org) or TERM=dumb say no."""
+    shown = stream.isatty() or (stream is sys.stdout and "GIT_PAGER_IN_USE" in os.environ)
+    return shown and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
-def write(stream: TextIO, text: str, end: str = "\n") -> None:
-    """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly."""
+def write(stream: TextIO, text: str, end: str = "\n") -> bool:
+    """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly.
+
+    Return whether somebody may still read.
+    """
     try:
         stream.write((text if colored(stream) else plain(text)) + end)
         stream.flush()
     except BrokenPipeError:
         silence(stream)
+        return False
+    return True
 
 
 def silence(stream: TextIO) -> None:

@@ -12,7 +12,7 @@ from ..summary import COMMANDS
 
 SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
 GROUPS = ("bisect", "catalog", "data", "git", "runs", "sim")
-SCOPED = ("plan", "apply", "checkout")  # these take names after `--`
+SCOPED = ("plan", "apply", "checkout", "diff", "log")  # these take names after `--`
 LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option, and git gets its own
 
 
@@ -22,7 +22,7 @@ def register(app: typer.Typer, asked: str | None) -> None:
         if name in GROUPS:
             app.add_typer(import_module(f".{name}", __name__).app if name == asked else _empty(name), name=name)
         elif name == asked:
-            settings = LOOSE if name in ("do", "move", "rotate", "set", "push", "pull") else None
+            settings = LOOSE if name in ("do", "log", "move", "rotate", "set", "push", "pull") else None
             kind = Scoped if name in SCOPED else None
             app.command(name, cls=kind, context_settings=settings)(_function(name))
         else:

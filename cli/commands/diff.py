@@ -8,34 +8,52 @@ from typing import Annotated
 import typer
 
 from ..arguments import Revision
+from ..scope import scope_of
 from ..session import Session
 from ..views import diff as view
 from ..views import picture as picture_view
 from ..waiting import waiting
 
+From = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[A|A..B|A...B]", help="A revision (HEAD without one), or a range; A...B: from where B left A."
+    ),
+]
 Picture = Annotated[
     Path | None, typer.Option("--picture", metavar="PNG", help="Draw it from above: A, and dashed where parts go.")
 ]
 
 
-def diff(context: typer.Context, a: Revision = None, b: Revision = None, picture: Picture = None) -> int:
+def diff(
+    context: typer.Context,
+    a: From = None,
+    b: Revision = None,
+    picture: Picture = None,
+    stat: Annotated[bool, typer.Option("--stat", help="A line a component, and the tally.")] = False,
+    exit_code: Annotated[bool, typer.Option("--exit-code", help="Exit with 1 where anything differs.")] = False,
+) -> int:
     """Show what differs between two states, as motions.
 
-    Without arguments: from the last commit to the manifest. With one: from A to the manifest. Differences are exact,
-    however small; `pico plan` knows tolerances and the bench.
+    Without arguments: from the last commit to the manifest. With one: from A to the manifest. With names after `--` of
+    these components, tunables or files alone: `pico diff e1 e2 -- p2 state/table.yaml`. Differences are exact, however
+    small; `pico plan` knows tolerances and the bench.
     """
     session = Session.of(context)
     bench = session.bench()
-    step = f"`pico plan {b}` shows how the bench would get there." if b else "`pico plan` shows how it would be done."
-    session.show(
-        view,
-        bench.diff(a, b),
-        a=bench.name_of(a or "HEAD"),
-        b=bench.name_of(b) if b else "the manifest",
-        next_step=step,
+    names = scope_of(context)
+    found = bench.compare(a, b, names, at=session.folder)
+    step = (
+        f"`pico plan {found.b}` shows how the bench would get there."
+        if found.b
+        else "`pico plan` shows how it would be done."
     )
+    session.show(
+        view, found, a=bench.name_of(found.a), b=bench.name_of(found.b) if found.b else "the manifest",
+        next_step="" if names else step, stat=stat,
+    )  # fmt: skip
     if picture:
         with waiting("Drawing"):
-            bench.render_diff(a, b, out=session.folder / picture)
+            bench.render_diff(found.a, found.b, out=session.folder / picture)
         session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='the difference')}")
-    return 0
+    return int(exit_code and not found.same)

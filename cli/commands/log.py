@@ -2,26 +2,89 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import re
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..arguments import Revision
+from pico.diagnostics import PicoError, error
+
+from ..paging import paged
+from ..scope import scope_of
 from ..session import Session
 from ..views import log as view
+
+if TYPE_CHECKING:
+    from pico.bench import Bench
+
+Words = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[REV|A..B|^A]...", help="Commits, ranges, and what is to be left out; HEAD for none."),
+]
+_COUNT = re.compile(r"-(\d+)")
 
 
 def log(
     context: typer.Context,
-    revision: Revision = None,
+    revisions: Words = None,
     graph: Annotated[bool, typer.Option("--graph", help="Draw the branches; shows all of them.")] = False,
     oneline: Annotated[bool, typer.Option("--oneline", help="One line a commit.")] = False,
     every: Annotated[bool, typer.Option("--all", help="Show all branches and tags, not only HEAD.")] = False,
     number: Annotated[int | None, typer.Option("-n", "--number", min=1, help="At most so many commits.")] = None,
+    since: Annotated[str | None, typer.Option(metavar="DATE", help="Newer than this, as git reads dates.")] = None,
+    until: Annotated[str | None, typer.Option(metavar="DATE", help="Older than this.")] = None,
+    author: Annotated[str | None, typer.Option(metavar="PATTERN", help="By whom.")] = None,
+    grep: Annotated[str | None, typer.Option(metavar="PATTERN", help="With this in the message.")] = None,
+    first_parent: Annotated[bool, typer.Option("--first-parent", help="Of a merge, follow the first line.")] = False,
+    merges: Annotated[bool, typer.Option("--merges", help="Merges only.")] = False,
+    no_merges: Annotated[bool, typer.Option("--no-merges", help="No merges.")] = False,
 ) -> int:
-    """List commits with what each changed on the table."""
+    """List commits with what each changed on the table.
+
+    With names after `--` only those that changed these components, single tunables, or components that these files
+    hold: `pico log e1 -- p2 p1.angle`, `pico log -- state/table.yaml`.
+    """
     session = Session.of(context)
+    words, limit = _counted(revisions or [], number)
+    options = [f"--{name}={value}" for name, value in (("since", since), ("until", until), ("author", author),
+                                                       ("grep", grep)) if value is not None]  # fmt: skip
+    options += [f"--{name}" for name, asked in (("first-parent", first_parent), ("merges", merges),
+                                                ("no-merges", no_merges)) if asked]  # fmt: skip
     bench = session.bench()
-    entries = bench.log(revision, every=every or (graph and revision is None), limit=number)
-    session.show(view, entries, graph=graph, oneline=oneline, head=bench.head_commit())
+    _revisions(bench, words)
+    found = bench.log(
+        *words, every=every or (graph and not words), limit=limit, names=scope_of(context), at=session.folder,
+        options=options, graph=graph,
+    )  # fmt: skip
+    if session.json:
+        session.document(view.data(found, graph=graph, oneline=oneline, head=bench.head_commit()))
+        return 0
+    with paged(session):
+        for part, notes in found.notes().items():
+            session.say(view.noted(part, notes))
+        for block in view.blocks(found, graph=graph, oneline=oneline, head=bench.head_commit()):
+            if not session.say(block):
+                break
     return 0
+
+
+def _counted(words: list[str], number: int | None) -> tuple[list[str], int | None]:
+    """Return the words without `-5`, which is a number of commits; raises PicoError for other options."""
+    kept = []
+    for word in words:
+        if match := _COUNT.fullmatch(word):
+            number = int(match[1]) or None
+        elif word.startswith("-") and word != "-":
+            hint = "`pico log --help` lists them; `git log` has many more, and shows lines"
+            raise PicoError(error("usage", f"pico log has no option {word.partition('=')[0]}", hint=hint))
+        else:
+            kept.append(word)
+    return kept, number
+
+
+def _revisions(bench: Bench, words: list[str]) -> None:
+    """Raise PicoError for a component or a file among the revisions: these go after `--`."""
+    for word in words:
+        known = word.partition(".")[0] in bench.setup.lab.inventory or (bench.root / word).is_file()
+        if known and not bench.is_revision(word):
+            raise PicoError(error("revision", f"`{word}` is no revision", hint=f"`pico log -- {word}`"))

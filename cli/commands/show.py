@@ -7,6 +7,7 @@ import typer
 from pico.model.plan import Plan
 
 from ..arguments import PlanOrRevision
+from ..paging import paged
 from ..session import Session
 from ..views import plan as plan_view
 from ..views import revision as revision_view
@@ -15,13 +16,16 @@ from ..views import revision as revision_view
 def show(context: typer.Context, what: PlanOrRevision = None) -> int:
     """Show a revision or a saved plan.
 
-    Of a revision (HEAD without an argument): what it changed, and the state that it holds.
+    Of a revision (HEAD without an argument): what it changed, its runs and what proves it, and the state that it holds.
+    `REV:COMPONENT`: that component alone, with what was noted on it. Text of files: `git show REV:FILE`.
     """
     session = Session.of(context)
     bench = session.bench()
     found = bench.find(what or "HEAD", folder=session.folder)
     if isinstance(found, Plan):
         session.show(plan_view, found, goal=bench.goal_name(found), next_step=f"Apply with `pico apply {what}`.")
-    else:
-        session.show(revision_view, bench.entry(found), *bench.folder.historic(found))
+        return 0
+    shown = bench.show(found)
+    with paged(session):
+        session.show(revision_view, shown)
     return 0

@@ -3,23 +3,57 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pico.model.diff import Change
 from pico.model.record import as_json
 
-from .style import columns, count, paint, place
+from .style import columns, count, listed, paint, place
+
+if TYPE_CHECKING:
+    from pico.history.compare import StateDiff
 
 
-def text(changes: Sequence[Change], *, a: str, b: str, next_step: str = "") -> str:
-    """Return what differs from state `a` to state `b`, a line a tunable."""
-    if not changes:
+def text(found: StateDiff, *, a: str, b: str, next_step: str = "", stat: bool = False) -> str:
+    """Return what differs from state `a` to state `b`, a line a tunable; with `stat` a line a component."""
+    if found.same:
         return f"{a} and {b} are the same."
-    parts = len({c.component for c in changes})
     head = f"{paint('bold', a)} → {paint('bold', b)}"
+    if not found.changes:
+        return "\n".join([head, "No component differs.", *beside(found)])
+    shown = _counts(found.changes) if stat else lines(found.changes)
+    return "\n".join(
+        [head, f"{tally(found.changes)}:", "", *shown, *beside(found), *(["", next_step] if next_step else [])]
+    )
+
+
+def tally(changes: Sequence[Change]) -> str:
+    """Return `3 tunables of 2 components differ`."""
+    parts = len({c.component for c in changes})
     what = f"{count(len(changes), 'tunable')} of {count(parts, 'component')}"
-    tally = f"{what} {'differs' if len(changes) == 1 else 'differ'}:"
-    return "\n".join([head, tally, "", *lines(changes), *(["", next_step] if next_step else [])])
+    return f"{what} {'differs' if len(changes) == 1 else 'differ'}"
+
+
+def beside(found: StateDiff) -> list[str]:
+    """Return lines for what differs beside components: expectations, the bench itself, and text alone."""
+    block = [f"  {paint('green' if sign == '+' else 'red', f'{sign} expects')} {that}" for sign, that in found.expected]
+    if found.bench:
+        both = " ".join(name for name in (found.a, found.b) if name)
+        block.append(f"The bench itself differs: {listed(found.bench)} (`git diff {both} -- {found.bench[0]}`)")
+    if found.text:
+        block.append(f"And text that changes nothing physical: {listed(found.text)}")
+    return ["", *block] if block else []
+
+
+def _counts(changes: Sequence[Change]) -> list[str]:
+    """Return a line a component: whether it moved, and how many of its tunables are set otherwise."""
+    rows = []
+    for name in dict.fromkeys(c.component for c in changes):
+        mine = [c for c in changes if c.component == name]
+        moved = [c.text.partition(" (")[0].partition(",")[0] for c in mine if c.tunable == "pose"]
+        values = [c.tunable for c in mine if c.tunable != "pose"]
+        rows.append([name, ", ".join([*moved, *([f"{listed(values)} set"] if values else [])])])
+    return columns(rows, indent="  ")
 
 
 def lines(changes: Sequence[Change], indent: str = "  ") -> list[str]:
@@ -70,6 +104,10 @@ def _ends(change: Change) -> str:
     return f"from {place(change.before)}" + ("" if isinstance(change.after, str) else f" to {place(change.after)}")
 
 
-def data(changes: Sequence[Change], *, a: str, b: str, **_: Any) -> dict[str, Any]:
-    """Return schema `pico.diff/v1`: `from`, `to`, `changes` (component, tunable, before, after, text)."""
-    return {"schema": "pico.diff/v1", "from": a, "to": b, "changes": as_json(changes)}
+def data(found: StateDiff, *, a: str, b: str, **_: Any) -> dict[str, Any]:
+    """Return schema `pico.diff/v1`: `from`, `to`, `changes` (component, tunable, before, after, text), `expected`,
+    `bench` and `text` (files)."""
+    told = as_json(found)
+    return {"schema": "pico.diff/v1", "from": a, "to": b} | {
+        k: told[k] for k in ("changes", "expected", "bench", "text")
+    }

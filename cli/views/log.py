@@ -2,36 +2,66 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain, islice
+from typing import TYPE_CHECKING, Any
 
+from pico.history.commit import Commit
 from pico.history.folder import Entry
 from pico.history.graph import Row, lanes
+from pico.history.trailers import without_trailers
 from pico.model.record import as_json
+from pico.model.run import RunDocument
 
 from .diff import brief, lines
-from .style import WIDTH, count, pad, paint, width, wrap
+from .style import WIDTH, columns, count, pad, paint, seconds, width, wrap
+
+if TYPE_CHECKING:
+    from pico.history.log import Log
+    from pico.history.notes import Note
 
 
-def text(entries: Iterable[Entry], *, graph: bool, oneline: bool, head: str | None = None) -> str:
+def text(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> str:
     """Return the commits, newest first, with a rail of the branches where `graph`; `head` is the one checked out."""
-    shown = list(entries)
-    if not shown:
-        return "No commit has touched this lab yet."
-    rows = lanes([e.commit for e in shown]) if graph else [Row("", e.commit) for e in shown]
-    by_id = {e.commit.id: e for e in shown}
-    found: list[str] = []
-    render = _short(shown, head) if oneline or graph else _long
+    return "\n".join(blocks(log, graph=graph, oneline=oneline, head=head)).rstrip()
+
+
+def blocks(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> Iterator[str]:
+    """Yield the text of `text` in pieces, each when its commit has been read."""
+    if graph:
+        yield from _railed(log, head)
+        return
+    commits = log.commits()
+    first = list(islice(commits, 50 if oneline else 1))
+    if not first:
+        yield _none(log)
+        return
+    render = _short(first, head) if oneline else _long
+    for commit in chain(first, commits):
+        yield "\n".join(render(log.entry(commit), WIDTH))
+
+
+def _railed(log: Log, head: str | None) -> Iterator[str]:
+    """Yield lines with the rail before them."""
+    commits = list(log.commits())
+    if not commits:
+        yield _none(log)
+    rows = lanes(commits)
+    render = _short(commits, head)
     for i, row in enumerate(rows):
-        rail = f"{row.rail} " if graph else ""
         if row.commit is None:
-            found.append(rail.rstrip())
+            yield row.rail.rstrip()
             continue
-        first, *rest = render(by_id[row.commit.id], WIDTH - len(rail))
-        found.append(rail + first)
-        below = _below(rows, i) if graph else ""
-        found += [f"{below}{line}".rstrip() for line in rest]
-    return "\n".join(found).rstrip()
+        first, *rest = render(log.entry(row.commit), WIDTH - len(row.rail) - 1)
+        below = _below(rows, i)
+        yield "\n".join([f"{row.rail} {first}", *(f"{below}{line}".rstrip() for line in rest)])
+
+
+def _none(log: Log) -> str:
+    asked = log.asked
+    if asked.scope or asked.options or asked.revisions:
+        return "No commit among these changed that." if asked.scope else "No commit is like that."
+    return "No commit has touched this lab yet."
 
 
 def _below(rows: list[Row], i: int) -> str:
@@ -41,25 +71,27 @@ def _below(rows: list[Row], i: int) -> str:
     return rail.replace("*", " " if ends else "|") + " "
 
 
-def _short(shown: list[Entry], checked_out: str | None) -> Any:
-    """Return a function from a commit to one line: name, message, motions; two where they do not fit."""
-    names = min(max(width(_name(e, checked_out)) for e in shown), 24)
-    room = min(max(width(e.commit.summary) for e in shown), 44)
+def _short(commits: Sequence[Commit], checked_out: str | None) -> Callable[[Entry, int], list[str]]:
+    """Return a function from a commit to one line: name, message, motions, proof; more where they do not fit."""
+    names = min(max((width(_name(c, checked_out)) for c in commits), default=0), 24)
+    room = min(max((width(c.summary) for c in commits), default=0), 44)
 
     def render(entry: Entry, columns: int) -> list[str]:
-        head = f"{pad(paint('yellow', _name(entry, checked_out)), names)}  {pad(entry.commit.summary, room)}"
-        what = _what(entry)
-        if width(head) + 2 + width(what) <= columns:
-            return [f"{head}  {paint('cyan', what)}".rstrip()]
+        name = _name(entry.commit, checked_out)
+        head = f"{pad(paint('yellow', name), names)}  {pad(entry.commit.summary, room)}"
+        what, proof = _what(entry), " · ".join(proofs(entry))
+        if width(head) + 2 + width(what) + (3 + width(proof) if proof else 0) <= columns:
+            return [f"{head}  {paint('cyan', what)}{paint('dim', f' · {proof}' if proof else '')}".rstrip()]
         indent = " " * (names + 2)
-        return [head.rstrip(), *(paint("cyan", line) for line in wrap(what, indent, columns))]
+        lines = [*(paint("cyan", line) for line in wrap(what, indent, columns))]
+        return [head.rstrip(), *lines, *([indent + paint("dim", proof)] if proof else [])]
 
     return render
 
 
-def _name(entry: Entry, checked_out: str | None) -> str:
-    name = ", ".join(list(dict.fromkeys(entry.commit.refs))[:2]) or entry.commit.short
-    return f"{name} (HEAD)" if entry.commit.id == checked_out else name
+def _name(commit: Commit, checked_out: str | None) -> str:
+    name = ", ".join(list(dict.fromkeys(commit.refs))[:2]) or commit.short
+    return f"{name} (HEAD)" if commit.id == checked_out else name
 
 
 def _what(entry: Entry) -> str:
@@ -78,25 +110,73 @@ def _what(entry: Entry) -> str:
 
 
 def _long(entry: Entry, _: int) -> list[str]:
+    what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else lines(entry.changes)
+    return [*header(entry), "", *what, *proven(entry), ""]
+
+
+def header(entry: Entry) -> list[str]:
+    """Return id, names, author, date and message of a commit, without the trailers that PICO wrote."""
     c = entry.commit
     refs = f" ({', '.join(c.refs)})" if c.refs else ""
     head = [paint("yellow", f"commit {c.short}{refs}"), f"{c.author}, {c.time:%Y-%m-%d %H:%M}"]
-    what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else lines(entry.changes)
-    return [*head, "", *wrap(c.message, "    "), "", *what, ""]
+    return [*head, "", *wrap(without_trailers(c.message), "    ")]
 
 
-def data(entries: Iterable[Entry], *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:
-    """Return schema `pico.log/v1`: `head`, and `commits`: id, parents, refs, author, time, message, changes, rail."""
-    shown = list(entries)
-    rails = {r.commit.id: r.rail for r in lanes([e.commit for e in shown]) if r.commit} if graph else {}
-    commits = [entry_data(e) | ({"rail": rails[e.commit.id]} if graph else {}) for e in shown]
-    return {"schema": "pico.log/v1", "head": head, "commits": commits}
+def noted(part: str, notes: Sequence[Note]) -> str:
+    """Return the notes on a part, oldest first."""
+    rows = [[note.day, note.author, note.text] for note in notes]
+    return "\n".join([paint("bold", f"Notes on {part}:"), *columns(rows, indent="  "), ""])
+
+
+def proofs(entry: Entry) -> list[str]:
+    """Return in a few words how far the state of a commit is proven, and how its runs ended."""
+    evidence = [entry.evidence] if entry.evidence else []
+    return [*evidence, *(ended(run) for run in entry.runs)]
+
+
+def proven(entry: Entry) -> list[str]:
+    """Return lines with the evidence for a commit, and for each of its runs how it ended and what did not hold."""
+    found = []
+    if entry.evidence and not entry.runs:
+        found.append(f"  {paint('dim', 'evidence')} {entry.evidence}, as the message says; it carries no run")
+    for run in entry.runs:
+        color = "green" if run.outcome == "done" else "red"
+        found.append(f"  {paint('dim', f'run {run.id}')}: {paint(color, ended(run))} ({run.evidence})")
+        for one in run.expectations:
+            if not one.holds:
+                verb = "failed" if one.holds is False else "could not be told"
+                found.append(f"    {paint('red', '✗')} {f'{one.message}: ' if one.message else ''}`{one.that}` {verb}")
+    return found
+
+
+def ended(run: RunDocument) -> str:
+    """Return how a run ended: `5 moves done, 31 s`."""
+    words = [f"{number} {outcome}" for outcome, number in run.tally.items() if number and outcome != "done"]
+    done = run.tally.get("done", 0)
+    broken = sum(not e.holds for e in run.expectations)
+    words += [f"{count(broken, 'expectation')} failed"] if broken else []
+    end = [] if run.outcome == "done" else [run.outcome]
+    return ", ".join([*end, f"{count(done, 'operation')} done", *words, seconds(run.seconds)])
+
+
+def data(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:
+    """Return schema `pico.log/v1`: `head`, and `commits`: id, parents, refs, author, time, message, changes, evidence,
+    runs, rail."""
+    commits = list(log.commits())
+    rails = {r.commit.id: r.rail for r in lanes(commits) if r.commit} if graph else {}
+    shown = [entry_data(log.entry(c)) | ({"rail": rails[c.id]} if graph else {}) for c in commits]
+    return {"schema": "pico.log/v1", "head": head, "commits": shown}
 
 
 def entry_data(entry: Entry) -> dict[str, Any]:
     """Return one commit with its physical diff as JSON data."""
     c = entry.commit
+    runs = [
+        {"id": run.id, "outcome": run.outcome, "evidence": run.evidence, "seconds": run.seconds, "tally": run.tally,
+         "expectations": as_json(run.expectations)}
+        for run in entry.runs
+    ]  # fmt: skip
     return {
         "id": c.id, "parents": list(c.parents), "refs": list(c.refs), "author": c.author, "time": c.time.isoformat(),
-        "message": c.message, "changes": as_json(entry.changes),
+        "message": c.message, "changes": as_json(entry.changes), "evidence": entry.evidence, "runs": as_json(runs),
     } | ({"unreadable": entry.unreadable} if entry.unreadable else {})  # fmt: skip

@@ -2,36 +2,40 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pico.history.folder import Entry
 from pico.model.diff import place_json
-from pico.model.lab import Setup
-from pico.model.state import LabState, place_of
+from pico.model.record import as_json
+from pico.model.state import place_of
 
 from .diff import lines
-from .log import entry_data
-from .style import columns, paint, place, wrap
+from .log import entry_data, header, noted, proven
+from .style import columns, paint, place
+
+if TYPE_CHECKING:
+    from pico.history.shown import Shown
 
 
-def text(entry: Entry, setup: Setup, state: LabState) -> str:
-    """Return the commit, its physical diff, then every component of the state."""
-    c = entry.commit
-    refs = f" ({', '.join(c.refs)})" if c.refs else ""
-    head = [
-        paint("yellow", f"commit {c.short}{refs}"),
-        f"{c.author}, {c.time:%Y-%m-%d %H:%M}",
-        "",
-        *wrap(c.message, "    "),
-    ]
-    what = [entry.unreadable] if entry.unreadable else lines(entry.changes) or ["  nothing on the table"]
-    table = [[paint("dim", cell) for cell in ("component", "where", "tunables")], *_rows(setup, state)]
-    return "\n".join([*head, "", "Changed:", *what, "", f"State {state.digest()[:19]}:", *columns(table, indent="  ")])
+def text(found: Shown) -> str:
+    """Return the commit, its physical diff, its runs and notes, then every component of the state, or the one asked."""
+    entry, component = found.entry, found.component
+    what = [f"  {entry.unreadable}"] if entry.unreadable else lines(entry.changes) or [f"  {_nothing(component)}"]
+    said = [line for part, notes in found.notes.items() for line in noted(part, notes).splitlines()]
+    table = [[paint("dim", cell) for cell in ("component", "where", "tunables")], *_rows(found)]
+    digest = found.state.digest()
+    head = f"{component} at {entry.commit.label}:" if component else f"State {digest[:19]}:"
+    block = [*header(entry), "", "Changed:", *what, *proven(entry), "", *said, *([""] if said else [])]
+    return "\n".join([*block, head, *columns(table, indent="  ")])
 
 
-def _rows(setup: Setup, state: LabState) -> list[list[str]]:
+def _nothing(component: str | None) -> str:
+    return f"nothing of {component}" if component else "nothing on the table"
+
+
+def _rows(found: Shown) -> list[list[str]]:
+    setup, state = found.setup, found.state
     rows = []
-    for name in sorted(setup.lab.inventory):
+    for name in sorted(setup.lab.inventory) if found.component is None else [found.component]:
         values = state.components[name].values if name in state.components else {}
         kinds = setup.type_of(name).tunables
         said = [
@@ -41,6 +45,12 @@ def _rows(setup: Setup, state: LabState) -> list[list[str]]:
     return rows
 
 
-def data(entry: Entry, setup: Setup, state: LabState) -> dict[str, Any]:
-    """Return schema `pico.revision/v1`: the commit as in `pico.log/v1`, `state` and its digest."""
-    return {"schema": "pico.revision/v1", **entry_data(entry), "state": state.as_json(), "digest": state.digest()}
+def data(found: Shown) -> dict[str, Any]:
+    """Return schema `pico.revision/v1`: the commit as in `pico.log/v1`, `state` (of the component asked for alone), its
+    digest, and `notes`."""
+    state = found.state.as_json()
+    some = {name: part for name, part in state.items() if found.component in (None, name)}
+    return {
+        "schema": "pico.revision/v1", **entry_data(found.entry), "state": some, "digest": found.state.digest(),
+        "notes": as_json(found.notes),
+    }  # fmt: skip

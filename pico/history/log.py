@@ -12,6 +12,7 @@ from pico.history import git
 from pico.history.commit import Commit
 from pico.history.commit_diffs import CommitDiffs
 from pico.history.folder import Entry, LabFolder
+from pico.history.notes import Note, note_path, notes
 from pico.history.ranges import for_rev_list
 from pico.history.runs import runs_added
 from pico.history.scope import Scope, unknown_parts
@@ -64,6 +65,15 @@ class Log:
         found = self._entries.pop(commit.id, None) or self._read(commit)
         runs = runs_added(self.repository, commit, self.folder.root)
         return replace(found, commit=commit, runs=runs, evidence=evidence_of(commit, runs))
+
+    def notes(self) -> dict[str, tuple[Note, ...]]:
+        """Return what people noted on the components that were asked for, as the working tree has it."""
+        found = {}
+        for part in self.asked.scope.parts:
+            path = self.folder.root / note_path(part)
+            if path.is_file() and (said := notes({note_path(part): path.read_bytes()}, part)):
+                found[part] = said
+        return found
 
     @cached_property
     def _diffs(self) -> CommitDiffs:

@@ -1,0 +1,61 @@
+"""Long answers in a pager on a terminal, as git shows its own: GIT_PAGER, core.pager, PAGER, else `less -FRX`."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+from .session import Session
+
+
+@contextmanager
+def paged(session: Session) -> Iterator[None]:
+    """Send what is printed inside through a pager; nothing happens where there is no terminal, or no pager."""
+    command = _pager(session) if sys.stdout.isatty() and not session.json else ""
+    if not command:
+        yield
+        return
+    environment = {"LESS": "FRX", "LV": "-c"} | os.environ
+    try:
+        pager = subprocess.Popen(command, shell=True, stdin=subprocess.PIPE, env=environment)
+    except OSError:
+        yield
+        return
+    assert pager.stdin is not None
+    terminal, before = os.dup(sys.stdout.fileno()), os.environ.get("GIT_PAGER_IN_USE")
+    os.environ["GIT_PAGER_IN_USE"] = "true"  # color, although this is no terminal any more
+    os.dup2(pager.stdin.fileno(), sys.stdout.fileno())
+    pager.stdin.close()
+    try:
+        yield
+    finally:
+        with suppress(BrokenPipeError):
+            sys.stdout.flush()
+        os.dup2(terminal, sys.stdout.fileno())
+        os.close(terminal)
+        _wait(pager)
+        if before is None:
+            del os.environ["GIT_PAGER_IN_USE"]
+
+
+def _wait(pager: subprocess.Popen[bytes]) -> None:
+    """Wait until the reader has done; Ctrl-C is for the pager."""
+    while True:
+        try:
+            pager.wait()
+            return
+        except KeyboardInterrupt:
+            continue
+
+
+def _pager(session: Session) -> str:
+    """Return the command of the pager as a shell takes it; empty for none."""
+    asked = ["git", "-C", str(session.folder), "var", "GIT_PAGER"]
+    try:
+        found = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.strip()
+    except OSError:
+        found = os.environ.get("PAGER", "less")
+    return "" if found == "cat" else found
