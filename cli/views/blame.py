@@ -22,8 +22,8 @@ def text(blamed: Blamed, *, asked: bool) -> str:
     changed = [leaf.history for leaf in blamed.leaves if leaf.history is not None]
     lines = _histories(blamed) if changed else _table(blamed.leaves)
     noted = [f"{paint('bold', part)}: {n.text}{_by(n)}" for part, found in blamed.notes.items() for n in found]
-    below = [""] * bool(noted) + noted + ([] if asked else ["", _tally(blamed)])
-    return "\n".join([*lines, *below, *_shallow(blamed)])
+    said = [noted, (_runs(blamed) if asked else [_tally(blamed)]), _shallow(blamed)]
+    return "\n".join([*lines, *(line for block in said if block for line in ("", *block))])
 
 
 def _table(leaves: tuple[BlamedLeaf, ...]) -> list[str]:
@@ -85,10 +85,16 @@ def _by(note: Note) -> str:
     return paint("dim", f"  ({note.author}, {note.day})") if note.author else ""
 
 
+def _runs(blamed: Blamed) -> list[str]:
+    """Return how to see the newest of the runs that are named."""
+    runs = {t.how.run for leaf in blamed.leaves for t in (leaf.last, *(leaf.history or ())) if t.how.run}
+    return [f"`pico runs show {max(runs)}` shows what that run did."] if runs else []
+
+
 def _shallow(blamed: Blamed) -> list[str]:
     if not any(t.earlier for leaf in blamed.leaves for t in (leaf.last, *(leaf.history or ()))):
         return []
-    return ["", "or earlier: this clone is shallow, older commits are not here; `git fetch --unshallow` brings them."]
+    return ["or earlier: this clone is shallow, older commits are not here; `git fetch --unshallow` brings them."]
 
 
 def data(blamed: Blamed, **_: Any) -> dict[str, Any]:
