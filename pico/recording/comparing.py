@@ -18,7 +18,7 @@ from pico.trace.operations import OperationRun
 
 @record
 class Pair:
-    """One operation in both runs, the last attempt of each; None where the other run alone has it. `to`: the value set."""
+    """One operation in both runs, the last attempt of each; None where the other alone has it. `to`: the value set."""
 
     primitive: str
     address: str
