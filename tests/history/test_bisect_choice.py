@@ -1,0 +1,156 @@
+"""What is tried next: on a line of history no decision tree takes less time on average; every search ends right."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import pytest
+from conftest import Git
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pico.history.bisect import Suspects, choices, entropy, halfway
+
+SECONDS = st.floats(0, 100, allow_nan=False)
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Commits with what each trial costs: from where the bench stands, and from one to another."""
+
+    suspects: Suspects
+    first: list[float]
+    ways: list[list[float]]
+    measure: float
+
+    def cost(self, at: int | None, goal: int) -> float:
+        return (self.first[goal] if at is None else self.ways[at][goal] if at != goal else 0.0) + self.measure
+
+    def ranked(self) -> list[int]:
+        between: Callable[[int, int], float] = lambda a, b: self.ways[a][b]  # noqa: E731
+        return [c.index for c in choices(self.suspects, self.first.__getitem__, between, self.measure)]
+
+
+@st.composite
+def benches(draw: st.DrawFn, most: int, linear: bool) -> Bench:
+    count = draw(st.integers(2, most))
+    if linear:
+        parents: Sequence[Sequence[int]] = [(n - 1,) if n else () for n in range(count)]
+    else:
+        parents = [sorted(draw(st.sets(st.integers(0, n - 1), max_size=2))) if n else [] for n in range(count - 1)]
+        ends = set(range(count - 1)) - {p for own in parents for p in own}
+        parents = [*parents, sorted(ends)]
+    weight = draw(st.lists(st.sampled_from((1.0, 1.0, 0.1, 0.0)), min_size=count, max_size=count))
+    testable = draw(st.sets(st.integers(0, count - 2)))
+    row = st.lists(SECONDS, min_size=count, max_size=count)
+    ways = draw(st.lists(row, min_size=count, max_size=count))
+    return Bench(
+        Suspects(parents, weight, frozenset(testable)), draw(row), ways, draw(st.sampled_from((0.0, 5.0, 60.0)))
+    )
+
+
+def least(bench: Bench) -> float:
+    """Return the least expected time over all decision trees: any trial may follow any other."""
+    weight, ancestors = bench.suspects.weight, bench.suspects.ancestors()
+
+    @cache
+    def expected(left: frozenset[int], at: int | None) -> float:
+        total = sum(weight[c] for c in left)
+        if sum(weight[c] > 0 for c in left) < 2:
+            return 0.0
+        found = []
+        for trial in bench.suspects.testable:
+            bad = frozenset(c for c in left if ancestors[trial] >> c & 1)
+            if bad and bad != left:
+                share = sum(weight[c] for c in bad) / total
+                rest = share * expected(bad, trial) + (1 - share) * expected(left - bad, trial)
+                found.append(bench.cost(at, trial) + rest)
+        return min(found, default=0.0)
+
+    return expected(frozenset(range(len(weight))), None)
+
+
+@settings(deadline=None, max_examples=60)
+@given(benches(7, linear=True))
+def test_on_a_line_of_history_no_order_of_trials_takes_less_time(bench: Bench) -> None:
+    ranked = choices(bench.suspects, bench.first.__getitem__, lambda a, b: bench.ways[a][b], bench.measure)
+    assert [c.index for c in ranked] == bench.ranked() and {c.index for c in ranked} == bench.suspects.testable
+    if sum(w > 0 for w in bench.suspects.weight) > 1:
+        assert (ranked[0].score() if ranked else 0.0) == pytest.approx(least(bench))
+
+
+@settings(deadline=None, max_examples=60)
+@given(benches(9, linear=False))
+def test_where_branches_meet_the_most_information_per_second_is_taken(bench: Bench) -> None:
+    if bench.suspects.linear or not (total := sum(bench.suspects.weight)):
+        return
+    ancestors = bench.suspects.ancestors()
+
+    def rate(trial: int) -> float:
+        bad = sum(w for c, w in enumerate(bench.suspects.weight) if ancestors[trial] >> c & 1)
+        return entropy(bad / total) / max(bench.cost(None, trial), 1e-9)
+
+    ranked = bench.ranked()
+    if ranked:
+        assert rate(ranked[0]) == pytest.approx(max(map(rate, bench.suspects.testable)))
+
+
+@settings(deadline=None, max_examples=60)
+@given(benches(10, linear=False), st.data())
+def test_whatever_the_costs_the_search_comes_to_the_first_bad_commit(bench: Bench, data: st.DataObject) -> None:
+    whole = bench.suspects
+    count, ancestors = len(whole.parents), whole.ancestors()
+    first_bad = data.draw(st.integers(0, count - 1))
+    left, at = list(range(count)), None
+    while len(left) > 1:
+        number = {c: n for n, c in enumerate(left)}
+        parents = [[number[p] for p in whole.parents[c] if p in number] for c in left]
+        suspects = Suspects(parents, [1.0] * len(left), frozenset(range(len(left) - 1)))
+        costs = [bench.cost(at, c) for c in left]
+        best = choices(suspects, costs.__getitem__, lambda a, b: bench.ways[left[a]][left[b]], 0.0)[0]  # noqa: B023
+        at = left[best.index]
+        bad = bool(ancestors[at] >> first_bad & 1)
+        shorter = [c for c in left if bool(ancestors[at] >> c & 1) == bad]
+        assert len(shorter) < len(left)
+        left = shorter
+    assert left == [first_bad]
+
+
+def test_a_measurement_that_takes_long_leads_to_halving_and_a_short_one_to_short_ways() -> None:
+    suspects = Suspects([(n - 1,) if n else () for n in range(33)], [1.0] * 33, frozenset(range(32)))
+
+    def tried(measure: float) -> int:
+        return choices(suspects, lambda n: 10.0 * n, lambda a, b: 10.0 * abs(a - b), measure)[0].index
+
+    assert tried(1e6) in (15, 16)
+    assert tried(1.0) < 12
+
+
+def test_neighbors_of_what_could_not_be_told_are_left_for_later() -> None:
+    line = [(n - 1,) if n else () for n in range(9)]
+    skipped = Suspects(line, [1.0] * 9, frozenset(range(8)) - {4}, frozenset({4}))
+    ranked = choices(skipped, lambda _: 10.0, lambda a, b: 10.0, 5.0)
+    assert abs(ranked[0].index - 4) > 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_middle_is_that_of_git(git: Git, seed: int) -> None:
+    import random
+
+    rng = random.Random(seed)
+    git("init", "-q")
+    tree = git("hash-object", "-w", "-t", "tree", "/dev/null").strip()
+    names: list[str] = []
+    for n in range(16):
+        parents = rng.sample(names[-4:], min(len(names), rng.choice((1, 1, 2))))
+        names.append(git("commit-tree", tree, "-m", str(n), *(w for p in parents for w in ("-p", p))).strip())
+    lines = git("rev-list", "--topo-order", "--reverse", "--parents", names[-1], f"^{names[0]}").splitlines()
+    order = [line.split()[0] for line in lines]
+    parents_of = [[order.index(p) for p in line.split()[1:] if p in order] for line in lines]
+    suspects = Suspects(parents_of, [1.0] * len(order), frozenset(range(len(order) - 1)))
+    middle, gits = halfway(suspects), order.index(git("rev-list", "--bisect", names[-1], f"^{names[0]}").strip())
+    assert middle is not None
+    even = [min(bits.bit_count(), len(order) - bits.bit_count()) for bits in suspects.ancestors()]
+    assert even[middle] == even[gits]
