@@ -39,6 +39,9 @@ LAYERS: dict[str, set[str]] = {
     },
     "evidence": {"model", "journal"},
     "committing": {"diagnostics", "model", "history", "recording", "evidence"},
+    "publishing": {
+        "diagnostics", "resources", "model", "manifest", "trace", "history", "planning", "twin", "pictures", "checking",
+    },
     "takeup": {
         "diagnostics", "model", "journal", "motion", "planning", "backends", "execution", "async_bench",
     },

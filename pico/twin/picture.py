@@ -68,14 +68,19 @@ def render(
     return _perspective(setup, poses, joints, width, height, labels, beams)
 
 
-def write_png(image: Image, path: Path) -> None:
-    """Write `image` (h, w, 3), sRGB, as PNG; raises PicoError where the file can't be written."""
+def png(image: Image) -> bytes:
+    """Return `image` (h, w, 3), sRGB, as a PNG file."""
     import cv2
 
     written, content = cv2.imencode(".png", image[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 6])
     assert written  # an array of bytes always encodes
+    return bytes(content.tobytes())
+
+
+def write_png(image: Image, path: Path) -> None:
+    """Write `image` (h, w, 3), sRGB, as PNG; raises PicoError where the file can't be written."""
     try:
-        path.write_bytes(content.tobytes())
+        path.write_bytes(png(image))
     except OSError as exc:
         raise PicoError(error("unwritable", f"cannot write the picture {path}: {exc.strerror}")) from exc
 

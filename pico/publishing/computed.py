@@ -1,0 +1,65 @@
+"""What follows from a state: the state itself, how it differs from the one before, the plan from there, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from pico.history.commit import Commit
+from pico.model.diff import Change
+from pico.model.lab import Setup
+from pico.model.record import canonical
+from pico.model.state import LabState
+from pico.publishing.parts import File, file
+
+if TYPE_CHECKING:
+    from pico.twin.picture import View
+
+
+VIEWS: Mapping[View, str] = {
+    "top": "the table from above",
+    "perspective": "the table as somebody in front of it sees it",
+}
+
+
+def types(setup: Setup) -> list[File]:
+    """Return the packaged component types that the bench uses; its own are among its manifests."""
+    from pico.manifest.catalog import catalog_names
+    from pico.resources import catalog_dir
+
+    used = sorted(set(setup.catalog) & set(catalog_names()))
+    contents = {name: (catalog_dir() / f"{name}.yaml").read_bytes() for name in used}
+    return [file(f"catalog/{name}.yaml", data, f"component type {name}") for name, data in contents.items()]
+
+
+def states(state: LabState, before: LabState, changes: Sequence[Change], parents: Sequence[str]) -> list[File]:
+    """Return the state, whose digest is that of the file, and how it differs from the one before."""
+    old = f"the state of the commit before, {parents[0][:7]}" if parents else "before anything: every part at home"
+    said = "".join(f"{c.component}{'' if c.tunable == 'pose' else f'.{c.tunable}'}: {c.text}\n" for c in changes)
+    return [
+        file("state.json", canonical(state.as_json()).encode(), "the laboratory state, in canonical JSON"),
+        file("before.json", canonical(before.as_json()).encode(), old),
+        file("diff.json", canonical(changes).encode(), "the physical diff from the state before"),
+        file("diff.txt", said.encode(), "the physical diff in words"),
+    ]
+
+
+def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit) -> File:
+    """Return the plan from the state before to the one of a commit, as the planner of today makes it."""
+    from pico.checking.trial import plan_from, world_of
+    from pico.planning.target import no_source
+
+    parent = commit.parents[0] if commit.parents else None
+    world, fidelity = world_of(setup, before), setup.lab.sim.fidelity
+    plan = plan_from(setup, world, state, base=parent, name=commit.short, fidelity=fidelity, source=no_source)
+    return file("plan.json", plan.to_json().encode(), "the plan from the state before to this one")
+
+
+def pictures_of(setup: Setup, state: LabState) -> Iterator[File]:
+    """Yield pictures of the bench as it stands in a state."""
+    from pico.pictures import standing
+    from pico.twin.picture import png, render
+
+    poses = standing(setup, state)
+    for view, said in VIEWS.items():
+        yield file(f"pictures/{view}.png", png(render(setup, poses, {}, view=view)), said)

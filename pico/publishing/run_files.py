@@ -1,0 +1,77 @@
+"""The runs that are published with a revision, and their files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import PurePosixPath
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.history.folder import LabFolder
+from pico.history.runs import CarriedRun, files_at, runs_added, runs_at
+from pico.model.run import Artifact, RunDocument
+from pico.publishing.parts import File, PublishedRun, file
+from pico.trace.run import intact, run_folder
+from pico.trace.store import Store, missing
+
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_SAID = {"run.json": "what the run was", "trace.jsonl": "what it did", "measurements.jsonl": "what it measured"}
+
+
+def chosen_runs(folder: LabFolder, commit: str, digest: str, names: Sequence[str]) -> tuple[CarriedRun, ...]:
+    """Return the runs that a commit holds and that are called as in `names`; without names those that it added, or that
+    led to the state of the `digest`. Raises PicoError for a name that it has not."""
+    repository, damaged = folder.history(), list[Diagnostic]()
+    there = {run.document.id: run for run in runs_at(repository, commit, folder.root, damaged)}
+    if not names:
+        added = {run.id for run in runs_added(repository, commit, folder.root)}
+        return tuple(r for r in there.values() if r.document.id in added or r.document.state_after == digest)
+    unknown = [name for name in names if name not in there]
+    if unknown:
+        hint = did_you_mean(unknown[0], there) or "`pico runs list` shows the runs"
+        text = f"the commit {commit[:7]} holds no run {', '.join(unknown)}"
+        raise PicoError((error("unknown-run", text, hint=hint), *damaged))
+    return tuple(run for name, run in there.items() if name in names)
+
+
+def published_runs(
+    folder: LabFolder, store: Store, chosen: Iterable[CarriedRun]
+) -> list[tuple[PublishedRun, tuple[File, ...]]]:
+    """Return the files of each run, its artifacts included; raises PicoError with all that is missing or damaged."""
+    wrong: list[Diagnostic] = []
+    found = []
+    for run in chosen:
+        written = files_at(folder.history(), run.place) if run.place else {}
+        damaged: list[Diagnostic] = []
+        intact(run.document, written, damaged)
+        wrong += [replace(d, severity="error") for d in damaged]
+        wrong += [_missing(store, run.document, a) for a in run.document.artifacts if not store.has(a.sha256)]
+        beside = (file(path, data, _said(path, run.document)) for path, data in sorted(written.items()))
+        files = (*beside, *_artifacts(run.document))
+        at, paths = run_folder(run.document), tuple(f.path for f in files)
+        found.append((PublishedRun(document=run.document, folder=at, files=paths), files))
+    if wrong:
+        raise PicoError(wrong)
+    return found
+
+
+def _missing(store: Store, run: RunDocument, artifact: Artifact) -> Diagnostic:
+    found = missing(artifact.sha256, store.root)
+    return replace(found, summary=f"{artifact.name} of run {run.id} is not here", detail=found.summary)
+
+
+def _said(path: str, run: RunDocument) -> str:
+    return f"{_SAID.get(PurePosixPath(path).name, 'a file')}: run {run.id}"
+
+
+def _artifacts(run: RunDocument) -> Iterator[File]:
+    """Yield the artifacts of a run under names that are nothing but names; two of one name are told apart."""
+    taken: set[str] = set()
+    for artifact in run.artifacts:
+        name = _UNSAFE.sub("_", artifact.name).lstrip(".") or "artifact"
+        name = f"{artifact.sha256[:8]}-{name}" if name in taken else name
+        taken.add(name)
+        said = f"{artifact.name} of run {run.id}{f': {artifact.component}' if artifact.component else ''}"
+        path = f"{run_folder(run)}/artifacts/{name}"
+        yield File(path=path, name=said, media_type=artifact.media_type, sha256=artifact.sha256, size=artifact.size)
