@@ -11,8 +11,10 @@ from .summary import COMMANDS, MOVERS
 
 SHARED = ("-C", "--json", "--debug", "--backend", "--help")
 VALUES = (
+    "--meta",
     "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
     "--expect", "--measure-seconds", "--suspicion", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
+    "--run", "--pictures",
     "--component", "--merge", "--report", "--junit", "--pictures",
     "--since", "--until", "--author", "--grep",
     "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
@@ -35,7 +37,8 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "graph": ("--format", "--out", "--fidelity"),
     "fmt": ("--check",),
     "parts": ("--free",),
-    "commit": ("-m", "--message", "--capture", "--planned"),
+    "capture": ("--dry-run",),
+    "commit": ("-m", "--message", "-e", "--edit", "--capture", "--planned", "--meta"),
     "log": (
         "--graph", "--oneline", "--all", "-n", "--number", "--since", "--until", "--author", "--grep", "--first-parent",
         "--merges", "--no-merges",
@@ -53,6 +56,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "home": _ONE,
     "diff": ("--picture", "--stat", "--exit-code"),
     "push": ("--no-data",),
+    "publish": ("--out", "--run", "--pictures"),
     "merge": ("-m", "--message"),
     "check": ("--merge", "--report", "--markdown", "--junit", "--pictures", "--fidelity"),
     "revert": ("-m", "--message", "--mainline", "--no-commit"),
@@ -97,14 +101,17 @@ FIXED = {
     "--view": ("perspective", "top"),
     "--prefer": ("fewest-moves", "shortest-time"),
     "--format": ("dot", "mermaid"),
+    "--pictures": ("all", "none"),
     "--paper": ("a4", "letter"),
     "--example": ("minimal", "shel", "crowded", "two_arms"),
 }
 COMPONENTS = ("--component", "--after", "--explain", "--target", "--exclude")
-_COMPONENT = ("ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "sim nudge", "sim remove")
+_COMPONENT = (
+    "ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "note", "sim nudge", "sim remove",
+)  # fmt: skip
 _REVISION = (
     "plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render",
-    "verify", "runs list", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
+    "verify", "publish", "runs list", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
 )  # fmt: skip
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
@@ -133,7 +140,7 @@ def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
 
 
 def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str]:
-    if (command in _COMPONENT and not given) or command == "blame":
+    if (command in _COMPONENT and not given) or command in ("blame", "capture", "commit"):
         yield from _inventory(folder)
     elif command == "do" and len(given) == 1:
         yield from ("move", "stow", "set", "home")

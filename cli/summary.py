@@ -25,6 +25,7 @@ GROUPS: dict[str, dict[str, str]] = {
     },
     "History": {
         "commit": "Capture the bench and commit.",
+        "note": "Note something on a part, or list what was noted on it.",
         "log": "List commits with what each changed on the table.",
         "diff": "Show what differs between two states, as motions.",
         "show": "Show a revision or a saved plan.",
@@ -41,6 +42,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "push": "Send the large data of runs to where it is kept, then the commits with `git push`.",
         "pull": "Get commits with `git pull`, then the large data of their runs. Moves nothing.",
         "stash": "Shelve the edits of the manifests, or bring them back. The bench is not shelved: nothing moves.",
+        "publish": "Write a revision with its runs, measurements, plan and pictures as an RO-Crate, to publish.",
         "watch": "Look at the bench again and again, and tell what leaves the last commit and what comes back.",
     },
     "One operation at a time": {

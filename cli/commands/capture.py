@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
 from ..session import Session
 from ..views import capture as view
 
 
-def capture(context: typer.Context) -> int:
+def capture(
+    context: typer.Context,
+    only: Annotated[
+        list[str] | None, typer.Argument(metavar="[COMPONENT[.TUNABLE]]...", help="Write only these.")
+    ] = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show what would be written, and write nothing.")] = False,
+) -> int:
     """Write what stands on the bench into the manifest.
 
     Only values that differ by more than their tolerance change, one line each; comments and layout stay.
     """
     session = Session.of(context)
     bench = session.bench()
-    session.show(view, bench.capture())
+    session.show(view, bench.capture(*(only or ()), write=not dry_run))
     return 0

@@ -14,23 +14,54 @@ from ..views import commit as view
 
 def commit(
     context: typer.Context,
-    message: Annotated[str, typer.Option("-m", "--message", help="Why.")],
+    only: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[COMPONENT[.TUNABLE]]...", help="Commit only the files that hold these."),
+    ] = None,
+    message: Annotated[
+        list[str] | None, typer.Option("-m", "--message", help="Why; the physical diff without it.")
+    ] = None,
+    edit: Annotated[bool, typer.Option("-e", "--edit", help="Open the message in git's editor first.")] = False,
     capture: Annotated[
         bool, typer.Option("--capture", help="Where bench and manifest differ, the bench wins.")
     ] = False,
     planned: Annotated[
         bool, typer.Option("--planned", help="Commit edits that were never applied; the commit says so.")
     ] = False,
+    meta: Annotated[
+        list[str] | None, typer.Option("--meta", metavar="KEY=VALUE", help="Record this, too; may be repeated.")
+    ] = None,
 ) -> int:
     """Capture the bench and commit.
 
     Refused where the manifest holds edits that were never applied: apply them first, or say who wins with --capture
-    or --planned.
+    or --planned. The commit carries the runs that led to its state, and notes. Without -m its message is what moved.
     """
     if capture and planned:
         raise PicoError(error("usage", "--capture and --planned contradict each other: one of bench and manifest wins"))
     session = Session.of(context)
+    recorded = _recorded(meta or [])
     bench = session.bench()
-    made = bench.commit(message, mode="capture" if capture else "planned" if planned else "strict")
+    mode = "capture" if capture else "planned" if planned else "strict"
+    text = "\n\n".join(message) if message else None
+    if edit:
+        from ..editing import edited
+
+        text = edited(bench, text if text is not None else bench.draft(mode, only=only or ()))
+    made = bench.commit(text, mode, only=only or (), meta=recorded)
+    if not session.json:
+        session.report(made.diagnostics)
     session.show(view, made)
     return 0
+
+
+def _recorded(meta: list[str]) -> dict[str, str]:
+    """Return what `--meta` gave; raises PicoError for what can't be recorded, before anything else happens."""
+    from pico.history.trailers import require_meta
+
+    for word in meta:
+        if "=" not in word:
+            raise PicoError(error("usage", f"--meta takes key=value, not `{word}`", hint="--meta temperature=21.3"))
+    recorded = {key: value.strip() for key, _, value in (word.partition("=") for word in meta)}
+    require_meta(recorded)
+    return recorded

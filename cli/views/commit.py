@@ -20,8 +20,10 @@ def text(made: Committed) -> str:
         block.append(f"{count(len(made.captured), 'tunable')} taken from the bench.")
     if not made.realized:
         block.append("This state was never on the bench; the commit says so.")
+    elif made.runs:
+        block.append(f"With {count(len(made.runs), 'run')} ({made.evidence}).")
     if not made.branch:
-        block.append("No branch points here: `git switch -c NAME` keeps it findable.")
+        block.append("HEAD is detached and no branch holds this commit: `git switch -c NAME` keeps it findable.")
     return "\n".join(block)
 
 

@@ -87,6 +87,7 @@ def test_options_count_before_and_after_the_command(shel: Path, pico: Pico, monk
         (["catalog", "list"], "catalog"), (["catalog", "show", "linear_polarizer"], "component-type"),
         (["validate"], "validation"), (["fmt", "--check"], "fmt"), (["get", "p1"], "values"), (["version"], "version"),
         (["sim", "nudge", "p1", "--dx", "1"], "sim"), (["capture"], "capture"), (["completion", "zsh"], "completion"),
+        (["note", "p1"], "notes"),
     ],
 )  # fmt: skip
 def test_every_answer_can_be_json(shel: Path, pico: Pico, words: list[str], schema: str) -> None:
@@ -138,7 +139,11 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["aply"], "did you mean `apply`?"),
         (["plan", "--bogus"], "no such option: --bogus"),
         (["checkout"], "missing argument"),
-        (["commit"], "--message"),
+        (["commit", "--meta", "x"], "key=value"),
+        (["commit", "p9"], "no component `p9`"),
+        (["commit", "--meta", "X=1", "--meta", "t=a\nb"], "no key"),
+        (["capture", "p2.angel"], "did you mean `angle`"),
+        (["note", "p9", "x"], "no part `p9`"),
         (["sim", "kick"], "kick"),
         (["sim"], "reset, nudge, bump, remove"),
         (["plan", "e1", "e2"], "extra argument"),
