@@ -1,16 +1,17 @@
 """CPU seconds of `pico blame` over a long history, and whether every answer is right.
 
-    python benchmarks/blame.py [--commits 1000] [--components 1000] [--files 40] [--changes 3] [--merges] [--seed 1]
+    python benchmarks/blame.py [--commits 1000] [--components 1000] [--files 40] [--changes 3] [--merges] [--runs]
 
 The history is random and written by `git fast-import`. A commit changes `--changes` leaves: poses, angles (half of them
 written in another unit), parts that go home and come back; now and then it only edits a comment, writes values
 otherwise without changing them, or moves a component to another file. With `--merges` about every eighth commit
-begins a branch, and branches are merged; where both sides changed a leaf one of them wins, or neither.
+begins a branch, and branches are merged; where both sides changed a leaf one of them wins, or neither. With `--runs`
+every commit carries the document of a run that changed the poses, and the angles were turned by hand.
 
 Printed are CPU seconds (user + system) of whole processes: `start-up` is the command in a lab of one component and one
-commit, `cold` the first call, `warm` the least of three more, `next` the call after one more commit. Every leaf's value
-and commit, and the whole history of each leaf, are compared with what the generator knows. Exit code 1 where an answer
-is wrong, or a bar is missed: cold 5 s, warm 0.2 s beside start-up.
+commit, `cold` the first call, `warm` the least of three more, `next` the call after one more commit. Every leaf's
+value, commit, how it was changed, and its whole history are compared with what the generator knows. Exit code 1 where
+an answer is wrong, or a bar is missed: cold 5 s, warm 0.2 s beside start-up.
 """
 
 from __future__ import annotations
@@ -28,6 +29,14 @@ from pathlib import Path
 from typing import Any
 
 from startup import measure
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from pico.model.diff import Change  # noqa: E402
+from pico.model.plan import LabRef  # noqa: E402
+from pico.model.record import canonical  # noqa: E402
+from pico.model.run import Cause, RunDocument  # noqa: E402
 
 COLD, WARM = 5.0, 0.2
 PITCH = 100
@@ -86,6 +95,7 @@ class History:
         self.names = [f"c{i:05}" for i in range(options.components)]
         self.versions: list[Version] = []
         self.parents: list[tuple[int, ...]] = []
+        self.followed: set[int] = set()  # commits that a person made at the end
 
     def make(self) -> None:
         first = Version(0)
@@ -174,6 +184,20 @@ class History:
         return (self.rng.randrange(100, side), self.rng.randrange(100, side), self.rng.randrange(-180, 180))
 
 
+def carried(history: History, version: Version, parents: tuple[int, ...]) -> dict[str, str]:
+    """Return the document of the run that a commit carries, by path: it changed the poses."""
+    if not history.options.runs or len(parents) > 1:
+        return {}
+    digest, name = "sha256:" + "0" * 64, f"r{version.number:06}"
+    changed = [at for at, turn in version.truth.items() if turn.commit == version.number and at[1] == "pose"]
+    document = RunDocument(
+        id=name, lab=LabRef(name="large", digest=digest), state_before=digest, state_after=digest, plan=digest,
+        cause=Cause(kind="apply"), evidence="kinematic", started_at="2026-01-01T00:00:00Z", outcome="done",
+        changes=tuple(Change(component=component, tunable=tunable) for component, tunable in changed),
+    )  # fmt: skip
+    return {f"runs/2026/{1 + version.number // 100 % 12:02}/{name}/run.json": canonical(document) + "\n"}
+
+
 def written(history: History, version: Version) -> dict[str, str]:
     """Return the manifests of a version by path."""
     parts: dict[int, list[str]] = {i: [] for i in range(history.options.files)}
@@ -205,12 +229,14 @@ def write(history: History, folder: Path) -> list[str]:
         for version, parents in zip(history.versions, history.parents, strict=True):
             files = written(history, version) | {"lab.yaml": lab(history.names)}
             before[version.number] = files
+            more = carried(history, version, parents)
             text = [f"commit refs/heads/main\nmark :{version.number + 1}\n"]
             text.append(f"committer A Physicist <a@localhost> {1_760_000_000 + 600 * version.number} +0000\n")
             text.append(block(f"commit {version.number}"))
             text += [f"{'merge' if i else 'from'} :{p + 1}\n" for i, p in enumerate(parents)]
             old = before[parents[0]] if parents else {}
             text += [f"M 100644 inline {p}\n{block(t)}" for p, t in files.items() if old.get(p) != t]
+            text += [f"M 100644 inline {p}\n{block(t)}" for p, t in more.items()]
             process.stdin.write("".join(text).encode())
     marks = dict(line.split() for line in (folder / "marks").read_text().splitlines())
     (folder / "marks").unlink()
@@ -218,9 +244,18 @@ def write(history: History, folder: Path) -> list[str]:
     return [marks[f":{v.number + 1}"] for v in history.versions]
 
 
+def wrong_how(history: History, at: tuple[str, str], commit: int, how: Any) -> list[str]:
+    """Return what is wrong with how a leaf is said to have been changed; a follow-up carries no run."""
+    kind = "merge" if len(history.parents[commit]) > 1 else "commit"
+    if history.options.runs and kind == "commit" and commit not in history.followed:
+        kind = "run" if at[1] == "pose" else "hand"
+    right = how["kind"] == kind and how.get("run") == (f"r{commit:06}" if kind == "run" else None)
+    return [] if right else [f"{at}: {how}, but it is {kind} of {commit}"]
+
+
 def follow(history: History, folder: Path) -> str:
     """Make one more commit, as a person would, and return its id."""
-    history.edit(len(history.versions) - 1)
+    history.followed.add(history.edit(len(history.versions) - 1))
     for path, text in written(history, history.versions[-1]).items():
         (folder / path).write_text(text)
     who = ["-c", "user.name=A Physicist", "-c", "user.email=a@localhost"]
@@ -245,6 +280,7 @@ def wrong_answers(history: History, ids: Sequence[str], answer: Any) -> list[str
     found = [f"{at} is missing or too much" for at in sorted(there ^ said_of.keys())]
     for at in sorted(there & said_of.keys()):
         turn: Turn | None = truth[at]
+        found += wrong_how(history, at, turn.commit, said_of[at]["last"]["how"])
         for said in said_of[at]["history"]:
             value = said.get("after")
             value = tuple(value.values()) if isinstance(value, dict) else value
@@ -264,6 +300,7 @@ def main() -> None:
     parser.add_argument("--files", type=int, default=40)
     parser.add_argument("--changes", type=int, default=3)
     parser.add_argument("--merges", action="store_true")
+    parser.add_argument("--runs", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     history, tiny = History(options), History(argparse.Namespace(**(vars(options) | {"components": 1, "commits": 1})))
