@@ -134,6 +134,8 @@ def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
         if not given:
             return GROUPS[command]
         command, given = f"{command} {given[0]}", given[1:]
+    if "--" in before:
+        return list(_inventory(folder))
     if last.startswith("-"):
         return (*OPTIONS.get(command, ()), *SHARED)
     return list(_arguments(command, given, folder))

@@ -63,6 +63,8 @@ def test_tab_offers_commands_names_and_revisions(shel: Path) -> None:
     assert candidates(["-C", ".", "plan", "--fidelity", ""]) == ["kinematic", "physics"]
     assert candidates(["sim", "n"]) == ["nudge"]
     assert candidates(["-C", str(shel), "sim", "nudge", "p"]) == ["p1", "p2"]
+    assert candidates(["checkout", "e1", "--", "p1", "p"]) == ["p1", "p2"]
+    assert candidates(["stash", "p"]) == ["pop", "push"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
