@@ -88,7 +88,7 @@ class JournalRecord:
 @record
 class RunRecord:
     """One run. `finished_at`, `outcome` and `tally` are None while it goes on, or where it was killed. `resumed`: how
-    often it was taken up again."""
+    often it was taken up again. `number` counts the runs of the bench."""
 
     run: str
     plan: str
@@ -98,6 +98,7 @@ class RunRecord:
     outcome: RunOutcome | None = None
     tally: Mapping[str, Any] | None = None
     resumed: int = 0
+    number: int = 0
 
 
 @record
@@ -215,7 +216,7 @@ class Journal:
 
     def runs(self) -> tuple[RunRecord, ...]:
         """Return the runs in the order in which they began."""
-        columns = "run, plan, holder, started_at, finished_at, outcome, tally, resumed"
+        columns = "run, plan, holder, started_at, finished_at, outcome, tally, resumed, number"
         with self._guarded():
             rows = self._db.execute(f"SELECT {columns} FROM runs ORDER BY number").fetchall()
         return tuple(_run(row) for row in rows)
@@ -376,7 +377,9 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
 def _run(row: tuple[Any, ...]) -> RunRecord:
     names = ("run", "plan", "holder", "started_at", "finished_at", "outcome")
     tally = json.loads(row[6]) if row[6] else None
-    return RunRecord(**dict(zip(names, row[:6], strict=True)), tally=tally, resumed=int(row[7] or 0))
+    return RunRecord(
+        **dict(zip(names, row[:6], strict=True)), tally=tally, resumed=int(row[7] or 0), number=int(row[8])
+    )
 
 
 def _cut_short(key: str, operation: Operation) -> OperationResult:

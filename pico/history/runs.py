@@ -107,7 +107,7 @@ def read_carried(
             found.append(CarriedRun(document, place))
         elif diagnostics is not None:
             diagnostics.append(document)
-    return tuple(sorted(found, key=lambda run: (run.document.started_at, run.document.id)))
+    return tuple(sorted(found, key=lambda run: run.document.order))
 
 
 def read_place(repository: Repository, place: RunPlace) -> RunDocument | Diagnostic:

@@ -78,7 +78,8 @@ class RunDocument:
     started from. `state_after`: the digest of the state that it led to, exactly as manifests hold that: of the state
     committed with it where the bench was seen to stand so, within its tolerances, when the commit was made; else of
     its goal, where it was reached; else of what was observed. `observed` is the observed state in any case, which has
-    every digit of the noise. `goal` in words, `goal_commit` where it was a revision's.
+    every digit of the noise. `goal` in words, `goal_commit` where it was a revision's. `number` counts the runs of its
+    bench, so that those of one second have an order.
 
     `seconds`: the time in which something moved, on the bench's clock. `tally` counts operations by how they ended.
     `resumed`: how often the run was taken up again until then; a document whose id ends with `-r1` has what came after
@@ -89,6 +90,7 @@ class RunDocument:
 
     schema: str = SCHEMA
     id: str
+    number: int = 0
     lab: LabRef
     parent: str | None = None
     state_before: str
@@ -115,6 +117,11 @@ class RunDocument:
     afterwards: tuple[Change, ...] = ()
     files: Mapping[str, FileRef] = field(default_factory=dict)
     artifacts: tuple[Artifact, ...] = ()
+
+    @property
+    def order(self) -> tuple[str, int, str]:
+        """What runs are sorted by: when they started."""
+        return self.started_at, self.number, self.id
 
 
 @record

@@ -65,6 +65,7 @@ def recorded(setup: Setup, kept: Kept) -> Recorded:
     about = kept.about[min(kept.part, len(kept.about) - 1)] if kept.about else {}
     document = RunDocument(
         id=kept.id,
+        number=run.number,
         lab=LabRef(**plan["lab"]),
         parent=plan["base"].get("commit"),
         state_before=before.digest(),

@@ -42,7 +42,7 @@ def list_runs(
         found = _of_component(folder, component, found)
     commits = folder.history().commits({r.place.commit for r in found if r.place}) if carried else {}
     listed = [Listed(document=r.document, commit=commits[r.place.commit] if r.place else None) for r in found]
-    return tuple(sorted(listed, key=lambda one: (one.document.started_at, one.document.id), reverse=True))
+    return tuple(sorted(listed, key=lambda one: one.document.order, reverse=True))
 
 
 def _carried(

@@ -72,7 +72,7 @@ def read_runs(files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None =
             found += [document] if isinstance(document, RunDocument) else []
             if diagnostics is not None and isinstance(document, Diagnostic):
                 diagnostics.append(document)
-    return tuple(sorted(found, key=lambda d: (d.started_at, d.id)))
+    return tuple(sorted(found, key=lambda d: d.order))
 
 
 def intact(document: RunDocument, files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None = None) -> bool:
