@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterable, Sequence
 
 from .style import plain, shorten
@@ -11,7 +10,6 @@ from .style import plain, shorten
 LONGEST = 300
 _SIGIL = re.compile(r"([@#!%$&^~]|://|\bwww\.)(?=\w)")
 _ENTITY, _MARK = re.compile(r"[&<>|\"]"), re.compile(r"[\\`*\[\]~]|(?<![^\W_])_|_(?![^\W_])")
-_HIDDEN = ("Cc", "Cf", "Cs", "Co", "Cn")
 
 
 def prose(text: str, longest: int = LONGEST) -> str:
@@ -37,6 +35,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 def visible(text: str) -> str:
     """Return text with what a screen does not show, or shows elsewhere than it stands, replaced."""
-    return "".join(
-        " " if c in "\t\n\r" else "\ufffd" if unicodedata.category(c) in _HIDDEN else c for c in plain(text)
-    )  # fmt: skip
+    line = plain(text)
+    if line.isprintable():
+        return line
+    return "".join(c if c.isprintable() else " " if c.isspace() else "\ufffd" for c in line)
