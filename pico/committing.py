@@ -62,7 +62,7 @@ def commit(folder: LabFolder, seen: Observation, asked: Asked, *, observed: str)
             captured = folder.capture(live_state(folder.setup, seen, sure=True), named)
         content = contents(folder, named)
         realized = stands(folder.setup, seen, content.state)
-        runs = recording.pending(folder, seen) if realized else {}
+        runs = recording.pending(folder, seen, content.state) if realized else {}
         if not (content.paths or runs or ending):
             raise PicoError(nothing(named))
         changes = _changes(folder, content.state)

@@ -24,7 +24,7 @@ from pico.model.run import RunDocument
 from pico.model.standing import Standing
 from pico.model.state import LabState
 from pico.recording.document import Kept, Recorded, afterwards, read_plan, recorded
-from pico.trace.run import DOCUMENT, Keep, read_runs, run_files
+from pico.trace.run import Keep, run_files
 
 
 def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
@@ -35,8 +35,9 @@ def pending(folder: LabFolder, seen: Observation | None = None, state: LabState 
     content store of the repository. What a commit that failed left of them in the working tree goes.
     """
     runs = unrecorded(folder)
-    if runs and seen is not None:
-        runs[-1] = _committed(folder, runs[-1], seen, state or folder.state)
+    here = [i for i, run in enumerate(runs) if seen and run.document.environment.get("backend") in (None, seen.backend)]
+    if here and seen is not None:  # what moved a simulated bench says nothing of a real one, and the other way around
+        runs[here[-1]] = _committed(folder, runs[here[-1]], seen, state or folder.state)
     files: dict[str, bytes] = {}
     for run in runs:
         files |= run_files(run.document, run.trace, run.measurements, keep=_keep(folder))
@@ -53,12 +54,6 @@ def unrecorded(folder: LabFolder) -> list[Recorded]:
         moving = journal.moving()
         over = [run for run in journal.runs() if run.run in moving and not _goes_on(folder.root, run)]
         return [recorded(folder.setup, kept) for kept in _kept(folder, journal, over)]
-
-
-def evidence_of(files: Mapping[str, bytes]) -> str | None:
-    """Return the evidence of the last of the runs whose files these are; None where there is none."""
-    found = read_runs({path: data for path, data in files.items() if path.endswith(f"/{DOCUMENT}")})
-    return found[-1].evidence if found else None
 
 
 def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | None:
