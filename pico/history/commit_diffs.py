@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from pathlib import PurePosixPath
+from dataclasses import replace
+from functools import cache
 from typing import Any, Literal
 
 from pico.diagnostics import PicoError
 from pico.history.commit import Commit
 from pico.history.folder import STATE_ONLY, Entry, LabFolder, between
 from pico.history.trees import is_manifest, left_out
+from pico.manifest.bench_view import BenchView, view_of
+from pico.manifest.files import decode
+from pico.manifest.kinds import kind_of
 from pico.manifest.load import load_files
+from pico.manifest.state import read_states
+from pico.manifest.tree import parse
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
 from pico.model.state import ComponentState, LabState
@@ -31,7 +37,7 @@ class CommitDiffs:
         self._inside = self.repository.relative(folder.root)
         self._files: dict[str, Files] = {}
         self._kinds: dict[str, Kind] = {}
-        self._benches: dict[BenchFiles, Setup] = {}
+        self._benches: dict[BenchFiles, tuple[Setup, BenchView]] = {}
         self._states: dict[tuple[str, BenchFiles], Mapping[str, ComponentState]] = {}
 
     def entry(self, commit: Commit, *, names: Iterable[str] = ()) -> Entry:
@@ -55,11 +61,14 @@ class CommitDiffs:
         if self._bench_files(before) != self._bench_files(after):
             return between(self.folder.historic(a), self.folder.historic(b))
         wanted = tuple(names)
-        if wanted and not any(self._mentions(files.get(p), wanted) for p in paths for files in (before, after)):
-            return ()
+        sides = [[files[p] for p in paths if p in files] for files in (before, after)]
+        if wanted:
+            sides = [[name for name in side if self._mentions(name, wanted)] for side in sides]
+            if not any(sides):
+                return ()
         key = self._bench_files(before)
-        states = [self._state(key, [files[p] for p in paths if p in files]) for files in (before, after)]
-        return diff_states(self._bench(key), states[0], states[1])
+        states = [self._state(key, side) for side in sides]
+        return diff_states(_small(self._bench(key)[0], states), states[0], states[1])
 
     def files(self, commit: str) -> Files:
         """Return the manifests of a commit (its id)."""
@@ -76,7 +85,7 @@ class CommitDiffs:
         if key not in self._files:
             if len(self._files) > 50:
                 del self._files[next(iter(self._files))]
-            self._files[key] = _below(tree, PurePosixPath())
+            self._files[key] = _below(tree)
         return self._files[key]
 
     def components_of(self, commit: str, path: str) -> frozenset[str]:
@@ -86,8 +95,8 @@ class CommitDiffs:
         names = [n for p, n in self.files(commit).items() if p == path or p.startswith(f"{path}/") or path in ("", ".")]
         return frozenset().union(*(components_in(self.repository.blob(name)) for name in names))
 
-    def _mentions(self, name: str | None, components: tuple[str, ...]) -> bool:
-        data = self.repository.blob(name) if name else b""
+    def _mentions(self, name: str, components: tuple[str, ...]) -> bool:
+        data = self.repository.blob(name)
         return any(component.encode() in data for component in components)
 
     def _bench_files(self, files: Files) -> BenchFiles:
@@ -99,36 +108,56 @@ class CommitDiffs:
             self._kinds[name] = "foreign" if b"pico/" not in data else "state" if STATE_ONLY.search(data) else "bench"
         return self._kinds[name]
 
-    def _bench(self, key: BenchFiles) -> Setup:
+    def _bench(self, key: BenchFiles) -> tuple[Setup, BenchView]:
         if key not in self._benches:
             read = load_files({path: self.repository.blob(name) for path, name in key})
-            self._benches[key] = read.setup or self.folder.setup
+            bench = read.setup or self.folder.setup
+            self._benches[key] = bench, view_of(bench)
         return self._benches[key]
 
     def _state(self, key: BenchFiles, names: Iterable[str]) -> LabState:
         components: dict[str, ComponentState] = {}
         for name in names:
             components |= self._components(key, name) if self._kind(name) == "state" else {}
-        return LabState(lab=self._bench(key).lab.name, components=components)
+        return LabState(lab=self._bench(key)[0].lab.name, components=components)
 
     def _components(self, key: BenchFiles, name: str) -> Mapping[str, ComponentState]:
         if (name, key) not in self._states:
             if len(self._states) > _MOST_STATES:
                 del self._states[next(iter(self._states))]
-            files = {"state": self.repository.blob(name)}
-            self._states[name, key] = load_files(files, setup=self._bench(key), whole=False).require()[1].components
+            self._states[name, key] = _read(self.repository.blob(name), self._bench(key)[1])
         return self._states[name, key]
 
 
-def _below(tree: Any, at: PurePosixPath) -> dict[str, str]:
+def _read(data: bytes, view: BenchView) -> Mapping[str, ComponentState]:
+    """Return the components of one file of a state; raises PicoError where it is wrong."""
+    source, found = decode("state", data)
+    documents, wrong = parse(source) if source else ([], [])
+    state, misfits = read_states([d for d in documents if kind_of(d)[0] == "LabState"], view, whole=False)
+    if state is None or any(d.severity == "error" for d in (*found, *wrong)):
+        raise PicoError([*found, *wrong, *misfits])
+    return state.components
+
+
+def _small(bench: Setup, states: Iterable[LabState]) -> Setup:
+    """Return a bench with only the parts that some states name: the others are at home in all of them."""
+    parts = {n: bench.lab.inventory[n] for state in states for n in state.components if n in bench.lab.inventory}
+    return replace(bench, lab=replace(bench.lab, inventory=parts))
+
+
+def _below(tree: Any, at: str = "") -> dict[str, str]:
     """Return the manifests below a tree; links and submodules are none."""
     from pygit2.enums import FileMode
 
     found: dict[str, str] = {}
     for entry in tree:
-        path = at / entry.name
         if entry.filemode == FileMode.TREE:
-            found |= {} if left_out(str(path / "*")) else _below(entry, path)
-        elif entry.filemode in (FileMode.BLOB, FileMode.BLOB_EXECUTABLE) and is_manifest(str(path)):
-            found[str(path)] = str(entry.id)
+            found |= {} if left_out(f"{at}{entry.name}/*") else _below(entry, f"{at}{entry.name}/")
+        elif entry.filemode in (FileMode.BLOB, FileMode.BLOB_EXECUTABLE) and _manifest(at + entry.name):
+            found[at + entry.name] = str(entry.id)
     return found
+
+
+@cache
+def _manifest(path: str) -> bool:
+    return is_manifest(path)

@@ -99,23 +99,20 @@ def load_folder(root: Path) -> Manifests:
     return _load(files, found, shown_path(root), None)
 
 
-def load_files(files: Mapping[str, bytes], *, setup: Setup | None = None, whole: bool = True) -> Manifests:
+def load_files(files: Mapping[str, bytes], *, setup: Setup | None = None) -> Manifests:
     """Return the manifests of files in memory, by path, as a Git tree has them.
 
-    With `setup` given, Lab and ComponentType documents are skipped and the state is read against that bench. Not
-    `whole`: these are some of its files, so who has which slot is not looked at.
+    With `setup` given, Lab and ComponentType documents are skipped and the state is read against that bench.
     """
-    return _load(files, [], "", setup, whole=whole)
+    return _load(files, [], "", setup)
 
 
-def _load(
-    files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None, *, whole: bool = True
-) -> Manifests:
+def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None) -> Manifests:
     documents = _documents(files, found)
     setup, view = (setup, view_of(setup)) if setup else _bench(documents, found, root)
     state = None
     if documents["LabState"]:
-        state, wrong = read_states(documents["LabState"], view, whole=whole) if view else (None, [])
+        state, wrong = read_states(documents["LabState"], view) if view else (None, [])
         found.extend(wrong)
     elif not any(d.severity == "error" for d in found):
         hint = "add a file with `kind: LabState` and `components:`"
