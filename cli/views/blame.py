@@ -42,7 +42,7 @@ def _histories(blamed: Blamed) -> list[str]:
 def _fitted(rows: list[list[str]], indent: str = "") -> list[str]:
     """Return aligned lines; the last cell, what the commit says of itself, takes the room that is left."""
     taken = len(indent) + sum(2 + max(width(row[i]) for row in rows) for i in range(len(rows[0]) - 1))
-    return columns(rows, indent=indent, last=max(WIDTH - taken, 24))
+    return columns(rows, indent=indent, last=max(WIDTH - taken, 16))
 
 
 def _turn(turn: Turn) -> list[str]:

@@ -124,12 +124,12 @@ def _chosen(rows: Mapping[Address, Row], what: Sequence[str]) -> dict[Address, R
     asked: set[Address] = set()
     wrong: list[Diagnostic] = []
     for word in what:
-        component, dot, tunable = word.partition(".")
+        component, _, tunable = word.partition(".")
         mine = [at for at in rows if at[0] == component]
         tunable = POSE if tunable == "slot" or tunable.startswith("pose.") else tunable
-        if not mine or (dot and (component, tunable) not in mine):
+        if not mine or (tunable and (component, tunable) not in mine):
             wrong.append(_unknown(component, tunable, mine, rows))
-        elif dot:
+        elif tunable:
             asked.add((component, tunable))
         else:
             there = [at for at in mine if rows[at].value is not None or rows[at].node.commit == ""]
@@ -142,12 +142,11 @@ def _chosen(rows: Mapping[Address, Row], what: Sequence[str]) -> dict[Address, R
 def _unknown(component: str, tunable: str, mine: Iterable[Address], rows: Iterable[Address]) -> Diagnostic:
     known = [at[1] for at in mine]
     if known:
-        hint = did_you_mean(tunable[:40], known)
         summary = f"no commit up to here gives {component}.{tunable[:40]} a value"
-        return error("unknown-tunable", summary, hint=hint or f"{component} has {', '.join(known)}", address=component)
+        return error("unknown-tunable", summary, hint=did_you_mean(tunable[:40], known), address=component)
     hint = did_you_mean(component[:40], {at[0] for at in rows})
     summary = f"neither the lab nor its history has a component `{component[:40]}`"
-    return error("unknown-component", summary, hint=hint or "`pico blame` lists them")
+    return error("unknown-component", summary, hint=hint or "`pico blame` lists what there is")
 
 
 class _Turns:
