@@ -203,8 +203,7 @@ class AsyncBench(Drawings):
         revision's own lab differs.
         """
         if not isinstance(revision, str):
-            revision.write()
-            self.folder.reload()
+            revision.write(self.folder)
             return ()
         bench = self.setup
         self.folder.history().checkout(revision)

@@ -18,8 +18,9 @@ def merge(folder: LabFolder, revision: str, message: str = "") -> MergeMade:
 
     The merged state must be one to which the bench could be brought from the state at HEAD. Raises PicoError.
     """
-    before = folder.committed()
-    return merge_revision(folder, revision, lambda merged: impossible(merged, before), message)
+    with folder.writing("pico merge"):
+        before = folder.committed()
+        return merge_revision(folder, revision, lambda merged: impossible(merged, before), message)
 
 
 def impossible(merged: Manifests, before: LabState | None) -> tuple[Diagnostic, ...]:

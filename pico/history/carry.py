@@ -17,6 +17,7 @@ from pico.history.folder import LabFolder
 from pico.history.merge_commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
 from pico.history.merge_trees import blobs, manifest_tree, opened, unite_trees
 from pico.history.trailers import with_trailers
+from pico.history.underway import underway
 from pico.history.write_files import write_files
 from pico.manifest.load import Manifests
 from pico.model.diff import Change
@@ -86,7 +87,22 @@ def _carry(
     folder: LabFolder, revisions: Sequence[str], way: Way, check: Check, mainline: int | None, message: str | None
 ) -> list[Carried]:
     """Compute every step in memory, then write; `message` is None where nothing is to be committed."""
+    with folder.writing(f"pico {way}"):
+        _refuse_unfit(folder, way)
+        steps = _steps(folder, revisions, way, check, mainline)
+        return [_write(folder, step, message) for step in steps]
+
+
+def _refuse_unfit(folder: LabFolder, way: Way) -> None:
+    """Raise PicoError where edits would be lost, or where git has begun something else here."""
+    begun = underway(folder.history().own)
+    if begun not in ("", "rebase"):
+        hint = f"`pico commit` ends it, `git {begun} --abort` takes it back"
+        raise PicoError(error("git-merging", f"a {begun} is under way: no {way} before it has ended", hint=hint))
     folder.refuse_edits()
+
+
+def _steps(folder: LabFolder, revisions: Sequence[str], way: Way, check: Check, mainline: int | None) -> list[_Step]:
     repository = folder.history()
     handle = opened(repository.root)
     head = repository.resolve("HEAD")
@@ -94,7 +110,7 @@ def _carry(
     steps: list[_Step] = []
     for revision in revisions:
         steps.append(_step(folder, handle, head, steps[-1].after if steps else onto, revision, way, mainline, check))
-    return [_write(folder, handle, step, message) for step in steps]
+    return steps
 
 
 def _listed(folder: LabFolder, revision: str) -> list[str]:
@@ -140,18 +156,19 @@ def _parent(folder: LabFolder, commit: Commit, name: str, mainline: int | None) 
     return sides[(mainline or 1) - 1] if sides else None
 
 
-def _write(folder: LabFolder, handle: Any, step: _Step, message: str | None) -> Carried:
+def _write(folder: LabFolder, step: _Step, message: str | None) -> Carried:
     """Write what a step changes, and commit that and nothing else; where git refuses, the files are put back."""
     done = Carried(
         way=step.way, of=step.commit.id, name=step.name, summary=step.commit.summary, diagnostics=step.diagnostics
     )
     if step.before == step.after:
         return done
-    repository = folder.history()
+    root, scratch = folder.history().root, folder.root / ".pico"
+    handle = opened(root)
     old, new = (blobs(handle[tree]) for tree in (step.before, step.after))
     paths = sorted(p for p in old.keys() | new.keys() if old.get(p) != new.get(p))
-    _refuse_ignored(repository.root, [p for p in paths if p not in old])
-    write_files(repository.root, {p: handle[new[p]].data if p in new else None for p in paths})
+    _refuse_ignored(root, [p for p in paths if p not in old])
+    write_files(root, {p: handle[new[p]].data if p in new else None for p in paths}, scratch)
     folder.reload()
     changes = folder.diff("HEAD") if message is None else ()
     made = None
@@ -159,7 +176,7 @@ def _write(folder: LabFolder, handle: Any, step: _Step, message: str | None) -> 
         try:
             made = _commit(folder, step, paths, message)
         except PicoError:
-            write_files(repository.root, {p: handle[old[p]].data if p in old else None for p in paths})
+            write_files(root, {p: handle[old[p]].data if p in old else None for p in paths}, scratch)
             folder.reload()
             raise
         changes = folder.entry(made).changes

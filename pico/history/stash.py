@@ -49,6 +49,10 @@ class Stash:
 
         `message`: what to call them; without it what they change on the table.
         """
+        with self.folder.writing("pico stash"):
+            return self._push(message)
+
+    def _push(self, message: str) -> Shelf | None:
         paths = self.repository.changed(self.folder.root)
         if not paths:
             return None
@@ -68,10 +72,11 @@ class Stash:
         tunable was changed since they were shelved.
         """
         shelf = self._find(name)
-        self._refuse_conflicts(shelf)
-        words = ["stash", "pop", "--quiet", f"stash@{{{shelf.number}}}"]
-        git.run(self.repository.root, words, doing="bring the edits back")
-        self.folder.reload()
+        with self.folder.writing("pico stash pop"):
+            self._refuse_conflicts(shelf)
+            words = ["stash", "pop", "--quiet", f"stash@{{{shelf.number}}}"]
+            git.run(self.repository.root, words, doing="bring the edits back")
+            self.folder.reload()
         return shelf
 
     def drop(self, name: str = "") -> Shelf:

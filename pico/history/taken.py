@@ -21,18 +21,26 @@ from pico.model.state import ComponentState, LabState
 
 @dataclass(frozen=True)
 class Taken:
-    """Values of a revision as the manifests would hold them. `files`: those that must be written, by path; `changes`:
-    from the manifests as they are; `manifests`: what the lab then says; `names`: what was asked for."""
+    """Values of a revision as the manifests would hold them. `names`: what was asked for; `files`: those that must be
+    written, by path, and what they hold `before`; `changes`: from the manifests as they are; `manifests`: what the lab
+    then says."""
 
     revision: str
     names: tuple[str, ...]
     files: Mapping[str, bytes]
+    before: Mapping[str, bytes]
     changes: tuple[Change, ...]
     manifests: Manifests
 
-    def write(self) -> None:
-        """Write the files; those that say it already stay as they are."""
-        write_files(Path(), self.files)
+    def write(self, folder: LabFolder) -> None:
+        """Write the files; raises PicoError, nothing written, where one of them was edited since this was computed."""
+        with folder.writing("pico checkout"):
+            now, _ = read_folder(folder.root)
+            other = [path for path, data in self.before.items() if now.get(path) != data]
+            if other:
+                raise PicoError(error("edited", f"{', '.join(other)} was edited meanwhile", hint="try again"))
+            write_files(Path(), self.files, folder.root / ".pico")
+            folder.reload()
 
 
 def take(folder: LabFolder, revision: str, names: Iterable[str]) -> Taken:
@@ -52,7 +60,8 @@ def take(folder: LabFolder, revision: str, names: Iterable[str]) -> Taken:
     changes = diff_states(folder.setup, folder.state, manifests.require()[1])
     if revision not in ("HEAD", "@"):
         _refuse_edited(folder, changes)
-    return Taken(revision, tuple(addresses(named)), written, changes, manifests)
+    before = {path: files[path] for path in written}
+    return Taken(revision, tuple(addresses(named)), written, before, changes, manifests)
 
 
 def entries(

@@ -8,19 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 
-def write_files(root: Path, files: Mapping[str, bytes | None]) -> None:
-    """Write files by path relative to `root`, folders as needed; None takes a file away. Permissions stay."""
+def write_files(root: Path, files: Mapping[str, bytes | None], scratch: Path) -> None:
+    """Write files by path relative to `root`, folders as needed, as `write_file` does; None takes a file away."""
     for name, data in sorted(files.items()):
-        path = root / name
         if data is None:
-            path.unlink(missing_ok=True)
-            continue
-        path.parent.mkdir(parents=True, exist_ok=True)
-        fresh = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-        fresh.write_bytes(data)
-        if path.exists():
-            shutil.copymode(path, fresh)
-        fresh.replace(path)
+            (root / name).unlink(missing_ok=True)
+        else:
+            write_file(root / name, data, scratch)
 
 
 def write_file(path: Path, data: bytes, scratch: Path) -> None:

@@ -23,7 +23,7 @@ from pico.history.last_change import last_change
 from pico.history.merge_markers import Labels
 from pico.history.merge_trees import Union, opened, unite_trees
 from pico.merging import merge
-from pico.restoring import cherry_pick, revert
+from pico.restoring import cherry_pick, revert, take
 
 State = dict[Leaf, float | str]
 
@@ -263,6 +263,22 @@ def test_edits_that_are_not_committed_are_in_the_way_but_nothing_else_is(lab: La
     lab.reload()
     revert(lab, "HEAD")
     assert git("status", "--porcelain") == "A  notebook.txt\n"
+
+
+def test_what_git_has_begun_is_ended_first(lab: LabFolder, git: Git) -> None:
+    git("checkout", "-q", "-b", "right", "main")
+    edit(lab, git, "p1", "y: 420", "y: 421", commit="right")
+    git("checkout", "-q", "e1")
+    lab.reload()
+    git("merge", "-q", "--no-commit", "--no-ff", "right")
+    lab.reload()
+    assert "a merge is under way" in said(refused(lab, lambda: cherry_pick(lab, ["E2-1"])))
+
+
+def test_what_was_edited_meanwhile_is_not_overwritten(lab: LabFolder, git: Git) -> None:
+    found = take(lab, "C3", ["p2"])
+    edit(lab, git, "p1", "angle: 1", "angle: 7")
+    assert "edited meanwhile" in said(refused(lab, lambda: found.write(lab)))
 
 
 def test_written_and_not_committed_where_that_is_asked(lab: LabFolder, git: Git) -> None:
