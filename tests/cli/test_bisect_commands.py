@@ -297,3 +297,12 @@ def test_without_a_bisection_there_is_nothing_to_go_on_with(shel: Path, pico: Pi
     git("bisect", "start")
     assert "git checks files out" in pico("bisect", "continue", *YES).err
     assert main(["bisect", "--help"]) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("branches", [(), ("--merges",)])
+def test_the_planted_commit_among_128_is_found_on_a_bench_of_thirty_parts(branches: tuple[str, ...]) -> None:
+    benchmark = Path(__file__).resolve().parents[2] / "benchmarks" / "bisecting.py"
+    words = [sys.executable, str(benchmark), "--seeds", "1", *branches]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "1 searches, 0 wrong" in done.stdout, done

@@ -25,6 +25,8 @@ ROOM = 92.0
 """Parts stand at least so far apart, so that nothing ever blocks another or its fingers."""
 GROUP, STAY = 6, 12
 """Parts of a sub-assembly, and for how many commits on average it is worked on."""
+GOLDEN = 0.618034
+"""Seeds in a row plant their commits evenly over the history."""
 LIMIT = 960.0
 PROBE, EXPECT = "probe", f"probe.pose.x < {LIMIT:g}"
 """What every commit before the planted one keeps to, and none from it on."""
@@ -57,8 +59,12 @@ class Written:
     commits: list[str] = field(default_factory=list)
 
 
+Tip = tuple[str, State, bool]
+"""The last commit of a branch, its state, and whether it is broken already."""
+
+
 class Parts:
-    """A lab on disk, and what its parts may do: `python` randomness of its own."""
+    """A lab on disk, and what its parts may do."""
 
     def __init__(
         self, folder: Path, seed: int, parts: int = 26, *, standing: int = 11, scattered: bool = False
@@ -154,30 +160,28 @@ def history(
     were worked on at the same time. `main` is checked out at the last."""
     parts = Parts(folder, seed, **lab)
     rng = random.Random(seed + 1000)
-    planted = rng.randrange(1, commits + 1)
+    planted = 1 + int(commits * ((0.5 + seed * GOLDEN) % 1))
     good = parts.commit(parts.start, "everything in storage", [], 0)
     found = Written(folder, good, good, "")
-    tips: list[tuple[str, State, bool]] = [(good, parts.start, False)]
+    tip: Tip = (good, parts.start, False)
     number = 0
 
-    def add(tip: tuple[str, State, bool], only: Callable[[str], bool] = lambda _: True) -> tuple[str, State, bool]:
+    def add(tip: Tip, only: Callable[[str], bool] = lambda _: True) -> Tip:
         nonlocal number
         number += 1
         breaks = number == planted
         broken = tip[2] or breaks
         state = parts.edited(tip[1], only)
-        if breaks or rng.random() < 0.15:
-            state = parts.trembling(state, broken) if only(PROBE) or breaks else state
+        if breaks or (rng.random() < 0.15 and only(PROBE)):
+            state = parts.trembling(state, broken)
         name = parts.commit(state, f"change {number}", [tip[0]], number, expect)
         found.commits.append(name)
         found.first_bad = name if breaks else found.first_bad
         return name, state, broken
 
-    tip = tips[0]
     while number < commits:
-        if merges and number + 8 < commits and rng.random() < 0.2:
-            tip, used = _branched(parts, tip, add, rng, commits - number, planted - number, found, expect)
-            number += used
+        if merges and number + 8 <= commits and rng.random() < 0.2:
+            tip = _branched(parts, tip, add, rng, found, expect)
         else:
             tip = add(tip)
     found.bad = tip[0]
@@ -186,23 +190,21 @@ def history(
 
 
 def _branched(
-    parts: Parts, base: tuple[str, State, bool], add: Callable[..., tuple[str, State, bool]], rng: random.Random,
-    left: int, planted: int, found: Written, expect: str,
-) -> tuple[tuple[str, State, bool], int]:  # fmt: skip
-    """Return the merge of two branches of two to six commits, each with parts of its own, and 1 for its own number."""
+    parts: Parts, base: Tip, add: Callable[..., Tip], rng: random.Random, found: Written, expect: str
+) -> Tip:  # fmt: skip
+    """Return the merge of two branches of two to four commits, each with parts of its own."""
     ours, theirs = base, base
-    for _ in range(rng.randint(2, min(6, (left - 2) // 2))):
-        ours = add(ours, lambda n: n == PROBE or (n[-1].isdigit() and int(n[-1]) % 2 == 0))
-    for _ in range(rng.randint(2, min(6, max(2, left // 2 - 6)))):
-        before = theirs
-        theirs = add(theirs, lambda n: n[-1].isdigit() and int(n[-1]) % 2 == 1)
-        if not parts.fits(_merged(base[1], ours[1], theirs[1])):
-            theirs = (theirs[0], before[1], theirs[2])
+    for _ in range(rng.randint(2, 4)):
+        ours = add(ours, lambda n: n == PROBE or int(n[-1]) % 2 == 0)
+    for _ in range(rng.randint(2, 4)):
+        before, theirs = theirs, add(theirs, lambda n: n != PROBE and int(n[-1]) % 2 == 1)
+        if not parts.fits(_merged(base[1], ours[1], theirs[1])):  # the next commit takes it back
+            places = {**before[1].places, PROBE: theirs[1].places[PROBE]}
+            theirs = (theirs[0], State(places, before[1].angles), theirs[2])
     state = _merged(base[1], ours[1], theirs[1])
-    broken = ours[2] or theirs[2]
     name = parts.commit(state, "merge", [ours[0], theirs[0]], 100_000 + len(found.commits), expect)
     found.commits.append(name)
-    return (name, state, broken), 0
+    return name, state, ours[2] or theirs[2]
 
 
 def _merged(base: State, ours: State, theirs: State) -> State:
