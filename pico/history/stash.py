@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
+from pico.history.attributes import command
 from pico.history.folder import LabFolder
 from pico.history.merge_markers import Labels
 from pico.history.merge_trees import manifest_tree, opened, unite_trees
@@ -74,7 +75,8 @@ class Stash:
         shelf = self._find(name)
         with self.folder.writing("pico stash pop"):
             self._refuse_conflicts(shelf)
-            words = ["stash", "pop", "--quiet", f"stash@{{{shelf.number}}}"]
+            driver = ["-c", f"merge.pico.driver={command()}"]  # also where it is not set for plain git
+            words = [*driver, "stash", "pop", "--quiet", f"stash@{{{shelf.number}}}"]
             git.run(self.repository.root, words, doing="bring the edits back")
             self.folder.reload()
         return shelf

@@ -187,6 +187,15 @@ def test_shelved_edits_unite_with_later_ones_or_are_named(shel: Path, pico: Pico
     assert not dirty() and "right" in pico("stash", "list").out
 
 
+def test_shelved_edits_unite_by_value_where_plain_git_would_not(shel: Path, pico: Pico) -> None:
+    pico("git", "uninstall")
+    edit(TABLE, "      x: 520\n      y: 420", "      x: 530\n      y: 420")
+    pico("stash")
+    edit(TABLE, "      x: 520\n      y: 420", "      x: 520\n      y: 421")
+    git("commit", "-q", "-a", "-m", "neighbor")
+    assert pico("stash", "pop").code == 0 and "      x: 530\n      y: 421" in TABLE.read_text()
+
+
 def test_dropped_edits_can_be_had_again(shel: Path, pico: Pico) -> None:
     edit(TABLE, "      x: 520", "      x: 530")
     pico("stash")
