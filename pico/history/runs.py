@@ -6,9 +6,10 @@ the tip, so the history is looked through: every commit whose `runs` folder diff
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
@@ -17,6 +18,7 @@ from pico.history.repository import Repository
 from pico.model.run import RunDocument
 from pico.trace.read import read_document
 
+_PLACE = re.compile(r"\d{4}/\d{2}/")
 SLACK = 86400.0
 """Seconds by which the clocks of two machines may differ."""
 
@@ -169,11 +171,13 @@ class _Trees:
     def added(self, commit: Any) -> tuple[RunPlace, ...]:
         """Return the runs that a commit has and none of its parents."""
         own = self._runs(commit)
-        before = [self._runs(parent) for parent in self._parents(commit)]
-        if own is None or any(b is not None and b.id == own.id for b in before):
+        before = [found for parent in self._parents(commit) if (found := self._runs(parent)) is not None]
+        if own is None or any(b.id == own.id for b in before):
             return ()
-        known = {name for b in before if b is not None for name in self._listed(b)}
-        return tuple(place for place in self.places(commit).values() if place.id not in known)
+        if not before:
+            return tuple(self.places(commit).values())
+        fresh = set.intersection(*(_fresh(b, own) for b in before))
+        return tuple(RunPlace(n[8:], f"runs/{n}", str(own[n].id), str(commit.id)) for n in sorted(fresh))
 
     def places(self, commit: Any) -> dict[str, RunPlace]:
         """Return the runs that a commit has, by id."""
@@ -201,6 +205,8 @@ class _Trees:
         for year in _folders(tree):
             for month in _folders(year):
                 at = f"runs/{year.name}/{month.name}"
+                if not _PLACE.fullmatch(f"{year.name}/{month.name}/"):
+                    continue
                 found |= {name: (f"{at}/{name}", own) for name, own in self._month(month).items()}
         return found
 
@@ -209,6 +215,12 @@ class _Trees:
         if key not in self._known:
             self._known[key] = {run.name: str(run.id) for run in _folders(tree)}
         return self._known[key]
+
+
+def _fresh(before: Any, own: Any) -> set[str]:
+    """Return the runs, as `2026/11/<id>`, that one `runs` folder has and another has not."""
+    paths = (PurePosixPath(delta.new_file.path).parts for delta in before.diff_to_tree(own).deltas)
+    return {name for p in paths if len(p) == 4 and _PLACE.match(name := "/".join(p[:3])) and name not in before}
 
 
 def _folders(tree: Any) -> list[Any]:
