@@ -45,7 +45,7 @@ class CommitDiffs:
 
         With `names`, only what these components do is looked for; files that don't name them are not read.
         """
-        if not commit.parents:
+        if not commit.parents or commit.parents[0] not in self._git:
             return self.folder.entry(commit)
         try:
             return Entry(commit=commit, changes=self.changes(commit.parents[0], commit.id, names=names))
@@ -71,9 +71,11 @@ class CommitDiffs:
         return diff_states(_small(self._bench(key)[0], states), states[0], states[1])
 
     def files(self, commit: str) -> Files:
-        """Return the manifests of a commit (its id)."""
+        """Return the manifests of a commit (its id); none of one that a shallow clone does not have."""
         import pygit2
 
+        if commit not in self._git:
+            return {}
         tree = self._git[commit].tree
         try:
             tree = tree[self._inside] if self._inside else tree
