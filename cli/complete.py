@@ -93,7 +93,7 @@ GROUPS = {
     "catalog": ("list", "show"),
     "git": ("install", "uninstall"),
     "runs": ("list", "show", "compare"),
-    "data": ("status", "push", "pull", "fsck", "gc"),
+    "data": ("status", "push", "pull", "fsck", "gc", "pointers"),
 }
 FIXED = {
     "--backend": ("sim", "hardware"),

@@ -27,7 +27,9 @@ app = typer.Typer(
 _UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 Place = Annotated[
     str | None,
-    typer.Argument(metavar="FOLDER|URL", help="Where copies are; without it what `git config pico.data.remote` says."),
+    typer.Argument(
+        metavar="FOLDER|URL|lfs", help="Where copies are; without it what `git config pico.data.remote` says."
+    ),
 ]
 
 
@@ -91,6 +93,20 @@ def gc(
     return ExitCode.DONE
 
 
+@app.command()
+def pointers(
+    context: typer.Context,
+    runs: Annotated[list[str] | None, typer.Argument(metavar="[RUN]...", help="Without: all in the files.")] = None,
+) -> int:
+    """Write Git LFS pointers for the data of runs beside them, for you to commit, and hand git-lfs the data."""
+    from pico.manifest.load import find_lab
+
+    session = Session.of(context)
+    found = _data(session).point(find_lab(session.folder), runs or ())
+    session.show(view, found)
+    return ExitCode.DONE
+
+
 def _data(session: Session) -> LabData:
     from pico.data.lab import LabData
 
@@ -99,7 +115,7 @@ def _data(session: Session) -> LabData:
 
 def _at(session: Session, place: str | None) -> str | None:
     """Return a folder as seen from where the command was called."""
-    return place if place is None or "://" in place else str((session.folder / place).absolute())
+    return place if place in (None, "lfs") or "://" in str(place) else str((session.folder / place).absolute())
 
 
 def _move(session: Session, doing: str, done: str, move: Callable[[Shared], Moved]) -> int:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from pico.data.needs import Need
+from pico.data.pointers import Pointed
 from pico.data.transfer import Holdings, Moved
 from pico.data.upkeep import Checked, Garbage
 from pico.model.record import as_json
 
 from .style import columns, count, listed, paint
 
-Found = Holdings | Moved | Checked | Garbage
+Found = Holdings | Moved | Checked | Garbage | Pointed
 _SHOWN = 20
 """Objects that are named one by one."""
 
@@ -22,17 +23,21 @@ def text(found: Found, *, done: str = "", freed: int | None = None) -> str:
         return _holdings(found)
     if isinstance(found, Moved):
         return _moved(found, done)
+    if isinstance(found, Pointed):
+        return _pointed(found)
     return _checked(found) if isinstance(found, Checked) else _garbage(found, freed)
 
 
 def data(found: Found, *, done: str = "", freed: int | None = None) -> dict[str, Any]:
-    """Return schema `pico.data/v1`; `kind` says of what: `status`, `sent`, `fetched`, `fsck` or `gc`."""
+    """Return schema `pico.data/v1`; `kind` says of what: `status`, `sent`, `fetched`, `fsck`, `gc` or `pointers`."""
     if isinstance(found, Holdings):
         lists = {k: [as_json(n) for n in getattr(found, k)] for k in ("unsent", "absent", "lost")}
         needs = [as_json(n) for n in found.needs.values()]
         content = {"kind": "status", "place": found.place, "needs": needs, **lists, "spare": dict(found.spare)}
     elif isinstance(found, Moved):
         content = {"kind": done, **as_json(found)}
+    elif isinstance(found, Pointed):
+        content = {"kind": "pointers", **as_json(found)}
     elif isinstance(found, Checked):
         damaged = [_known(name, found) for name in found.damaged]
         missing = [as_json(n) for n in found.missing]
@@ -126,6 +131,18 @@ def _garbage(found: Garbage, freed: int | None) -> str:
     if freed is not None:
         return f"Removed {count(len(found.removable), 'object')}, {size(freed)} freed{young}."
     return f"{count(len(found.removable), 'object')} that nothing here needs, {size(found.size)}{young}."
+
+
+def _pointed(found: Pointed) -> str:
+    if not found.files:
+        return "No pointer to write: no run here has data that is not pointed at."
+    paths = ".gitattributes runs" if found.attributes else "runs"
+    block = [*found.files[:_SHOWN], *([f"and {len(found.files) - _SHOWN} more"] if len(found.files) > _SHOWN else [])]
+    block.append(f"{count(len(found.files), 'pointer')} written, for {size(found.size)}.")
+    block.append(
+        f'Commit them: `git add {paths} && git commit -m "data by LFS"`; `git push` with git-lfs sends the data.'
+    )
+    return "\n".join(block)
 
 
 def _known(name: str, found: Checked) -> dict[str, Any]:

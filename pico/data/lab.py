@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from pico.data.needs import Needs, kept_needs, needs
 from pico.data.places import SETTING, Place, configured, place_of
+from pico.data.pointers import Pointed, write_pointers
 from pico.data.transfer import Holdings, Moved, Shared, holdings, pull, push
 from pico.data.upkeep import Checked, Garbage, check, garbage, remove
 from pico.diagnostics import PicoError, error
@@ -23,7 +25,8 @@ def _quiet(_: float) -> None:
 class LabData:
     """The store that the worktrees of a repository share, and the place that keeps copies. Methods raise PicoError.
 
-    `place`: a folder or URL, instead of the one that `git config pico.data.remote` names. `shared` hears how far it is.
+    `place`: a folder, an URL or `lfs`, instead of the one that `git config pico.data.remote` names. `shared` hears how
+    far it is.
     """
 
     def __init__(self, repository: Repository) -> None:
@@ -70,6 +73,10 @@ class LabData:
     def remove(self, found: Garbage, grace: float = GRACE) -> int:
         """Remove what `garbage` found, except what is needed by now; return the bytes that this freed."""
         return remove(self.store, found, kept_needs(self.repository), grace)
+
+    def point(self, lab: Path, runs: Sequence[str] = ()) -> Pointed:
+        """Write Git LFS pointers beside the runs of a lab, for a commit; see `write_pointers`."""
+        return write_pointers(self.repository, lab, self.store, runs)
 
     def _place(self, word: str | None) -> Place:
         found = place_of(self.repository, word)

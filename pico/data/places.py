@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +16,9 @@ from pico.trace.store import CHUNK, Store
 
 SETTING = "pico.data.remote"
 """What `git config` calls the place; local, for a repository must not say where somebody's data goes."""
+
+LFS = "lfs"
+"""The place where git-lfs keeps what it fetched, and what it will push."""
 
 Heard = Callable[[int], None]
 """Is told how many more bytes are through."""
@@ -39,11 +43,16 @@ class Place(Protocol):
 
 
 def place_of(repository: Repository, word: str | None) -> Place | None:
-    """Return the place that `word` names (a folder or an URL such as `s3://bucket/lab`), else the one configured, or
-    None where there is none. A relative folder counts from the top of the working tree. Raises PicoError."""
+    """Return the place that `word` names (a folder, an URL such as `s3://bucket/lab`, or `lfs`), else the one
+    configured, or None where there is none. A relative folder counts from the top of the working tree.
+
+    Raises PicoError.
+    """
     word = word or configured(repository)
     if not word:
         return None
+    if word == LFS:
+        return LfsObjects(repository)
     if "://" in word:
         return Bucket(word)
     folder = (repository.root / Path(word).expanduser()).resolve()
@@ -76,6 +85,31 @@ class Folder:
 
     def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
         _copy(sha256, self._store, store, heard)
+
+
+class LfsObjects:
+    """The objects of git-lfs in a repository: `lfs/objects/aa/bb/<hash>` in the folder that its worktrees share. Those
+    of pointers that are committed go with `git lfs push` and come with `git lfs fetch`."""
+
+    def __init__(self, repository: Repository) -> None:
+        self._root = repository.common / "lfs" / "objects"
+        self.name = str(self._root)
+
+    def present(self, wanted: Needs) -> frozenset[str]:
+        return frozenset(n.sha256 for n in wanted.values() if self._path(n.sha256).is_file())
+
+    def send(self, sha256: str, store: Store, heard: Heard) -> None:
+        path = self._path(sha256)
+        with store.open(sha256) as file:
+            if not path.is_file():
+                _write(path, _heard(file, heard))
+
+    def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
+        with self._path(sha256).open("rb") as file:
+            store.put(_heard(file, heard), expected=sha256)
+
+    def _path(self, sha256: str) -> Path:
+        return self._root / sha256[:2] / sha256[2:4] / sha256
 
 
 class Bucket:
@@ -133,6 +167,21 @@ class Bucket:
 def _copy(sha256: str, source: Store, target: Store, heard: Heard) -> None:
     with source.open(sha256) as file:
         target.put(_heard(file, heard), expected=sha256)
+
+
+def _write(path: Path, pieces: Iterator[bytes]) -> None:
+    """Write a file so that it is there whole or not at all."""
+    fresh = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with fresh.open("wb") as file:
+            file.writelines(pieces)
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(path)
+    except OSError as exc:
+        fresh.unlink(missing_ok=True)
+        raise PicoError(error("data-io", f"{path} can't be written: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
 def _heard(file: BinaryIO | Any, heard: Heard) -> Iterator[bytes]:

@@ -113,7 +113,7 @@ def _run(revision: Revision, run: PublishedRun) -> Iterator[Entity]:
     own = next((s["@id"] for s in software if s["name"] == "pico"), "#pico")
     needed = [s["@id"] for s in software if s["@id"] != own]
     pico = _software("pico", document.versions.get("pico", "unknown")) | {"@id": own}
-    yield pico | ({"softwareRequirements": _refs(needed)} if needed else {})
+    yield pico | ({"softwareRequirements": [_ref(name) for name in needed]} if needed else {})
     bench = _bench(revision, document)
     yield bench
     done = document.outcome == "done"
@@ -154,11 +154,12 @@ def _bench(revision: Revision, run: RunDocument) -> Entity:
 
 
 def _software(name: str, version: str) -> Entity:
-    where = {"url": f"https://pypi.org/project/{name}/"} if name not in ("pico", "python") else {}
-    if name == "python":
-        where = {"url": "https://www.python.org/"}
-    identity = f"#{_slug(name)}-{_slug(version)}"
-    return {"@id": identity, "@type": "SoftwareApplication", "name": name, "softwareVersion": version, **where}
+    entity = {"@type": "SoftwareApplication", "name": name, "softwareVersion": version}
+    if name in ("pico", "python"):
+        where = {"url": "https://www.python.org/"} if name == "python" else {}
+        return {"@id": f"#{_slug(name)}-{_slug(version)}", **entity, **where}
+    url = f"https://pypi.org/project/{quote(name)}/{quote(version)}/"
+    return {"@id": url, **entity, "url": url}
 
 
 def _license(revision: Revision) -> Iterator[Entity]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
@@ -12,10 +11,10 @@ from pico.history.folder import LabFolder
 from pico.history.runs import CarriedRun, files_at, runs_added, runs_at
 from pico.model.run import Artifact, RunDocument
 from pico.publishing.parts import File, PublishedRun, file
+from pico.trace.artifacts import artifact_paths
 from pico.trace.run import intact, run_folder
 from pico.trace.store import Store, missing
 
-_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _SAID = {"run.json": "what the run was", "trace.jsonl": "what it did", "measurements.jsonl": "what it measured"}
 
 
@@ -66,12 +65,6 @@ def _said(path: str, run: RunDocument) -> str:
 
 
 def _artifacts(run: RunDocument) -> Iterator[File]:
-    """Yield the artifacts of a run under names that are nothing but names; two of one name are told apart."""
-    taken: set[str] = set()
-    for artifact in run.artifacts:
-        name = _UNSAFE.sub("_", artifact.name).lstrip(".") or "artifact"
-        name = f"{artifact.sha256[:8]}-{name}" if name in taken else name
-        taken.add(name)
+    for path, artifact in artifact_paths(run).items():
         said = f"{artifact.name} of run {run.id}{f': {artifact.component}' if artifact.component else ''}"
-        path = f"{run_folder(run)}/artifacts/{name}"
         yield File(path=path, name=said, media_type=artifact.media_type, sha256=artifact.sha256, size=artifact.size)

@@ -319,3 +319,37 @@ def test_gc_removes_nothing_while_a_bench_can_not_say_what_its_runs_need(lab: Pa
     assert f"nobody can tell what the runs of the bench in {lab} need still" in answer.err
     assert stored(lab) == {orphan}
     (lab / "lab.yaml").write_text(text)
+
+
+def test_pointers_are_as_git_lfs_writes_them_and_its_objects_come_back(lab: Path, tmp_path: Path, pico: Pico) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    assert pico("set", "p1", "angle=12").code == 0
+    assert pico("commit", "-m", "p1 a little").code == 0
+    path = next(lab.glob("runs/*/*/*/run.json"))
+    name = put(lab, b"a frame")
+    document = json.loads(path.read_text())
+    document["artifacts"] = [{"name": "frame.png", "sha256": name, "size": 7, "media_type": "image/png"}]
+    path.write_text(json.dumps(document))
+    git("commit", "-q", "-a", "--amend", "--no-edit")
+    answer = pico("data", "pointers")
+    assert answer.code == 0, answer
+    assert "1 pointer written, for 7 B." in answer.out
+    written = path.parent / "artifacts" / "frame.png"
+    text = f"version https://git-lfs.github.com/spec/v1\noid sha256:{name}\nsize 7\n"
+    assert written.read_bytes() == text.encode()
+    assert "runs/**/artifacts/** filter=lfs diff=lfs merge=lfs -text" in (lab / ".gitattributes").read_text().split(
+        "\n"
+    )
+    object_ = lab / ".git" / "lfs" / "objects" / name[:2] / name[2:4] / name
+    assert object_.read_bytes() == b"a frame"
+    assert pico("data", "pointers").out.startswith("No pointer to write")
+    LabData.discover(lab).store.remove(name)
+    assert pico("data", "pull", "lfs", "--json").data["objects"][0]["sha256"] == name
+    assert LabData.discover(lab).store.get(name) == b"a frame"
+    answer = pico("data", "pointers", "nosuch")
+    assert answer.code == 1
+    assert "there is no run nosuch" in answer.err
+    git("add", ".gitattributes", "runs")
+    git("commit", "-q", "-m", "data by LFS")
+    assert pico("runs", "list").code == 0
+    assert pico("data", "status", "--json").data["absent"] == []
