@@ -14,6 +14,7 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
+from pico.history.merge_fallback import merge_lines
 from pico.history.wrappers import diff_command, text_command
 
 CLEAN, CONFLICT, FAILED = 40, 41, 42
@@ -49,7 +50,7 @@ class Wiring:
 
 
 def command() -> str:
-    """Return the shell command that git runs: PICO's driver, or where that fails in any way, git's own merge.
+    """Return the shell command that git runs: PICO's driver, or where that fails in any way, a merge of lines.
 
     %A is replaced only by a finished result, so that a driver that is missing or killed loses nothing.
     """
@@ -61,7 +62,7 @@ def _rest() -> str:
         "-P -m pico.history.driver %A %A.pico %O %B %L %P %S %X %Y; s=$?; "
         f"test $s -eq {CLEAN} && mv -f %A.pico %A && exit 0; "
         f"test $s -eq {CONFLICT} && mv -f %A.pico %A && exit 1; "
-        "rm -f %A.pico; git merge-file --marker-size=%L -L ours -L base -L theirs %A %O %B"
+        f"rm -f %A.pico; {merge_lines()}"
     )
 
 

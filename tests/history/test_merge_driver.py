@@ -12,6 +12,7 @@ import yaml
 
 from pico.history.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
 from pico.history.driver import CLEAN, CONFLICT, drive
+from pico.history.merge_fallback import merge_lines
 from pico.history.merge_groups import groups_near, groups_of
 
 BASE = """apiVersion: pico/v1
@@ -128,6 +129,36 @@ def test_whatever_becomes_of_the_driver_both_sides_are_in_the_file(sandbox: Sand
     text = sandbox.file.read_text()
     assert "<<<<<<<" in text and ">>>>>>>" in text and "tip: 1.5" in text and "tip: 0.5" in text
     assert not list(sandbox.folder.glob(".merge_file*"))
+
+
+def test_without_python_an_edit_never_ends_up_in_a_part_that_the_other_side_put_beside_it(sandbox: Sandbox) -> None:
+    """Lines alone look alike: git would give the edited yaw of m1 to m2, without a word."""
+    _fail(sandbox, "missing")
+    sandbox.git("checkout", "-q", "-B", "ours", "base")
+    first, rest = BASE.split("    tip")
+    moved = first.replace("y: 20", "y: 25")
+    sandbox.commit(f"{moved}  m2:\n    pose:\n      x: 1800\n      y: 20\n      yaw: 0\n    tip{rest}")
+    sandbox.git("checkout", "-q", "-B", "theirs", "base")
+    sandbox.commit(BASE.replace("yaw: 0", "yaw: 53"))
+    sandbox.git("merge", "-q", "--no-edit", "ours", code=None)
+    text = sandbox.file.read_text()
+    if "<<<<<<<" not in text:
+        parts = yaml.safe_load(text)["components"]
+        assert (parts["m1"]["pose"]["yaw"], parts["m2"]["pose"]["yaw"]) == (53, 0)
+    assert "53" in text and "\037" not in text
+
+
+@pytest.mark.parametrize("text", [b"", b"no newline", b"a\r\nb\r\n", "# µ 45° \x1f\n  x:\n".encode(), b"\xff\xfe\0\n"])
+def test_the_merge_of_lines_leaves_alone_what_nobody_changed(tmp_path: Path, text: bytes) -> None:
+    text = b"apiVersion: pico/v1\n" + text
+    for name in ("A", "O", "B"):
+        (tmp_path / name).write_bytes(text)
+    command = merge_lines().replace("%L", "7")
+    for name in ("A", "O", "B"):
+        command = command.replace(f"%{name}", name)
+    done = subprocess.run(["sh", "-c", command], cwd=tmp_path, capture_output=True, check=False)
+    assert (tmp_path / "A").read_bytes() == text and sorted(p.name for p in tmp_path.iterdir()) == ["A", "B", "O"]
+    assert done.returncode == 0 or b"\0" in text
 
 
 def test_nothing_of_the_repository_is_run_as_the_driver(sandbox: Sandbox) -> None:
