@@ -64,7 +64,7 @@ def commit(folder: LabFolder, seen: Observation, asked: Asked, *, observed: str)
         realized = stands(folder.setup, seen, content.state)
         runs = recording.pending(folder, seen, content.state) if realized else {}
         if not (content.paths or runs or ending):
-            raise PicoError(nothing(named))
+            raise PicoError([*repository.noticed, nothing(named)])
         changes = _changes(folder, content.state)
         message = asked.message
         if message is None:

@@ -199,21 +199,29 @@ class LabFolder:
         if not write:
             return self.preview(live, named)[0]
         with self.writing("pico capture"):
-            captured = self._spliced(live, named)
-            for name, data in sorted(captured.items()):
+            spliced = self._spliced(live, named)
+            found = self._captured(spliced, written=True)[0]
+            for name, data in sorted(spliced.items()):
                 write_file(Path(name), data, self.root / ".pico")
-            before, files = self.state, self._files
             self.reload()
-            return _captured(diff_states(self.setup, before, self.state), files, captured, written=True)
+            return found
 
     def preview(self, live: LabState, named: Named | None = None) -> tuple[Captured, LabState]:
         """Return what a capture would write, and the state that the manifests would then hold; raises PicoError."""
-        captured = self._spliced(live, named)
-        after = load_files(self._files | captured, setup=self.setup).require()[1]
-        return _captured(diff_states(self.setup, self.state, after), self._files, captured, written=False), after
+        return self._captured(self._spliced(live, named), written=False)
 
     def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
         return capture(self._files, self.setup, self.state, live, named)
+
+    def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, LabState]:
+        after = load_files({**self._files, **spliced}, setup=self.setup).require()[1]
+        captured = Captured(
+            changes=diff_states(self.setup, self.state, after),
+            files=tuple(sorted(spliced)),
+            written=written,
+            patch="".join(_patch(name, self._files[name], spliced[name]) for name in sorted(spliced)),
+        )
+        return captured, after
 
     def notes(self, part: str) -> tuple[Note, ...]:
         """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
@@ -250,18 +258,17 @@ class LabFolder:
         """
         require_meta(meta)
         repository = self.history()
-        found: list[Diagnostic] = []
         with self.writing("pico commit"):
             ending = require_resolved(repository.root, repository.own)
             content = contents(self, None if ending else named)
             if not content.paths and not runs and not ending:
-                raise PicoError(nothing(named))
+                raise PicoError([*repository.noticed, nothing(named)])
             written = [write_once(self.root, path, data) for path, data in sorted(runs.items())]
             digest, lab = content.state.digest(), self.setup.lab
             added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
             added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
             text = with_trailers(message, added)
-            made = repository.commit(content.paths, text, ignored=written, whole=bool(ending), diagnostics=found)
+            made = repository.commit(content.paths, text, ignored=written, whole=bool(ending))
         return Committed(
             commit=made.id,
             message=message.strip(),
@@ -273,7 +280,7 @@ class LabFolder:
             evidence=evidence,
             runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
             meta=meta,
-            diagnostics=tuple(found),
+            diagnostics=repository.noticed,
         )
 
 
@@ -304,13 +311,6 @@ def between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Chang
         slots={**bench_a.lab.slots, **bench_b.lab.slots},
     )
     return diff_states(Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog}), state_a, state_b)
-
-
-def _captured(
-    changes: tuple[Change, ...], before: Mapping[str, bytes], after: Mapping[str, bytes], *, written: bool
-) -> Captured:
-    patch = "".join(_patch(name, before[name], after[name]) for name in sorted(after))
-    return Captured(changes=changes, files=tuple(sorted(after)), written=written, patch=patch)
 
 
 def _patch(name: str, before: bytes, after: bytes) -> str:

@@ -13,7 +13,7 @@ import os
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
@@ -42,35 +42,29 @@ class GitFolders:
         return self.own / "pico"
 
     @property
+    def claim(self) -> Path:
+        """What says that the lock of the index is PICO's: another name of the same file."""
+        return self.private / "index.claim"
+
+    @property
     def lock(self) -> Path:
         """Git's lock of the index."""
         return self.index.with_name(self.index.name + ".lock")
 
 
-@dataclass
-class Claim:
-    """The index is ours until the end. `file`: to be inherited by the git commands that are started. `notes`: what was
-    found lying about."""
-
-    file: int
-    notes: list[Diagnostic] = field(default_factory=list)
-
-
 @contextmanager
-def index_lock(at: GitFolders, base: str | None, refs: Sequence[Path]) -> Iterator[Claim]:
-    """Hold the lock of the index, having cleared what a killed `pico commit` left; call it under the lock of writers.
+def index_lock(at: GitFolders, base: str | None, refs: Sequence[Path]) -> Iterator[int]:
+    """Hold the lock of the index; yields the open file that the git commands which are started must inherit.
 
-    `base`: the commit at HEAD; `refs`: the files of the refs that are about to move. Raises PicoError where somebody
-    else holds it for longer than WAIT.
+    Call it under the lock of writers, after `recover`. `base`: the commit at HEAD; `refs`: the files of the refs that
+    are about to move. Raises PicoError where somebody else holds it for longer than WAIT.
     """
-    seconds = WAIT
-    path = at.private / "index.claim"
-    notes = list(_recovered(at, path, seconds))
+    path = at.claim
     file = _claimed(path, base, refs)
     linked = True
     try:
-        linked = _link(at, path, seconds)
-        yield Claim(file, notes)
+        linked = _link(at, path, WAIT)
+        yield file
     finally:
         if not linked or _same(path, at.lock):
             at.lock.unlink(missing_ok=True)
@@ -119,8 +113,15 @@ def _make(lock: Path) -> None:
         raise PicoError(error("folder", f"can't make {lock}: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
+def recover(at: GitFolders) -> tuple[Diagnostic, ...]:
+    """Clear what a killed `pico commit` left, once no git command that it started lives any more; return what that was.
+
+    Call it under the lock of writers. Raises PicoError where such a command goes on for longer than WAIT.
+    """
+    return tuple(_recovered(at, at.claim, WAIT)) if at.claim.exists() else ()
+
+
 def _recovered(at: GitFolders, path: Path, seconds: float) -> Iterator[Diagnostic]:
-    """Clear what a killed `pico commit` left, once no git command that it started lives any more."""
     try:
         file = os.open(path, os.O_RDWR | os.O_CLOEXEC)
     except OSError:
@@ -203,13 +204,15 @@ def _clear_next(own: Path) -> None:
 
 
 def _alive(process: int) -> bool:
+    """Whether a process runs; one that ended and whose parent has not asked yet does not (Linux tells)."""
     try:
         os.kill(process, 0)
+        said = Path(f"/proc/{process}/stat").read_text(errors="replace")
+        return said.rpartition(")")[2].split()[0] != "Z"
     except ProcessLookupError:
         return False
-    except (PermissionError, OverflowError):
+    except (OSError, OverflowError, IndexError):
         return True
-    return True
 
 
 def _same(a: Path, b: Path) -> bool:

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from pico.diagnostics import Diagnostic, PicoError
+from pico.diagnostics import PicoError
 from pico.history import git
-from pico.history.index_lock import Claim, GitFolders, index_lock
+from pico.history.index_lock import GitFolders, index_lock
 
 _SAFE = ("-c", "core.fsync=committed,loose-object,index,reference", "-c", "core.filesRefLockTimeout=5000")
 """Objects, index and refs are on the disk before what refers to them; refs that others hold are waited for."""
@@ -45,8 +45,8 @@ class Landing:
     tidy: bool = True
 
 
-def land(at: GitFolders, what: Landing) -> tuple[Diagnostic, ...]:
-    """Commit, and return what was noticed. Raises PicoError with git's words; index and HEAD are then as they were."""
+def land(at: GitFolders, what: Landing) -> None:
+    """Commit. Raises PicoError with git's words; index and HEAD are then as they were."""
     with index_lock(at, what.head, what.refs) as claim:
         before = at.private / "index.before"
         _copy(at.index, before)
@@ -59,13 +59,11 @@ def land(at: GitFolders, what: Landing) -> tuple[Diagnostic, ...]:
         finally:
             before.unlink(missing_ok=True)
             _list_of(at).unlink(missing_ok=True)
-        notes = tuple(claim.notes)
     if what.tidy:
         git.answer(at.root, ["maintenance", "run", "--auto", "--quiet"])
-    return notes
 
 
-def _stage(at: GitFolders, claim: Claim, what: Landing) -> None:
+def _stage(at: GitFolders, claim: int, what: Landing) -> None:
     """Add to a copy of the index, and let that take the index's place."""
     _copy(at.index, at.private / "index")
     plain = tuple(path for path in what.paths if path not in what.ignored)
@@ -75,7 +73,7 @@ def _stage(at: GitFolders, claim: Claim, what: Landing) -> None:
     (at.private / "index").replace(at.index)
 
 
-def _commit(at: GitFolders, claim: Claim, what: Landing) -> None:
+def _commit(at: GitFolders, claim: int, what: Landing) -> None:
     _copy(at.index, at.private / "index")
     only = ["--only", *_listed(at, what.paths)] if what.partial else []
     arguments = [*_LATER, "commit", "--quiet", "--file=-", *what.options, *only]
@@ -84,7 +82,7 @@ def _commit(at: GitFolders, claim: Claim, what: Landing) -> None:
     (at.private / "index").replace(at.index)
 
 
-def _follow_hooks(at: GitFolders, claim: Claim, what: Landing) -> None:
+def _follow_hooks(at: GitFolders, claim: int, what: Landing) -> None:
     """Let the index have what a hook made of the files: the commit has it, and the index would stage its reversal."""
     asked = ["diff-index", "--cached", "--name-only", "-z", "HEAD"]
     differ = set(_git(at, claim, asked, doing="read the index").split("\0")) & set(what.paths)
@@ -104,12 +102,10 @@ def _put_back(at: GitFolders, before: Path, head: str | None) -> None:
 
 
 def _git(
-    at: GitFolders, claim: Claim, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None
+    at: GitFolders, claim: int, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None
 ) -> str:
     extra = {"GIT_INDEX_FILE": str(at.private / "index")}
-    return git.run(
-        at.root, [*_SAFE, *arguments], doing=doing, stdin=stdin, hook=hook, extra=extra, inherit=(claim.file,)
-    )
+    return git.run(at.root, [*_SAFE, *arguments], doing=doing, stdin=stdin, hook=hook, extra=extra, inherit=(claim,))
 
 
 def _listed(at: GitFolders, paths: Sequence[str]) -> tuple[str, str]:

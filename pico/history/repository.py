@@ -13,7 +13,7 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
-from pico.history.index_lock import GitFolders
+from pico.history.index_lock import GitFolders, recover
 from pico.history.landing import Landing, land
 from pico.history.revisions import BRANCHES, TAGS, find, names_at
 from pico.history.trees import collect, folder_id, is_manifest
@@ -44,6 +44,7 @@ class Repository:
         self._git = handle
         self.root = root
         self._writing = False
+        self.noticed: tuple[Diagnostic, ...] = ()
 
     @classmethod
     def discover(cls, path: Path) -> Repository | None:
@@ -229,14 +230,13 @@ class Repository:
         author: tuple[str, datetime] | None = None,
         ignored: Iterable[str | Path] = (),
         whole: bool = False,
-        diagnostics: list[Diagnostic] | None = None,
     ) -> Commit:
         """Commit `paths` and nothing else that is staged, and return the commit; hooks run, signing as configured.
 
         Killed at any instant, the repository is as before or has the commit (`pico.history.landing`). `author`: whose
         change it is, and when it was made, where that is not now by whoever commits. Files in `ignored` count though
-        .gitignore may name them. `whole`: all that is staged, as a merge needs it. `diagnostics`: what was noticed is
-        appended. Raises PicoError with git's words: no identity, a hook that refuses, a lock, nothing to commit.
+        .gitignore may name them. `whole`: all that is staged, as a merge needs it. Raises PicoError with git's words:
+        no identity, a hook that refuses, a lock, nothing to commit.
         """
         if not message.strip():
             raise PicoError(error("message", "a commit needs a message", hint='say why: `pico commit -m "..."`'))
@@ -252,16 +252,15 @@ class Repository:
                 partial=not whole, tidy=self._on("maintenance.auto"),
                 options=(f"--author={author[0]}", f"--date={author[1].isoformat()}") if author else (),
             )  # fmt: skip
-            found = land(GitFolders(root=self.root, own=own, common=self.common, index=git.index(self.root, own)), what)
-        if diagnostics is not None:
-            diagnostics += found
+            land(self._folders(), what)
         return self.resolve("HEAD")
 
     @contextmanager
     def writing(self, doing: str) -> Iterator[None]:
         """Be the only one who by PICO writes manifests and commits in this repository and its worktrees.
 
-        Who is inside may enter again. Raises PicoError, naming who is, where another one takes too long.
+        What a killed one left is cleared away, and `noticed`. Who is inside may enter again. Raises PicoError, naming
+        who is, where another one takes too long.
         """
         if self._writing:
             yield
@@ -269,9 +268,14 @@ class Repository:
         with write_lock(self.common / "pico" / "write.lock", doing):
             self._writing = True
             try:
+                self.noticed = recover(self._folders())
                 yield
             finally:
                 self._writing = False
+
+    def _folders(self) -> GitFolders:
+        own = self.own
+        return GitFolders(root=self.root, own=own, common=self.common, index=git.index(self.root, own))
 
     def _on(self, name: str) -> bool:
         """Return a switch of git's configuration that is on unless it is turned off."""
