@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pico.backends.sim.table import SimulatedTable
     from pico.history.taken import Taken
     from pico.manifest.load import Manifests
+    from pico.model.state import LabState
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
@@ -127,7 +128,7 @@ class AsyncBench(Drawings):
         here = manifests or self.folder.manifests
         manifests = self.folder.manifests_at(revision) if revision else here
         commit = self.folder.history().resolve(revision).id if revision else None
-        _, wanted = manifests.require()
+        wanted = self._goal(manifests, revision, targets)
         seen = await self.observe()
         found = plan(
             self.setup,
@@ -153,6 +154,11 @@ class AsyncBench(Drawings):
         )
         calibration = calibration_digest(self.root)
         return self.judged(replace(found, calibration=calibration).sealed() if calibration else found, seen)
+
+    def _goal(self, manifests: Manifests, revision: str | None, targets: Collection[str]) -> LabState:
+        from pico.history.taken import state_for
+
+        return state_for(self.folder, manifests, revision, targets) if revision and targets else manifests.require()[1]
 
     def judged(self, plan: Plan, seen: Observation) -> Plan:
         """Return the plan with what the policy of the lab says of it."""

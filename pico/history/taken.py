@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
@@ -17,6 +17,8 @@ from pico.model.address import addresses, holds, read_addresses
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
 from pico.model.state import ComponentState, LabState
+
+_GONE = ("unknown-component", "unknown-slot")
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,21 @@ def take(folder: LabFolder, revision: str, names: Iterable[str]) -> Taken:
         _refuse_edited(folder, changes)
     before = {path: files[path] for path in written}
     return Taken(revision, tuple(addresses(named)), written, before, changes, manifests)
+
+
+def state_for(folder: LabFolder, manifests: Manifests, revision: str, names: Iterable[str]) -> LabState:
+    """Return the state of a revision, whose `manifests` were read against this bench, for a plan for `names` only.
+
+    Other parts and slots that the bench has no more are no obstacle: they are left out. Raises PicoError.
+    """
+    named = read_addresses(folder.setup, names)
+    wrong = [d for d in manifests.diagnostics if d.severity == "error"]
+    gone = [d for d in wrong if d.code in _GONE and d.address.partition(".")[0] not in named]
+    if not wrong or len(gone) < len(wrong):
+        return manifests.require()[1]
+    lab, state = folder.setup.lab, folder.historic(revision)[1]
+    parts = {n: p for n, p in state.components.items() if n in lab.inventory and (not p.slot or p.slot in lab.slots)}
+    return replace(state, components=parts)
 
 
 def entries(

@@ -62,6 +62,17 @@ def test_a_component_comes_back_into_the_file_that_the_revision_has_it_in(shel: 
     assert git("diff", "--name-only") == "state/extra.yaml\n"
 
 
+def test_parts_that_the_bench_has_no_more_are_in_nobodys_way(shel: Path, pico: Pico) -> None:
+    edit(Path("lab.yaml"), "  lx_125:\n    type: plano_convex_125\n    marker: 5\n    home: storage/a3\n", "")
+    edit(TABLE, "  lx_125:\n    slot: storage/a3\n", "")
+    git("commit", "-q", "-a", "-m", "lx_125 broke")
+    assert pico("plan", "e1").code == 1
+    answer = pico("apply", "e1", "--auto-approve", "--", "p2")
+    assert answer.code == 0 and "only p2" in answer.out and "lx_125" not in answer.err
+    assert pico("checkout", "e1", "--files-only", "--", "p2").code == 0 and "yaw: 30" in TABLE.read_text()
+    assert "no component `lx_125`" in pico("plan", "e1", "--", "lx_125").err
+
+
 def test_one_tunable_is_taken_and_comments_stay(shel: Path, pico: Pico) -> None:
     edit(TABLE, "    angle: 90\n", "    angle: 90.0  # crossed\n")
     edit(TABLE, "exposure: 10", "exposure: 11")
