@@ -61,7 +61,7 @@ def recorded(setup: Setup, kept: Kept) -> Recorded:
     earlier = [r for r in kept.records if _resumption(r) < kept.part]
     before = state_left(setup, state_from_json(name, plan["base"]["state"]), earlier)
     after = state_seen(setup, kept.seen["components"]) if kept.seen else state_left(setup, before, own)
-    trace = trace_events(own)
+    trace, observed = trace_events(own), after.digest()
     about = kept.about[min(kept.part, len(kept.about) - 1)] if kept.about else {}
     document = RunDocument(
         id=kept.id,
@@ -69,10 +69,8 @@ def recorded(setup: Setup, kept: Kept) -> Recorded:
         lab=LabRef(**plan["lab"]),
         parent=plan["base"].get("commit"),
         state_before=before.digest(),
-        state_after=_reached(kept) or after.digest(),
-        observed=Seen(
-            at=kept.seen["at"] if kept.seen else own[-1].at, state=after.digest(), looked=kept.seen is not None
-        ),
+        state_after=_reached(kept) or observed,
+        observed=Seen(at=kept.seen["at"] if kept.seen else own[-1].at, state=observed, looked=kept.seen is not None),
         plan=plan["digest"],
         goal=_goal(plan),
         goal_commit=plan["target"].get("commit"),

@@ -10,7 +10,7 @@ from pico.history.repository import Repository
 from pico.history.runs import CarriedRun, places_in_history, read_carried
 from pico.model.record import record
 from pico.model.run import RunDocument
-from pico.recording.pending import unrecorded
+from pico.recording.uncommitted import unrecorded
 
 
 @record

@@ -12,7 +12,7 @@ from pico.history.runs import RunPlace, files_at, places_in_history, read_place
 from pico.model.record import record
 from pico.model.run import Artifact, RunDocument, TraceEvent
 from pico.recording.document import Recorded
-from pico.recording.pending import unrecorded
+from pico.recording.uncommitted import unrecorded
 from pico.trace.operations import OperationRun, operations
 from pico.trace.read import read_events
 from pico.trace.run import MEASUREMENTS, TRACE, intact, run_folder
