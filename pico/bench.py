@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
     from pico.bisecting import Bisection
+    from pico.data.lab import LabData
     from pico.history.carry import Carried
     from pico.history.merge_commits import MergeMade
     from pico.history.stash import Stash
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from pico.imports import Imported
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
+    from pico.publishing import Published
     from pico.recording.comparing import Comparison
     from pico.recording.listing import Listed
     from pico.recording.loading import Loaded
@@ -304,6 +306,19 @@ class Bench(Reader):
         from pico.merging import merge
 
         return merge(self.folder, revision, message)
+
+    @property
+    def data(self) -> LabData:
+        """The large data of the lab's runs: what is needed, here and where copies are kept; see `pico.data.lab`."""
+        from pico.data.lab import LabData
+
+        return LabData(self.folder.history())
+
+    def publish(self, revision: str = "HEAD", out: Path | None = None, **options: Any) -> Published:
+        """Write a revision with its runs and pictures as an RO-Crate; see `pico.publishing.publish`."""
+        from pico.publishing import publish
+
+        return publish(self.folder, revision, out, **options)
 
     def revert(self, revision: str, message: str = "", *, mainline: int | None = None, commit: bool = True) -> Carried:
         """Take back what a revision changed, in the manifests; see `pico.restoring`."""

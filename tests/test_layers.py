@@ -57,6 +57,7 @@ LAYERS: dict[str, set[str]] = {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
         "vision", "twin", "backends", "execution", "pictures", "async_bench", "takeup", "merging", "saved", "watching",
         "scans", "imports", "committing", "restoring", "bisecting", "recording",
+        "data", "publishing",
     },
 }  # fmt: skip
 

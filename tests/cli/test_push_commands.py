@@ -162,3 +162,34 @@ def test_on_a_terminal_git_shows_its_progress_itself(shel: Path, origin: Path) -
     assert done.returncode == 0, seen
     assert "Writing objects" in seen
     assert "main  →  main" in done.stdout
+
+
+def test_runs_and_their_data_go_through_a_bare_repository_and_survive_rebase_and_squash(
+    shel: Path, origin: Path, share: Path, tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pico.trace.run.INLINE", 1000)  # bytes: every trace is large then
+    git("switch", "-q", "-c", "work")
+    assert pico("apply", "--auto-approve").code == 0
+    assert pico("set", "p1", "angle=12").code == 0
+    assert pico("commit", "-m", "p1 a little").code == 0
+    assert pico("set", "p1", "angle=13").code == 0
+    assert pico("commit", "-m", "p1 more").code == 0
+    needed = {n["sha256"] for n in pico("data", "status", "--json").data["needs"]}
+    assert len(needed) >= 2
+    git("switch", "-q", "main")
+    git("commit", "-q", "--allow-empty", "-m", "meanwhile")
+    git("rebase", "-q", "main", "work")
+    git("switch", "-q", "-c", "squashed", "main")
+    git("merge", "-q", "--squash", "work")
+    git("commit", "-q", "-m", "both at once")
+    assert pico("push", "-u", "origin", "squashed").code == 0
+    git("clone", "-q", "-b", "squashed", str(origin), "clone", at=tmp_path)
+    clone = tmp_path / "clone"
+    git("config", "pico.data.remote", str(share), at=clone)
+    assert pico("-C", str(clone), "publish").code == 1  # its data is not here yet
+    assert pico("-C", str(clone), "pull").code == 0
+    assert {n["sha256"] for n in pico("-C", str(clone), "data", "status", "--json").data["needs"]} == needed
+    assert pico("-C", str(clone), "data", "fsck").code == 0
+    made = pico("-C", str(clone), "publish", "--pictures", "none", "--json").data
+    assert {f["sha256"] for f in made["files"] if "/artifacts/" in f["path"]} == needed
+    assert made["evidence"] == "kinematic"
