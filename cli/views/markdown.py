@@ -8,14 +8,15 @@ from collections.abc import Iterable, Sequence
 from .style import plain, shorten
 
 LONGEST = 300
-_SIGIL = re.compile(r"([@#!%$&^~]|://|\bwww\.)(?=\w)")
+_SIGIL = re.compile(r"[@#!%$&^~](?=\w)|:(?=//)|\bwww(?=\.)|\b(?:mailto|xmpp)(?=:)", re.IGNORECASE)
+"""What begins a mention, a reference or a link, cut behind it; `https:` and `//` apart are none to GitHub's parser."""
 _ENTITY, _MARK = re.compile(r"[&<>|\"]"), re.compile(r"[\\`*\[\]~]|(?<![^\W_])_|_(?![^\W_])")
 
 
 def prose(text: str, longest: int = LONGEST) -> str:
     """Return text in one line that reads as written; a zero-width space keeps `@name` and `#1` from being links."""
     line = shorten(" ".join(visible(text).split()), longest)
-    line = _SIGIL.sub("\\1\u200b", line)
+    line = _SIGIL.sub("\\g<0>\u200b", line)
     line = _ENTITY.sub(lambda found: f"&#{ord(found[0])};", line)
     return _MARK.sub(r"\\\g<0>", line)
 

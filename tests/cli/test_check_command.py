@@ -18,7 +18,10 @@ from pico.history.against import Against
 from pico.model.diff import Change
 
 STATE = "state/table.yaml"
-HOSTILE = "a | b @octocat #1 `x` ``` <img src=x> [y](http://z) ![i](j) ~~~ !2 www.evil.org\n## z \u202e\x1b[31m"
+HOSTILE = (
+    "a | b @octocat #1 `x` ``` <img src=x> [y](http://z) ![i](j) ~~~ !2 www.evil.org HTTPS://EVIL.ORG mailto:a@b.org "
+    "a@b.org\n## z \u202e\x1b[31m"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -122,7 +125,7 @@ def outside_code(markdown: str) -> str:
 def test_nothing_that_a_branch_says_mentions_links_embeds_or_breaks_a_table(labs: int) -> None:
     text = outside_code(report(hostile(labs)))
     assert "octocat" in text
-    assert not re.search(r"@\w|(?<!&)#\w|!\w|<(?!!-- pico check -->|details>|summary>|/)|://\w|www\.\w", text)
+    assert not re.search(r"@\w|(?<!&)#\w|!\w|<(?!!-- pico check -->|details>|summary>|/)|://|www\.|mailto:", text)
     assert not re.search(r"(?<!\\)[`\[\]~]", text)
     assert "\u202e" not in text and "\x1b" not in text
     for block in re.findall(r"(?m)(?:^\|.*\n)+", text):
