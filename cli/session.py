@@ -17,6 +17,7 @@ from .waiting import waiting
 if TYPE_CHECKING:
     from pico.bench import Bench
     from pico.diagnostics import Diagnostic
+    from pico.history.reader import Reader
 
 
 class View(Protocol):
@@ -55,6 +56,14 @@ class Session:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
         return bench
+
+    def history(self) -> Reader:
+        """Open the history of this session's lab, also while its manifests are wrong; raises PicoError."""
+        from pico.history.reader import HistoryReader
+
+        reader = HistoryReader(self.folder)
+        self.wire(reader.root)
+        return reader
 
     def wire(self, folder: Path) -> None:
         """Let git merge the manifests by PICO where the repository asks for it; said once."""

@@ -40,7 +40,7 @@ def diff(
     small; `pico plan` knows tolerances and the bench.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.history()
     names = scope_of(context)
     found = bench.compare(a, b, names, at=session.folder)
     step = (
@@ -54,6 +54,6 @@ def diff(
     )  # fmt: skip
     if picture:
         with waiting("Drawing"):
-            bench.render_diff(found.a, found.b, out=session.folder / picture)
+            session.bench().render_diff(found.a, found.b, out=session.folder / picture)
         session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='the difference')}")
     return int(exit_code and not found.same)

@@ -15,7 +15,7 @@ from ..session import Session
 from ..views import log as view
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.history.reader import Reader
 
 Words = Annotated[
     list[str] | None,
@@ -50,7 +50,7 @@ def log(
                                                        ("grep", grep)) if value is not None]  # fmt: skip
     options += [f"--{name}" for name, asked in (("first-parent", first_parent), ("merges", merges),
                                                 ("no-merges", no_merges)) if asked]  # fmt: skip
-    bench = session.bench()
+    bench = session.history()
     _revisions(bench, words)
     found = bench.log(
         *words, every=every or (graph and not words), limit=limit, names=scope_of(context), at=session.folder,
@@ -82,7 +82,7 @@ def _counted(words: list[str], number: int | None) -> tuple[list[str], int | Non
     return kept, number
 
 
-def _revisions(bench: Bench, words: list[str]) -> None:
+def _revisions(bench: Reader, words: list[str]) -> None:
     """Raise PicoError for a component or a file among the revisions: these go after `--`."""
     for word in words:
         known = word.partition(".")[0] in bench.setup.lab.inventory or (bench.root / word).is_file()

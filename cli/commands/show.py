@@ -20,7 +20,7 @@ def show(context: typer.Context, what: PlanOrRevision = None) -> int:
     `REV:COMPONENT`: that component alone, with what was noted on it. Text of files: `git show REV:FILE`.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.history()
     found = bench.find(what or "HEAD", folder=session.folder)
     if isinstance(found, Plan):
         session.show(plan_view, found, goal=bench.goal_name(found), next_step=f"Apply with `pico apply {what}`.")

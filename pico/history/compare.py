@@ -45,6 +45,8 @@ def compare(folder: LabFolder, a: str | None = None, b: str | None = None, scope
     asked = scope or Scope()
     first, last = ends_of(folder.history(), a, b)
     first = first or "HEAD"
+    if last is None and folder.wrong is not None:
+        raise folder.wrong
     sides = folder.historic(first), folder.historic(last) if last else (folder.setup, folder.state)
     known = {name for setup, state in sides for name in (*setup.lab.inventory, *state.components)}
     if wrong := [_unknown(name, known) for name in asked.parts if name not in known]:

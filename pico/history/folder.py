@@ -56,14 +56,24 @@ class Entry:
 
 
 class LabFolder:
-    """The lab that `path` lies in. Raises PicoError where there is none, or where its manifests are wrong."""
+    """The lab that `path` lies in. Raises PicoError where there is none, or where its manifests are wrong.
 
-    def __init__(self, path: Path) -> None:
+    For its `history` alone, wrong manifests (a merge may be going on) are no reason to refuse: bench and state are then
+    those of HEAD, and `wrong` says what is wrong.
+    """
+
+    def __init__(self, path: Path, *, history: bool = False) -> None:
         self.root = find_lab(path)
         self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
         self._files: dict[str, bytes] = {}
         self._writing = False
-        self.reload()
+        self.wrong: PicoError | None = None
+        try:
+            self.reload()
+        except PicoError as exc:
+            self.wrong = exc
+            if not history or not self._stand_in():
+                raise
 
     def reload(self) -> None:
         """Read the manifests again, after somebody wrote them; raises PicoError where they are wrong.
@@ -78,6 +88,15 @@ class LabFolder:
         self._files = files
         shown = shown_path(self.root)
         self._benches[_bench_of({os.path.relpath(p, shown): data for p, data in files.items()})] = self.setup
+
+    def _stand_in(self) -> bool:
+        """Take bench and state from HEAD, and return whether that was possible."""
+        try:
+            self.manifests = load_files(_named("HEAD", self.history().files("HEAD", self.root)))
+            self.setup, self.state = self.manifests.require()
+        except PicoError:
+            return False
+        return True
 
     @cached_property
     def repository(self) -> Repository | None:

@@ -152,3 +152,10 @@ class Reader:
             return self.folder.repository is not None and bool(self.folder.repository.resolve(word))
         except PicoError:
             return False
+
+
+class HistoryReader(Reader):
+    """Reads the history of the lab that `path` lies in, also while its manifests are wrong; raises PicoError."""
+
+    def __init__(self, path: Path) -> None:
+        self.folder = LabFolder(path, history=True)

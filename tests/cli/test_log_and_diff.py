@@ -225,3 +225,12 @@ def test_a_shallow_clone_shows_what_it_has(shel: Path, pico: Pico) -> None:
     for words in ((), ("--", "p2"), ("--graph",), ("--", "state")):
         answer = pico("-C", "../shallow", "log", "--oneline", *words)
         assert answer.code == 0 and "tilt of p2" in answer.out
+
+
+def test_history_can_be_read_while_the_manifests_are_in_conflict(shel: Path, pico: Pico) -> None:
+    edit(Path("state/table.yaml"), "x: 520", "<<<<<<< ours\n      x: 520")
+    assert "E1-3" in pico("log", "e1").out and pico("show", "e1:p2").code == 0
+    assert pico("diff", "C1..e1").code == 0
+    assert "state/table.yaml" in pico("diff").err
+    edit(Path("lab.yaml"), "kind: Lab", "kind: Lob")
+    assert "E1-3" in pico("log", "e1", "--", "p2").out
