@@ -86,6 +86,12 @@ class Reader:
         )
         return Log(self.folder, asked)
 
+    def blame(self, *what: str, at: str | None = None, history: bool = False) -> Blamed:
+        """Return who last changed these components and tunables, all for none; see `pico.history.blamed`."""
+        from pico.history.blamed import blame
+
+        return blame(self.root, what, at=at, history=history)
+
     def show(self, what: str = "HEAD") -> Shown:
         """Return what a revision, or `REV:COMPONENT`, did and holds; see `pico.history.shown`. Raises PicoError."""
         from pico.history.shown import show
