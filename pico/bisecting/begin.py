@@ -42,6 +42,8 @@ def begin(
             raise PicoError(error("bisect", f"{bad} expects nothing", hint=hint))
     running = _left(bench, ends)
     if running is not None and (running.task.expect == wanted or not wanted):
+        own = running.task
+        running.task = replace(own, measure=measure, suspicion=suspicion, trust=trust or own.trust)
         return running
     if running is not None and running.left() > 1:
         asked = " and ".join(f"`{one.that}`" for one in running.task.expect) or "what a person says"

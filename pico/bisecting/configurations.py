@@ -60,11 +60,23 @@ class Configurations:
         first, then = self.leaves(a), self.leaves(b)
         return self.clock.between(first, then) if first and then and first is not then else 0.0
 
-    def read(self, lineage: Lineage) -> list[str]:
-        """Return the commits that are read for a choice among these: the last, and at most READ spread over all."""
-        names = [commit for commit, _ in lineage]
+    def read(self, lineage: Lineage, skipped: Collection[str] = ()) -> list[str]:
+        """Return the commits that are read for a choice among these: the last, and at most READ spread over all that
+        were not skipped."""
+        names = [commit for commit, _ in lineage if commit not in skipped]
         step = max(1, -(-len(names) // READ))
         return [c for n, c in enumerate(names) if (len(names) - 1 - n) % step == 0]
+
+    def thinned(self, lineage: Lineage, skipped: Collection[str]) -> Lineage:
+        """Return the commits among which to choose: of a long line of history those that are read, each standing for
+        all between it and the one before; else all."""
+        known = {commit for commit, _ in lineage}
+        within = [[p for p in before if p in known] for _, before in lineage]
+        line = all(own == ([lineage[n - 1][0]] if n else []) for n, own in enumerate(within))
+        if len(lineage) <= READ or not line:
+            return lineage
+        names = self.read(lineage, skipped)
+        return [(commit, (names[n - 1],) if n else ()) for n, commit in enumerate(names)]
 
     def suspects(
         self, lineage: Lineage, skipped: frozenset[str], spoken: Collection[str] = (), suspicion: float = 1.0
@@ -74,7 +86,7 @@ class Configurations:
         to be it as others."""
         number = {commit: n for n, (commit, _) in enumerate(lineage)}
         parents = [[number[p] for p in before if p in number] for _, before in lineage]
-        looked = set(self.read(lineage))
+        looked = set(self.read(lineage, skipped))
         weight, testable = [], set[int]()
         for n, (commit, before) in enumerate(lineage):
             same = commit in looked and self._as_a_parent(commit, before, looked)

@@ -71,13 +71,13 @@ class Bisection:
                 return None
             if self._without_trial(ends, lineage):
                 continue
-            suspects = self._configurations.suspects(lineage, ends.skipped, self._spoken, self.task.suspicion)
+            shown = self._configurations.thinned(lineage, ends.skipped)
+            suspects = self._configurations.suspects(shown, ends.skipped, self._spoken, self.task.suspicion)
             if not suspects.testable:
                 return None
             seen = self.bench.observe()
-            ranked = self._configurations.ranked(lineage, suspects, seen, self.task.measure)
-            names = [commit for commit, _ in lineage]
-            best = self._planned(ranked[:PLANNED], names, seen)
+            ranked = self._configurations.ranked(shown, suspects, seen, self.task.measure)
+            best = self._planned(ranked[:PLANNED], [commit for commit, _ in shown], seen)
             if best is not None:
                 return self._proposal(*best, left=len(lineage))
         return None
@@ -204,8 +204,8 @@ class Bisection:
 
     def _without_trial(self, ends: Ends, lineage: Lineage) -> bool:
         """Judge what can be judged without the bench, as much as one word to git says; return whether there was any."""
-        looked = self._configurations.read(lineage)
-        bare = [c for c in looked[:-1] if c not in ends.skipped and self._configurations.state(c) is None]
+        looked = self._configurations.read(lineage, ends.skipped)
+        bare = [c for c in looked[:-1] if self._configurations.state(c) is None]
         for commit in bare:
             why = self._configurations.unreadable[commit]
             self._tell(Tried(commit=commit, verdict="skip", why=why, by="unreadable"))
@@ -217,7 +217,7 @@ class Bisection:
             judged[ends.bad] = "bad"
         same = [
             (commit, twin) for commit in looked[:-1]
-            if commit not in ends.skipped and (twin := alike(self._configurations, judged, commit)) is not None
+            if (twin := alike(self._configurations, judged, commit)) is not None
         ]  # fmt: skip
         if not same:
             return False
