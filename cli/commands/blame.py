@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from ..paging import paged
 from ..session import Session
 from ..views import blame as view
 
@@ -33,7 +34,8 @@ def blame(
     session = Session.of(context)
     root = find_lab(session.folder)
     found = blamed(root, what or (), at=at, history=history)
-    session.show(view, found, asked=bool(what))
+    with paged(session):
+        session.show(view, found, asked=bool(what))
     if not session.json:
         session.report(found.diagnostics)
     return 0

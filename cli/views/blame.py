@@ -27,14 +27,14 @@ def text(blamed: Blamed, *, asked: bool) -> str:
 
 
 def _table(leaves: tuple[BlamedLeaf, ...]) -> list[str]:
-    rows = [[_address(leaf), _value(leaf), *_turn(leaf.last)] for leaf in leaves]
+    rows = [[_address(leaf), _value(leaf), *_turn(leaf.last, "%Y-%m-%d")] for leaf in leaves]
     return _fitted([[paint("dim", cell) for cell in _HEAD], *rows])
 
 
 def _histories(blamed: Blamed) -> list[str]:
     lines: list[str] = []
     for leaf in blamed.leaves:
-        rows = [[turn.text, *_turn(turn)] for turn in leaf.history or ()]
+        rows = [[turn.text, *_turn(turn, "%Y-%m-%d %H:%M")] for turn in leaf.history or ()]
         lines += ["", f"{paint('bold', _address(leaf))} {_value(leaf)}", *_fitted(rows, "  ")]
     return lines[1:]
 
@@ -45,13 +45,13 @@ def _fitted(rows: list[list[str]], indent: str = "") -> list[str]:
     return columns(rows, indent=indent, last=max(WIDTH - taken, 16))
 
 
-def _turn(turn: Turn) -> list[str]:
+def _turn(turn: Turn, form: str) -> list[str]:
     if turn.commit is None:
         return [paint("cyan", "not committed"), "", "", "", ""]
     short = turn.commit[:7]
     name = short if turn.name in ("", short) else f"{short} {shorten(turn.name, 14)}"
     earlier = " or earlier" if turn.earlier else ""
-    when = f"{datetime.fromisoformat(turn.time):%Y-%m-%d %H:%M}"
+    when = datetime.fromisoformat(turn.time).strftime(form)
     return [paint("yellow", name) + earlier, when, said(turn.how), shorten(turn.author, 16), turn.summary]
 
 

@@ -137,10 +137,9 @@ def _open(path: Path) -> sqlite3.Connection | None:
 def _ready(database: sqlite3.Connection) -> bool:
     """Return whether the file has this version's tables, made here where it has none at all."""
     version = database.execute("PRAGMA user_version").fetchone()[0]
-    if version == VERSION:
-        return True
-    if version or database.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]:
-        return False
+    tables = {name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+    if version or tables:
+        return bool(version == VERSION and tables >= {"read", "result"})
     database.executescript(f"BEGIN IMMEDIATE; {_TABLES} PRAGMA user_version = {VERSION}; COMMIT;")
     return True
 

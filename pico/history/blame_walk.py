@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -39,6 +39,7 @@ class Walker:
         self._lab = _digest(VERSION, folder, _catalog_stamp(), sorted(self.shallow))
         self._unread: list[Unread] = []
         self._runs: dict[str, tuple[RunFile, ...]] = {}
+        self._folders: dict[str, str] = {}  # where the lab was at a commit, if it was moved since
 
     def answer(self, commit: str) -> Answer:
         """Return the blame of a commit, and keep it; raises PicoError where Git's objects are damaged."""
@@ -124,6 +125,8 @@ class Walker:
 
     def _rebuilt(self, commit: str) -> Blame | None:
         found = self._kept(commit)
+        if not self.has_lab(commit):
+            return None  # it may have been elsewhere
         files = {path: self.flat(name) for path, name in self.files(commit).items()}
         if found is None or any(flat.wrong for flat in files.values()):
             return None  # what a file said before it could not be read is not in the answer
@@ -140,7 +143,25 @@ class Walker:
         steps = [Step(str(c.id), tuple(str(p) for p in c.parent_ids)) for c in walker]
         if start and not {p for s in steps for p in s.parents} <= {start, *(s.commit for s in steps)}:
             return self._steps(commit, None)
+        self._follow(steps)
         return steps
+
+    def _follow(self, steps: Sequence[Step]) -> None:
+        """Find out where the lab was before its folder was moved."""
+        for step in reversed(steps) if self.folder else ():
+            here = self._folders.setdefault(step.commit, self.folder)
+            for parent in step.parents:
+                if parent not in self._folders:
+                    self._folders[parent] = (
+                        here if self._tree(parent, here) is not None else self._before(step.commit, parent, here)
+                    )
+
+    def _before(self, commit: str, parent: str, here: str) -> str:
+        """Return the folder that held at `parent` the Lab that `here` holds at `commit`; `here` where none did."""
+        found = [name for path, name in _below(self._tree(commit, here)) if "/" not in path and is_manifest(path)]
+        labs = {name for name in found if self.flat(name).inventory}
+        before = next((path for path, name in _below(self._git[parent].tree) if name in labs), None)
+        return here if before is None else before.rpartition("/")[0]
 
     def _delta(self, commit: str, base: str | None) -> Delta:
         changed = dict(_changed(self._tree(base) if base else None, self._tree(commit)))
@@ -158,13 +179,18 @@ class Walker:
         others = [self._tree(str(p)) for p in self._git[commit].parent_ids[1:]]
         return tuple(run for run in runs if not any(tree is not None and run[0] in tree for tree in others))
 
-    def _tree(self, commit: str) -> Any:
+    def has_lab(self, commit: str) -> bool:
+        """Return whether the lab's folder is there at a commit."""
+        return self._tree(commit) is not None
+
+    def _tree(self, commit: str, folder: str | None = None) -> Any:
         """Return the lab's folder in a commit, None where it has none."""
         import pygit2
 
         tree = self._git[commit].tree
+        inside = self._folders.get(commit, self.folder) if folder is None else folder
         try:
-            found = tree[self.folder] if self.folder else tree
+            found = tree[inside] if inside else tree
         except KeyError:
             return None
         return found if isinstance(found, pygit2.Tree) else None

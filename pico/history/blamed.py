@@ -86,6 +86,9 @@ def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, histor
         raise PicoError(error("git-none", f"{root} is in no Git repository, so there is no history", hint=hint))
     commit = repository.resolve(at).id if at is not None else repository.head().commit
     walker = Walker(repository, repository.relative(root))
+    if at is not None and commit and not walker.has_lab(commit):
+        hint = "the lab may have had another folder then"
+        raise PicoError(error("revision", f"`{at}` has no folder {walker.folder}", hint=hint))
     try:
         found = walker.answer(commit) if commit else Answer()
         whole = found if at is not None else with_edits(walker, root, commit, found)

@@ -26,10 +26,14 @@ from pico.history.blame_leaves import shown
 from pico.history.blame_lines import read_lines
 from pico.history.blame_walk import CACHE, Walker, packaged_units
 from pico.history.blamed import Blamed, blame
+from pico.history.example import example_names, make_example
+from pico.history.folder import LabFolder
 from pico.history.repository import Repository
-from pico.model.diff import Change
+from pico.model.diff import Change, place_json
+from pico.model.lab import Setup
 from pico.model.plan import LabRef
 from pico.model.run import Cause, RunDocument
+from pico.model.state import LabState, place_of
 from pico.trace.run import run_files
 
 Git = Any
@@ -325,6 +329,25 @@ def test_names_that_nobody_knows_get_the_nearest_and_those_of_parts_that_are_gon
     assert last(blame(lab, ["a.slot"])) == last(blame(lab, ["a.pose.x"])) == {"a.pose": "first"}
 
 
+def test_a_lab_whose_folder_was_moved_keeps_its_history(git: Git, lab: Path) -> None:
+    put(lab, A)
+    commit(git, "first")
+    put(lab, A.replace("12", "13"))
+    old = commit(git, "turned")
+    (lab / "labs" / "t").mkdir(parents=True)
+    git("mv", "lab.yaml", "state.yaml", "labs/t/")
+    commit(git, "tidied up")
+    put(lab / "labs" / "t", A.replace("12", "14") + B)
+    commit(git, "b placed")
+    expected = {"a.pose": "first", "a.angle": "b placed", "b.pose": "b placed", "c.pose": "first"}
+    assert last(blame(lab / "labs" / "t")) == expected
+    with pytest.raises(PicoError, match="has no folder labs/t"):
+        blame(lab / "labs" / "t", at=old)
+    git("mv", "labs/t", "one")
+    commit(git, "again")
+    assert last(blame(lab / "one", at="HEAD")) == expected
+
+
 def test_links_are_not_followed(git: Git, lab: Path, tmp_path: Path) -> None:
     put(lab, A)
     commit(git, "first")
@@ -334,6 +357,32 @@ def test_links_are_not_followed(git: Git, lab: Path, tmp_path: Path) -> None:
     commit(git, "a link")
     assert last(blame(lab, ["a.pose"], at="HEAD")) == {"a.pose": "a link"}
     assert blame(lab, ["a.pose"], at="HEAD").leaves[0].value == "h/a"
+
+
+@pytest.mark.parametrize("example", example_names())
+def test_the_examples_are_blamed_as_by_their_whole_states(example: str, tmp_path: Path) -> None:
+    repository = make_example(example, tmp_path / "lab")
+    folder = LabFolder(tmp_path / "lab")
+    commits = {c.id: c for tip in repository.tips() for c in repository.log([tip])}
+    states = {name: whole_state(*folder.historic(name)) for name in commits}
+
+    def origin(commit: str, at: tuple[str, str]) -> str:
+        same = [p for p in commits[commit].parents if states[p].get(at) == states[commit][at]]
+        return origin(same[0], at) if same else commit
+
+    for tip in repository.tips():
+        head = repository.resolve(tip).id
+        found = {(x.component, x.tunable): (x.value, x.last.commit) for x in blame(folder.root, at=tip).leaves}
+        assert found == {at: (value, origin(head, at)) for at, value in states[head].items()}
+
+
+def whole_state(setup: Setup, state: LabState) -> dict[tuple[str, str], Any]:
+    found: dict[tuple[str, str], Any] = {}
+    for name in setup.lab.inventory:
+        found[name, "pose"] = place_json(*place_of(setup, state, name))
+        values = state.components[name].values if name in state.components else {}
+        found |= {(name, tunable): value for tunable, value in values.items()}
+    return found
 
 
 # --- what is kept between calls
@@ -357,6 +406,12 @@ def other_version(path: Path) -> None:
     database.close()
 
 
+def no_tables(path: Path) -> None:
+    with sqlite3.connect(path) as database:
+        database.executescript("DROP TABLE read")
+    database.close()
+
+
 def be_a_folder(path: Path) -> None:
     path.unlink()
     path.mkdir()
@@ -364,7 +419,7 @@ def be_a_folder(path: Path) -> None:
 
 @pytest.mark.parametrize(
     "spoil",
-    [spoil_bytes, spoil_rows, other_version, be_a_folder, lambda path: path.write_bytes(b""),
+    [spoil_bytes, spoil_rows, other_version, no_tables, be_a_folder, lambda path: path.write_bytes(b""),
      lambda path: path.write_text("no database"), lambda path: path.write_bytes(path.read_bytes()[:5000])],
 )  # fmt: skip
 def test_a_cache_that_is_spoiled_is_not_used_and_no_error(git: Git, lab: Path, spoil: Any) -> None:
