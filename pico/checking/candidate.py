@@ -9,7 +9,7 @@ from pathlib import Path
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.against import Against
 from pico.history.repository import Repository
-from pico.manifest.files import read_folder
+from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
 from pico.merging import overlapping
@@ -56,8 +56,8 @@ def in_folder(root: Path) -> Candidate:
 
 
 def in_memory(root: Path, files: Mapping[str, bytes]) -> Candidate:
-    """Return the lab of the folder `root` as `files` say, by path."""
-    return _read(root, files, [])
+    """Return the lab of the folder `root` as `files` say, by path below it."""
+    return _read(root, {str(Path(shown_path(root)) / path): data for path, data in files.items()}, [])
 
 
 def _read(root: Path, files: Mapping[str, bytes], found: list[Diagnostic]) -> Candidate:

@@ -178,6 +178,7 @@ def test_above_labs_those_that_differ_are_checked(lab: Lab) -> None:
     assert found.alike == ("labs/one",) and found.exit_code == 3
     assert len({p.path for one in found.labs for p in one.pictures}) == 4
     assert {c.component for one in found.labs for c in one.changes} == {"p2"}
+    assert check(lab.root, environment={}, merging="HEAD").alike == ("labs/one", "labs/three", "labs/two")
 
 
 def test_a_merge_is_checked_without_being_made(lab: Lab) -> None:
