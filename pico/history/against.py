@@ -32,11 +32,11 @@ def against(
     """
     handle = _handle(repository)
     head = repository.head().commit
-    told = revision or _told(handle, environment or {})
-    name = told or _default(handle, environment or {})
-    if name is None:
+    told = (revision, revision) if revision else _told(handle, environment or {})
+    wanted, name = told or (_default(handle, environment or {}),) * 2
+    if wanted is None or name is None:
         return _before(repository, head, edited)
-    goal = _resolved(repository, handle, name, revision)
+    goal = _resolved(repository, handle, wanted, revision)
     if head is None:
         return Against(commit=goal, name=name)
     common = handle.merge_base(head, goal)
@@ -74,18 +74,22 @@ def _resolved(repository: Repository, handle: Any, name: str, revision: str | No
         raise PicoError(error("shallow", text, hint=_WHOLE)) from None
 
 
-def _told(handle: Any, environment: Mapping[str, str]) -> str | None:
-    """Return the revision that GitHub or GitLab merges into, as this clone has it."""
-    names = list(_candidates(environment))
-    return next((name for name in names if _known(handle, name)), names[0] if names else None)
+def _told(handle: Any, environment: Mapping[str, str]) -> tuple[str, str] | None:
+    """Return the revision that GitHub or GitLab merges into, as this clone has it, and what it is called."""
+    found = list(_candidates(environment))
+    return next((one for one in found if _known(handle, one[0])), found[0] if found else None)
 
 
-def _candidates(environment: Mapping[str, str]) -> Iterator[str]:
-    for variable in ("GITHUB_BASE_REF", "CI_MERGE_REQUEST_TARGET_BRANCH_NAME"):
-        if branch := environment.get(variable):
-            yield from (f"origin/{branch}", branch)
-    if base := environment.get("CI_MERGE_REQUEST_DIFF_BASE_SHA"):
-        yield base
+def _candidates(environment: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Yield what may name it, the surest first: GitLab fetches no branch, but names commits."""
+    target = environment.get("CI_MERGE_REQUEST_TARGET_BRANCH_NAME", "")
+    if commit := environment.get("CI_MERGE_REQUEST_TARGET_BRANCH_SHA"):
+        yield commit, target or commit
+    for branch in (environment.get("GITHUB_BASE_REF"), target):
+        if branch:
+            yield from ((name, name) for name in (f"origin/{branch}", branch))
+    if commit := environment.get("CI_MERGE_REQUEST_DIFF_BASE_SHA"):
+        yield commit, target or commit
 
 
 def _default(handle: Any, environment: Mapping[str, str]) -> str | None:

@@ -74,10 +74,11 @@ def test_the_branches_of_origin_come_first_and_its_head_names_the_default(lab: L
     assert base(clone, GITHUB_BASE_REF="main") == (lab.git("rev-parse", "main"), "origin/main")
 
 
-def test_where_gitlab_fetched_no_branch_its_commit_counts(lab: Lab) -> None:
-    commit = lab.git("rev-parse", "main~1")
-    told = {"CI_MERGE_REQUEST_TARGET_BRANCH_NAME": "elsewhere", "CI_MERGE_REQUEST_DIFF_BASE_SHA": commit}
-    assert base(lab, **told) == (commit, commit)
+def test_where_gitlab_fetched_no_branch_its_commits_count(lab: Lab) -> None:
+    began, target = lab.git("rev-parse", "main~2"), lab.git("rev-parse", "main~1")
+    told = {"CI_MERGE_REQUEST_TARGET_BRANCH_NAME": "elsewhere", "CI_MERGE_REQUEST_DIFF_BASE_SHA": began}
+    assert base(lab, **told) == (began, "elsewhere")
+    assert base(lab, **told, CI_MERGE_REQUEST_TARGET_BRANCH_SHA=target) == (target, "elsewhere")
 
 
 @pytest.mark.parametrize("environment", [{}, {"GITHUB_BASE_REF": "main"}])
