@@ -6,12 +6,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
-from pico.history.carry_words import cherry_message, conflicts, labels, mainline_needed, revert_message, rootless
+from pico.history.carry_words import (
+    cherry_message,
+    conflicts,
+    half_done,
+    labels,
+    mainline_needed,
+    revert_message,
+    rootless,
+)  # fmt: skip
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
 from pico.history.merge_commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
@@ -89,8 +97,13 @@ def _carry(
     """Compute every step in memory, then write; `message` is None where nothing is to be committed."""
     with folder.writing(f"pico {way}"):
         _refuse_unfit(folder, way)
-        steps = _steps(folder, revisions, way, check, mainline)
-        return [_write(folder, step, message) for step in steps]
+        done: list[Carried] = []
+        for step in _steps(folder, revisions, way, check, mainline):
+            try:
+                done.append(_write(folder, step, message))
+            except PicoError as exc:
+                raise PicoError([*exc.diagnostics, *half_done([d.name for d in done if d.commit])]) from exc
+        return done
 
 
 def _refuse_unfit(folder: LabFolder, way: Way) -> None:
@@ -130,15 +143,19 @@ def _step(
     commit = repository.resolve(revision)
     name = commit.label if revision.startswith(("HEAD", "@")) else label_of(commit, revision)
     parent = _parent(folder, commit, name, mainline)
-    if way == "revert" and parent is None:
-        raise PicoError(rootless(name))
     made = manifest_tree(handle, handle[commit.id].tree, inside)
-    was = manifest_tree(handle, handle[parent.id].tree, inside) if parent else manifest_tree(handle, None, "")
+    was = manifest_tree(handle, handle[parent.id].tree if parent else None, inside)
+    empty = manifest_tree(handle, None, inside)
+    if made == empty:
+        hint = "the lab may have had another folder then"
+        raise PicoError(error("revision", f"{name} has no lab in {inside or 'the repository'}", hint=hint))
+    if way == "revert" and was == empty:
+        raise PicoError(rootless(name))
     base, theirs = (made, was) if way == "revert" else (was, made)
     called = labels(way, head, name)
     union = unite_trees(handle, base, onto, theirs, called)
     if union.conflicts or union.files:
-        raise PicoError(conflicts(handle, union, way, head, (name, commit), parent))
+        raise PicoError(conflicts(handle, union, way, (head, onto), (name, commit), parent))
     if union.tree == onto:
         return _Step(way, commit, name, parent, onto, onto)
     manifests = manifests_in(folder, handle, union.tree, f"{called.ours}+{called.theirs}")
@@ -180,10 +197,7 @@ def _write(folder: LabFolder, step: _Step, message: str | None) -> Carried:
             folder.reload()
             raise
         changes = folder.entry(made).changes
-    return Carried(
-        way=done.way, of=done.of, name=done.name, summary=done.summary, diagnostics=done.diagnostics,
-        files=tuple(paths), commit=made.id if made else None, changes=changes,
-    )  # fmt: skip
+    return replace(done, files=tuple(paths), commit=made.id if made else None, changes=changes)
 
 
 def _refuse_ignored(root: Any, paths: Sequence[str]) -> None:

@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import Diagnostic, error, warning
 from pico.history.commit import Commit
-from pico.history.last_change import last_change
+from pico.history.last_change import last_change, value_at
 from pico.history.merge_leaves import Conflict
 from pico.history.merge_markers import Labels
 from pico.history.merge_trees import Union
@@ -44,8 +44,16 @@ def cherry_message(commit: Commit) -> str:
 
 def rootless(name: str) -> Diagnostic:
     """Return why the first commit can't be taken back."""
-    text = f"{name} is the first commit: there is no state before it to go back to"
+    text = f"{name} is the first commit of this lab: there is no state before it to go back to"
     return error("first-commit", text, hint="`pico stow COMPONENT` takes single parts off the table")
+
+
+def half_done(names: Sequence[str]) -> list[Diagnostic]:
+    """Return which changes were committed before the one that could not be."""
+    if not names:
+        return []
+    hint = f"`git reset --keep HEAD~{len(names)}` takes {'it' if len(names) == 1 else 'them'} back"
+    return [warning("half-done", f"{', '.join(names)} {'is' if len(names) == 1 else 'are'} committed", hint=hint)]
 
 
 def mainline_needed(name: str, sides: Sequence[Commit], given: int | None) -> Diagnostic:
@@ -58,13 +66,16 @@ def mainline_needed(name: str, sides: Sequence[Commit], given: int | None) -> Di
 
 
 def conflicts(
-    handle: Any, union: Union, way: str, head: Commit, made: tuple[str, Commit], parent: Commit | None
+    handle: Any, union: Union, way: str, here: tuple[Commit, str], made: tuple[str, Commit], parent: Commit | None
 ) -> list[Diagnostic]:
-    """Return an error for each tunable that was changed otherwise, naming both commits, and for files as a whole."""
-    name, commit = made
+    """Return an error for each tunable that was changed otherwise, naming both commits, and for files as a whole.
+
+    `here`: HEAD, and the tree of manifests that the change met, which others carried before it may have made.
+    """
+    (head, _), (name, commit) = here, made
     called = f"{name} ({commit.short})" if name != commit.short else name
     source = parent.short if way == "revert" and parent else name
-    found = [_conflict(handle, path, c, way, head, called, source) for path, c in union.conflicts]
+    found = [_conflict(handle, path, c, way, here, called, source) for path, c in union.conflicts]
     hint = f"`git {way} {commit.short}` writes both between markers; edit, `git add`, `git {way} --continue`"
     return found + [
         error("carry-conflict", f"{path}: {called} and {head.label} changed it in ways that can't be united", hint=hint)
@@ -72,9 +83,11 @@ def conflicts(
     ]
 
 
-def _conflict(handle: Any, path: str, c: Conflict, way: str, head: Commit, called: str, source: str) -> Diagnostic:
+def _conflict(
+    handle: Any, path: str, c: Conflict, way: str, here: tuple[Commit, str], called: str, source: str
+) -> Diagnostic:
     ours, theirs = (_DELTA.sub("", text) for text in (c.ours, c.theirs))
-    later = _later(handle, head, path, c)
+    later = _later(handle, here, path, c)
     if c.base in (ours, theirs):
         summary = f"{c.address}: {called} and {later} changed parts of one thing"
         detail = f"in {path}; `policy: {{merge: strict}}` of the lab refuses that"
@@ -87,8 +100,11 @@ def _conflict(handle: Any, path: str, c: Conflict, way: str, head: Commit, calle
     return error("carry-conflict", summary, detail=detail, hint=_way_out(c, source, path), address=c.address)
 
 
-def _later(handle: Any, head: Commit, path: str, c: Conflict) -> str:
+def _later(handle: Any, here: tuple[Commit, str], path: str, c: Conflict) -> str:
+    head, onto = here
     leaf = c.path if not c.keys or c.path[-1] != "pose" else c.path[:-1]
+    if value_at(handle, handle[onto], path, leaf) != value_at(handle, handle[head.id].tree, path, leaf):
+        return "what was carried before it"
     found = handle[last_change(handle, head.id, path, leaf)]
     return f'{str(found.id)[:7]} "{found.message.strip().partition(chr(10))[0]}"'
 

@@ -18,16 +18,18 @@ def last_change(handle: Any, head: str, path: str, leaf: Path) -> str:
     known: dict[str, list[Document]] = {}
     commit = handle[head]
     while True:
-        value = _value(handle, commit, path, leaf, known)
-        same = [p for p in commit.parents if _value(handle, p, path, leaf, known) == value]
+        value = value_at(handle, commit.tree, path, leaf, known)
+        same = [p for p in commit.parents if value_at(handle, p.tree, path, leaf, known) == value]
         if not same:
             return str(commit.id)
         commit = same[0]
 
 
-def _value(handle: Any, commit: Any, path: str, leaf: Path, known: dict[str, list[Document]]) -> Any:
+def value_at(handle: Any, tree: Any, path: str, leaf: Path, known: dict[str, list[Document]] | None = None) -> Any:
+    """Return a value of a manifest in a tree, to be compared; None where it is not there. `known`: read already."""
+    known = {} if known is None else known
     try:
-        blob = str(commit.tree[path].id)
+        blob = str(tree[path].id)
     except KeyError:
         return None
     if blob not in known:

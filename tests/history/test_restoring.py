@@ -296,6 +296,40 @@ def test_a_hook_that_refuses_leaves_the_files_as_they_were(lab: LabFolder, git: 
     assert not git("status", "--porcelain", "-uno")
 
 
+def test_a_hook_that_refuses_the_second_leaves_the_first_and_says_so(lab: LabFolder, git: Git) -> None:
+    git("checkout", "-q", "main")
+    lab.reload()
+    hook = lab.root / ".git" / "hooks" / "commit-msg"
+    hook.parent.mkdir(exist_ok=True)
+    hook.write_text('#!/bin/sh\n! grep -q second "$1"\n')
+    hook.chmod(0o755)
+    with pytest.raises(PicoError) as caught:
+        cherry_pick(lab, ["E1-1", "E1-2"])
+    assert "E1-1 is committed" in said(caught.value) and "git reset --keep HEAD~1" in said(caught.value)
+    assert changed(revert(lab, "HEAD")) == [("lx_125", "pose")] and not git("status", "--porcelain")
+
+
+def test_what_stands_in_the_way_may_have_been_picked_just_before(lab: LabFolder, git: Git) -> None:
+    git("checkout", "-q", "-b", "side", "main")
+    edit(lab, git, "p1", "angle: 90", "angle: 7", commit="seven")
+    git("checkout", "-q", "main")
+    lab.reload()
+    found = refused(lab, lambda: cherry_pick(lab, ["side", "E1-3"]))
+    assert "but here what was carried before it made it 7" in said(found)
+
+
+def test_a_lab_that_was_elsewhere_then_is_told(lab: LabFolder, git: Git) -> None:
+    (lab.root / "other").mkdir()
+    for name in ("lab.yaml", "state"):
+        git("mv", name, f"other/{name}")
+    git("commit", "-q", "-m", "moved")
+    inner = LabFolder(lab.root / "other")
+    for name, words in (("HEAD", "is the first commit of this lab"), ("E1-3", "E1-3 has no lab in other")):
+        with pytest.raises(PicoError) as caught:
+            revert(inner, name)
+        assert words in said(caught.value)
+
+
 def test_the_first_commit_can_not_be_taken_back(lab: LabFolder) -> None:
     assert "C1 is the first commit" in said(refused(lab, lambda: revert(lab, "C1")))
 
