@@ -10,6 +10,7 @@ from pico.model.standing import Standing
 
 from .diff import lines
 from .report import expectations
+from .runs import shown
 from .style import count, paint, wrap
 
 _ON: dict[str | None, str] = {"emulated": "emulated devices, never hardware", "hardware": "hardware"}
@@ -31,7 +32,7 @@ def text(found: Verified) -> str:
 def proof(standing: Standing) -> list[str]:
     """Return in a few lines whether a bench ever stood as a commit says: `4f2c9a1 is verified: ...`."""
     colors = {"verified": "green", "inherited": "yellow", "planned": "yellow", "unknown": "red"}
-    head = f"{standing.commit[:7]} is {paint(colors[standing.verdict], standing.verdict)}: {standing.why}."
+    head = f"{standing.commit[:7]} is {paint(colors[standing.verdict], standing.verdict)}: {shown(standing.why)}."
     return [*wrap(head, ""), *(f"  {line}" for line in _said(standing))]
 
 

@@ -66,6 +66,9 @@ class Standings:
         for run in self.runs.get(state, ()):
             if run.place is None or intact(run.document, files_at(self.folder.history(), run.place), wrong):
                 return _verified(commit.id, state, run, tuple(wrong))
+        if wrong:
+            why = f"the run {self.runs[state][0].document.id} led to it, but its files are damaged: they prove nothing"
+            return Standing(verdict="inherited", commit=commit.id, state=state, why=why, diagnostics=tuple(wrong))
         added = runs_added(self.folder.history(), commit, self.folder.root, wrong)
         carries = len(commit.parents) > 1 and bool(self.runs)
         claim = Claim(commit.id, state, commit.message, tuple(d.id for d in added), len(commit.parents), carries)
@@ -87,13 +90,16 @@ def unproven(claim: Claim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing
 
     told = trailers.values(claim.message, trailers.STATE)
     evidence = next(iter(trailers.values(claim.message, trailers.EVIDENCE)), "planned")
+    named = trailers.values(claim.message, trailers.RUN)
     seen = STRENGTH.get(evidence, 0) > 0
-    if seen and claim.state in told:
+    if seen and claim.state in told and not named:
         return judged("verified", "it was taken from the bench as it stood; no run led there", evidence)
     if claim.added:
         names = f"the run {claim.added[0]}" if len(claim.added) == 1 else f"{len(claim.added)} runs"
         return judged("inherited", f"{names} that came with it led to another state")
-    if seen or trailers.values(claim.message, trailers.RUN):
+    if claim.state in told and named:
+        return judged("inherited", f"the run {named[-1][:40]} that its message names is not there, or damaged")
+    if seen or named:
         return judged("inherited", "its message speaks of another state: it was copied or edited")
     if claim.parents > 1 and claim.carries:
         return judged("inherited", "a merge: its sides may have been on a bench, the two together were not")

@@ -34,7 +34,7 @@ def list_runs(
     The newest comes first. Unless a revision is named, those that this bench alone knows yet count, too. `component`:
     only what changed that one. Damaged files are warnings in `diagnostics`. Raises PicoError for what there is not.
     """
-    own = [] if revision else [CarriedRun(run.document) for run in unrecorded(folder)]
+    own = [] if revision else [CarriedRun(run.document) for run in unrecorded(folder, diagnostics)]
     carried = _carried(folder, revision, every, diagnostics)
     known = {run.document.id for run in carried}
     found = [*carried, *(run for run in own if run.document.id not in known)]

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
-from pico.history.runs import RunPlace, files_at, places_in_history, read_place
+from pico.history.runs import RunPlace, files_at, places_in_history, read_carried, read_place
 from pico.model.record import record
 from pico.model.run import Artifact, RunDocument, TraceEvent
 from pico.recording.document import Recorded
@@ -48,18 +48,26 @@ def load_run(folder: LabFolder, word: str | None = None) -> Loaded:
 
     Raises PicoError for one that there is not, for a beginning of several, and for a document that is damaged.
     """
-    own = {run.document.id: run for run in unrecorded(folder)}
+    wrong: list[Diagnostic] = []
+    own = {run.document.id: run for run in unrecorded(folder, wrong)}
     places = places_in_history(folder.repository, folder.root) if folder.repository else {}
-    name = _chosen(word, sorted({*own, *places}))
-    return _own(own[name]) if name in own else _carried(folder, places[name])
+    name = _last(folder, own, places) if word is None else _chosen(word, sorted({*own, *places}))
+    return _own(own[name]) if name in own else _carried(folder, places[name], wrong)
 
 
-def _chosen(word: str | None, names: Sequence[str]) -> str:
-    """Return the one name that a word means; names begin with the time, so that the last is the newest."""
-    if not names:
+def _last(folder: LabFolder, own: Mapping[str, Recorded], places: Mapping[str, RunPlace]) -> str:
+    """Return the run that started last; what no commit has yet comes after what commits have."""
+    if own:
+        return list(own)[-1]
+    if not places:
         raise PicoError(error("no-run", "no run of this lab has moved anything yet", hint="`pico apply` runs a plan"))
-    if word is None:
-        return names[-1]
+    day = max(places)[:8]  # a name begins with the time
+    late = read_carried(folder.history(), (place for name, place in places.items() if name >= day))
+    return late[-1].document.id if late else max(places)
+
+
+def _chosen(word: str, names: Sequence[str]) -> str:
+    """Return the one name that a word means, or begins."""
     found = [name for name in names if name.startswith(word)]
     if word in names:
         return word
@@ -77,13 +85,13 @@ def _own(run: Recorded) -> Loaded:
     return Loaded(document=run.document, operations=operations(run.trace), measurements=tuple(run.measurements))
 
 
-def _carried(folder: LabFolder, place: RunPlace) -> Loaded:
+def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> Loaded:
     repository = folder.history()
     document = read_place(repository, place)
     if isinstance(document, Diagnostic):
         raise PicoError(error(document.code, document.summary, detail=document.detail, hint=document.hint))
     store = Store(repository.common / "pico" / "cas")
-    files, wrong = files_at(repository, place), list[Diagnostic]()
+    files = files_at(repository, place)
     intact(document, files, wrong)
     return Loaded(
         document=document,

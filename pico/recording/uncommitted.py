@@ -45,8 +45,22 @@ def pending(folder: LabFolder, seen: Observation | None = None, state: LabState 
     return files
 
 
-def unrecorded(folder: LabFolder) -> list[Recorded]:
-    """Return the runs of this bench that no commit has yet, in the order in which they began; raises PicoError."""
+def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -> list[Recorded]:
+    """Return the runs of this bench that no commit has yet, in the order in which they began.
+
+    A journal that can't be read raises PicoError; where there are `diagnostics`, that is appended to them, and there
+    are no runs: looking must not fail for it.
+    """
+    try:
+        return _unrecorded(folder)
+    except PicoError as exc:
+        if diagnostics is None:
+            raise
+        diagnostics += exc.diagnostics
+        return []
+
+
+def _unrecorded(folder: LabFolder) -> list[Recorded]:
     path = folder.root / ".pico" / "journal.sqlite"
     if not path.exists():
         return []
@@ -63,10 +77,7 @@ def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | No
     if revision is None and (head is None or head.commit is None):
         return None
     wrong: list[Diagnostic] = []
-    try:
-        own = [run.document for run in unrecorded(folder)]
-    except PicoError as exc:  # a journal that can't be read: looking must not fail for it
-        own, wrong = [], list(exc.diagnostics)
+    own = [run.document for run in unrecorded(folder, wrong)]
     found = Standings(folder, own, wrong).of(folder.history().resolve(revision or "HEAD"))
     return replace(found, diagnostics=(*wrong, *found.diagnostics))
 

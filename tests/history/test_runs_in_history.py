@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -20,12 +21,16 @@ from carrying import (
     write,
 )
 
+from pico.backends.lease import BenchLock
 from pico.bench import Bench
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.example import make_example
+from pico.history.folder import LabFolder
 from pico.history.repository import Repository
 from pico.history.runs import runs_added, runs_at
+from pico.journal import Journal
 from pico.model.run import RunDocument
+from pico.recording.loading import load_run
 
 
 @pytest.fixture(scope="module")
@@ -381,3 +386,59 @@ def test_the_first_commit_of_a_lab_carries_its_runs_and_a_lab_may_lie_in_a_folde
     assert added(inside, made) == [run]
     assert files_of(tmp_path / "repo", run)[0].startswith("labs/shel/runs/")
     assert standing(inside).run == run
+
+
+def begun(folder: Path, outcome: str | None) -> None:
+    """Leave a run in the journal that began one operation and was killed, or ended."""
+    with Bench.open(folder) as bench:
+        plan = bench.single("p1", "set", {"angle": "5"})
+        seen = bench.observe().components["p1"]
+    with closing(Journal(folder / ".pico" / "journal.sqlite")) as journal:
+        journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
+        journal.intend("r1/op1/1", plan.operations[0], 1)
+        journal.started("r1/op1/1", seen, 1)
+        if outcome:
+            journal.end_run("r1", outcome, {"done": 0, "unknown": 1})  # type: ignore[arg-type]
+
+
+def test_a_run_that_was_killed_is_carried_as_what_it_was(lab: Path) -> None:
+    begun(lab, None)
+    made = commit(lab, "after the crash").commit
+    assert added(lab, made) == ["r1"]
+    found = document(lab, "r1")
+    assert (found.outcome, found.tally["unknown"], found.tally["done"]) == ("killed", 1, 0)
+    assert found.observed is not None
+    assert not found.observed.looked
+    assert (found.evidence, found.cause.kind, found.operator) == ("kinematic", "", "")
+
+
+def test_a_run_that_goes_on_is_not_carried_yet(lab: Path) -> None:
+    begun(lab, None)
+    with BenchLock(lab).held("somebody's apply"):
+        assert own(lab) == []
+    assert [d.id for d in own(lab)] == ["r1"]
+
+
+def test_a_run_that_moved_nothing_is_not_carried(lab: Path) -> None:
+    with Bench.open(lab) as bench:
+        plan = bench.single("p1", "set", {"angle": "5"})
+    with closing(Journal(lab / ".pico" / "journal.sqlite")) as journal:
+        journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
+        journal.intend("r1/op1/1", plan.operations[0], 1)
+        journal.end_run("r1", "interrupted", {"done": 0, "skipped": 1})
+    assert own(lab) == []
+
+
+def test_what_is_too_big_for_a_commit_goes_to_the_content_store(lab: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pico.trace.run.INLINE", 500)
+    run, _ = turned(lab, "p1", 5)
+    assert [Path(path).name for path in files_of(lab, run)] == ["run.json"]
+    found = load_run(LabFolder(lab), run)
+    assert [here.artifact.name for here in found.artifacts] == ["trace.jsonl.gz", "measurements.jsonl.gz"]
+    assert all(here.present for here in found.artifacts)
+    assert [op.outcome for op in found.operations] == ["done"]
+    assert (found.diagnostics, standing(lab).run) == ((), run)
+    shutil.rmtree(lab / ".git" / "pico" / "cas")
+    away = load_run(LabFolder(lab), run)
+    assert (away.operations, [here.present for here in away.artifacts]) == ((), [False, False])
+    assert "trace.jsonl.gz" in away.diagnostics[0].summary
