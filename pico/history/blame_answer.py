@@ -7,10 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from pico.history.blame import Address, Blame, Node, Units
+from pico.history.blame_how import RunBrief, brief_from
 from pico.history.blame_leaves import POSE, Leaf, canonical
-
-RunFile = tuple[str, str]
-"""A `run.json` that a commit added: its path below the lab, and the id of its content."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,21 +36,18 @@ class Answer:
 
     rows: Mapping[Address, Row] = field(default_factory=dict)
     unread: tuple[Unread, ...] = ()
-    runs: Mapping[str, tuple[RunFile, ...]] = field(default_factory=dict)
+    runs: Mapping[str, tuple[RunBrief, ...]] = field(default_factory=dict)
 
 
-def answer(
-    blame: Blame, packaged: Units, unread: Iterable[Unread] = (), runs: Mapping[str, tuple[RunFile, ...]] | None = None
-) -> Answer:
-    """Return the answer of a walk that ended in `blame`."""
+def answer(blame: Blame, packaged: Units, unread: Iterable[Unread] = ()) -> Answer:
+    """Return the answer of a walk that ended in `blame`, without runs."""
     rows: dict[Address, Row] = {}
     now = {name: blame.leaves(name) for name in blame.components()}
     for at, node in sorted(blame.nodes.items(), key=lambda item: (item[0][0], item[0][1] != POSE, item[0][1])):
         unit = blame.unit(*at, packaged)
         value = canonical(at[1], now.get(at[0], {}).get(at[1]), unit)
         rows[at] = Row(value, unit or "", node)
-    changing = {n.commit for row in rows.values() for n in row.node.chain()} if runs else set()
-    return Answer(rows, tuple(unread), {c: found for c, found in (runs or {}).items() if c in changing})
+    return Answer(rows, tuple(unread))
 
 
 def dumps(answer: Answer) -> str:
@@ -72,7 +67,8 @@ def dumps(answer: Answer) -> str:
             nodes.append((node.value, commits.setdefault(node.commit, len(commits)), before))
     rows = [(*at, row.value, row.unit, numbers[row.node]) for at, row in answer.rows.items()]
     unread = [(u.commit, u.path, u.why) for u in answer.unread]
-    return json.dumps([list(commits), nodes, rows, unread, dict(answer.runs)], separators=(",", ":"))
+    runs = {commit: [brief.as_list() for brief in found] for commit, found in answer.runs.items()}
+    return json.dumps([list(commits), nodes, rows, unread, runs], separators=(",", ":"))
 
 
 def loads(text: str) -> Answer:
@@ -84,5 +80,5 @@ def loads(text: str) -> Answer:
     return Answer(
         {(component, tunable): Row(value, unit, nodes[at]) for component, tunable, value, unit, at in rows},
         tuple(Unread(*entry) for entry in unread),
-        {commit: tuple((path, blob) for path, blob in found) for commit, found in runs.items()},
+        {commit: tuple(brief_from(data) for data in found) for commit, found in runs.items()},
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
 
 from pico.history.blame import Blame
@@ -30,7 +31,7 @@ def with_edits(walker: Walker, root: Path, commit: str | None, committed: Answer
     blame = walker.blame(commit) if commit else Blame()
     blame.put(delta, "", packaged_units)
     wrong = [Unread("", path, flat.wrong) for path, flat in sorted(delta.items()) if flat and flat.wrong]
-    return answer(blame, packaged_units, (*committed.unread, *wrong), committed.runs)
+    return replace(answer(blame, packaged_units, (*committed.unread, *wrong)), runs=committed.runs)
 
 
 def _inside(path: str, root: Path) -> str:

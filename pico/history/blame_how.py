@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from functools import lru_cache
+from typing import Any, Literal
 
 from pico.history.blame import Address
 from pico.history.commit import Commit
@@ -42,22 +42,17 @@ class RunBrief:
     changes: tuple[Address, ...] = ()
     afterwards: tuple[Address, ...] = ()
 
-    def dumps(self) -> str:
-        """Return it as JSON, for `brief_from`."""
+    def as_list(self) -> list[Any]:
+        """Return it as JSON data, for `brief_from`."""
         h = self.how
-        said = [h.run, h.cause, h.recipe, h.step, h.evidence]
-        return json.dumps([said, self.started_at, self.changes, self.afterwards], separators=(",", ":"))
+        return [[h.run, h.cause, h.recipe, h.step, h.evidence], self.started_at, self.changes, self.afterwards]
 
 
-def brief_from(text: str) -> RunBrief | None:
-    """Return what `RunBrief.dumps` wrote, None for the `null` of a run that can't be read; raises ValueError."""
-    data = json.loads(text)
-    if data is None:
-        return None
-    (run, cause, recipe, step, evidence), started_at, *changes = data
+def brief_from(data: list[Any]) -> RunBrief:
+    """Return what `RunBrief.as_list` gave; raises ValueError or TypeError for anything else."""
+    (run, cause, recipe, step, evidence), started_at, made, after = data
     how = How(kind="run", run=run, cause=cause, recipe=recipe, step=step, evidence=evidence)
-    made, after = (tuple((component, tunable) for component, tunable in found) for found in changes)
-    return RunBrief(how, started_at, made, after)
+    return RunBrief(how, started_at, tuple((c, t) for c, t in made), tuple((c, t) for c, t in after))
 
 
 def brief_of(document: RunDocument) -> RunBrief:
@@ -77,13 +72,19 @@ def brief_of(document: RunDocument) -> RunBrief:
 
 def how(commit: Commit, runs: Sequence[RunBrief], at: Address) -> How:
     """Return how `commit`, which brought `runs` along, came to the leaf `at` that it changed."""
-    evidence = (values(commit.message, EVIDENCE) or ("",))[-1]
+    evidence, told = _said(commit.message)
     changing = max((r for r in runs if at in r.changes), key=lambda run: run.started_at, default=None)
     if changing is not None and at not in changing.afterwards and evidence != "planned":
         return changing.how
-    if evidence == "planned":
-        return How(kind="merge" if len(commit.parents) > 1 else "planned", evidence=evidence)
     if len(commit.parents) > 1:
-        return How(kind="merge", evidence=evidence or None)
-    recorded = bool(runs) or bool(evidence and values(commit.message, LAB))
-    return How(kind="hand" if recorded else "commit", evidence=evidence or None)
+        return How(kind="merge", evidence=evidence)
+    if evidence == "planned":
+        return How(kind="planned", evidence=evidence)
+    return How(kind="hand" if runs or told else "commit", evidence=evidence)
+
+
+@lru_cache(maxsize=1 << 14)
+def _said(message: str) -> tuple[str | None, bool]:
+    """Return the evidence that a commit names, and whether it is one that would carry the runs that there were."""
+    evidence = values(message, EVIDENCE)
+    return (evidence[-1] if evidence else None, bool(evidence and values(message, LAB)))

@@ -6,17 +6,18 @@ import contextlib
 import hashlib
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.history.blame import Blame, Delta, Step, walk
-from pico.history.blame_answer import Answer, RunFile, Unread, answer, dumps, loads
+from pico.history.blame_answer import Answer, Unread, answer, dumps, loads
 from pico.history.blame_cache import VERSION, Cache
 from pico.history.blame_flat import Flat, flatten
 from pico.history.blame_flat import loads as flat_from
-from pico.history.blame_how import RunBrief, brief_from, brief_of
+from pico.history.blame_how import RunBrief, brief_of
 from pico.history.repository import Repository
 from pico.history.trees import is_manifest
 from pico.manifest.files import MAX_BYTES
@@ -26,6 +27,8 @@ from pico.resources import catalog_dir
 CACHE = "pico/blame.sqlite"
 _RUN = re.compile(r"runs/\d{4}/\d{2}/[^/]+/run\.json")
 _MOST_UNREAD = 20
+RunFile = tuple[str, str]
+"""A `run.json` that a commit added: its path below the lab, and the id of its content."""
 
 
 class Walker:
@@ -39,13 +42,17 @@ class Walker:
         self._lab = _digest(VERSION, folder, _catalog_stamp(), sorted(self.shallow))
         self._unread: list[Unread] = []
         self._runs: dict[str, tuple[RunFile, ...]] = {}
+        self._known: dict[str, tuple[RunBrief, ...]] = {}
         self._folders: dict[str, str] = {}  # where the lab was at a commit, if it was moved since
 
     def answer(self, commit: str) -> Answer:
         """Return the blame of a commit, and keep it; raises PicoError where Git's objects are damaged."""
         found = self._kept(commit)
         if found is None:
-            found = answer(self.blame(commit), packaged_units, self._unread, self._runs)
+            found = answer(self.blame(commit), packaged_units, self._unread)
+            found = replace(
+                found, runs=self._briefs({n.commit for row in found.rows.values() for n in row.node.chain()})
+            )
             self.cache.flush()
             self.cache.put_result(self._lab, commit, dumps(found))
         return found
@@ -85,22 +92,19 @@ class Walker:
         self.cache.put(f"flat {name}", flat.dumps())
         return flat
 
-    def briefs(self, files: Iterable[RunFile]) -> tuple[RunBrief, ...]:
-        """Return what runs changed, by their documents; those that can't be read are left out."""
-        found = (self._brief(path, name) for path, name in files)
-        return tuple(brief for brief in found if brief is not None)
+    def _briefs(self, commits: Iterable[str]) -> dict[str, tuple[RunBrief, ...]]:
+        """Return what the runs changed that some commits brought along; those that can't be read are left out."""
+        found = {name: self._known[name] for name in commits if name in self._known}
+        for name in commits:
+            if name in self._runs:
+                found[name] = tuple(brief for file in self._runs[name] if (brief := self._brief(*file)))
+        return found
 
     def _brief(self, path: str, name: str) -> RunBrief | None:
-        text = self.cache.get(f"run {name} {path}")
-        if text is not None:
-            with contextlib.suppress(ValueError, TypeError):
-                return brief_from(text)
         from pico.trace.read import read_document
 
         document = read_document(path, self._content(name), PurePosixPath(path).parent.name)
-        brief = brief_of(document) if isinstance(document, RunDocument) else None
-        self.cache.put(f"run {name} {path}", brief.dumps() if brief else "null")
-        return brief
+        return brief_of(document) if isinstance(document, RunDocument) else None
 
     def _content(self, name: str) -> bytes:
         blob = self._git[name]  # of one that is too large, as much as makes the reader say so
@@ -130,7 +134,7 @@ class Walker:
         files = {path: self.flat(name) for path, name in self.files(commit).items()}
         if found is None or any(flat.wrong for flat in files.values()):
             return None  # what a file said before it could not be read is not in the answer
-        self._unread, self._runs = list(found.unread), dict(found.runs)
+        self._unread, self._known = list(found.unread), dict(found.runs)
         return Blame.of(files, {at: row.node for at, row in found.rows.items()})
 
     def _steps(self, commit: str, start: str | None) -> list[Step]:

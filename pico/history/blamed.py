@@ -11,7 +11,7 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.history.blame import Address, Node
 from pico.history.blame_answer import Answer, Row, Unread
 from pico.history.blame_edits import with_edits
-from pico.history.blame_how import How, RunBrief, how
+from pico.history.blame_how import How, how
 from pico.history.blame_leaves import POSE, Leaf, canonical, shown
 from pico.history.blame_walk import Walker
 from pico.history.commit import Commit
@@ -160,9 +160,7 @@ class _Turns:
         nodes = [n for row in rows for n in (row.node.chain() if history else (row.node,))]
         names = {n.commit for n in nodes if n.commit}
         self.commits: Mapping[str, Commit] = walker.repository.commits(names)
-        self.runs: dict[str, tuple[RunBrief, ...]] = {
-            name: walker.briefs(whole.runs[name]) for name in names if name in whole.runs
-        }
+        self.runs = whole.runs
 
     def leaf(self, at: Address, row: Row) -> BlamedLeaf:
         turns = tuple(self.turn(at, node, row.unit) for node in row.node.chain()) if self.history else None
