@@ -1,0 +1,172 @@
+"""The questions that are put to a lab, each a function that answers it with a check."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pico.backends.sim.world import World
+from pico.checking import trial
+from pico.checking.candidate import Candidate
+from pico.checking.verdict import Check, Verdict
+from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
+from pico.manifest.places import find, where
+from pico.merging import overlapping
+from pico.model.expectation import Expected
+from pico.model.lab import Setup
+from pico.model.plan import Plan
+from pico.model.state import LabState
+
+
+@dataclass(frozen=True)
+class Case:
+    """A valid lab on trial: the bench, the state that is wanted and what it is called, and the simulated world that
+    stands as before, which is that of commit `base`."""
+
+    candidate: Candidate
+    setup: Setup
+    wanted: LabState
+    world: World
+    base: str | None
+    what: str
+    fidelity: str
+
+    def plan(self, world: World) -> Plan:
+        """Return the plan from a world to the state wanted."""
+        source = self.candidate.manifests.source
+        return trial.plan_from(
+            self.setup, world, self.wanted, base=self.base, name=self.what, fidelity=self.fidelity, source=source
+        )
+
+
+def valid(candidate: Candidate) -> Check:
+    """Return whether there is no error in the manifests."""
+    found = candidate.manifests.diagnostics
+    if not candidate.valid:
+        return Check(question="valid", verdict="failed", text=first(found), diagnostics=found)
+    return Check(question="valid", verdict="passed", text=f"{len(candidate.files)} files", diagnostics=found)
+
+
+def formatted(candidate: Candidate) -> Check:
+    """Return whether `pico fmt` would leave the manifests as they are."""
+    from pico.manifest.fmt import format_text
+
+    changed, unreadable = [], 0
+    for path, data in sorted(candidate.files.items()):
+        try:
+            text = data.decode()
+            if b"apiVersion" in data and format_text(text, path) != text:
+                changed.append(path)
+        except (PicoError, UnicodeDecodeError):
+            unreadable += 1
+    if changed:
+        return Check(question="formatted", verdict="advised", text=f"`pico fmt` would change {', '.join(changed)}")
+    if unreadable:
+        return Check(question="formatted", verdict="skipped", text="not every file can be read")
+    return Check(question="formatted", verdict="passed")
+
+
+def stands(case: Case) -> Check:
+    """Return whether everything has room where the state wants it."""
+    found = overlapping(case.candidate.manifests)
+    if found:
+        return Check(question="stands", verdict="failed", text=first(found), diagnostics=found)
+    return Check(question="stands", verdict="passed", text=f"{len(case.setup.lab.inventory)} parts")
+
+
+def feasible(plan: Plan) -> Check:
+    """Return whether there is a plan."""
+    if plan.errored:
+        text = first(plan.diagnostics)
+        return Check(question="feasible", verdict="failed", text=text, diagnostics=plan.diagnostics)
+    text = f"{len(plan.operations)} operations, {plan.makespan:.1f} s" if plan.operations else "nothing moves"
+    return Check(question="feasible", verdict="passed", text=text, diagnostics=plan.diagnostics)
+
+
+def policy(case: Case, plan: Plan) -> tuple[Check, tuple[Mapping[str, Any], ...]]:
+    """Return whether the rules of the lab hold of a plan, and what became of each."""
+    rules = case.setup.lab.policy.rules
+    if not rules or not plan.operations:
+        text = "nothing moves" if rules else "the lab has no rules"
+        return Check(question="policy", verdict="passed", text=text), ()
+    from pico.policy.rules import verdicts
+
+    judged = verdicts(case.setup, plan, trial.seen_in(case.world))
+    broken = tuple(_broken(rule) for rule in judged if not rule["holds"])
+    denied = any(d.severity == "error" for d in broken)
+    return Check(
+        question="policy",
+        verdict="failed" if denied else "advised" if broken else "passed",
+        text=f"{len(judged) - len(broken)} of {len(judged)} rules hold",
+        diagnostics=broken,
+    ), judged
+
+
+def _broken(rule: Mapping[str, Any]) -> Diagnostic:
+    said = f"{rule['rule']}: {rule['text']}"
+    if rule["level"] == "mandatory":
+        return error("denied", f"the policy of this lab denies it: {said}")
+    return warning("advised", f"the policy of this lab advises against it: {said}")
+
+
+def expectations(case: Case, plan: Plan) -> tuple[Check, tuple[Expected, ...]]:
+    """Run a plan in the simulator; return whether it got there and the expectations hold then, and each of them."""
+    world, hands = case.world, trial.by_hand(plan)
+    if hands:
+        world = trial.after_hands(world, hands)
+        plan = case.plan(world)
+        if plan.errored or trial.by_hand(plan):
+            names = ", ".join(sorted({op.component for op in hands}))
+            text = f"a person must move {names} on the way, which the simulator can't"
+            return Check(question="expectations", verdict="skipped", text=text), ()
+    try:
+        problems, expected = _tried(case, world, plan)
+    except PicoError as exc:
+        problems, expected = tuple(exc.diagnostics), ()
+    if problems:
+        text = first([d for d in problems if d.code == "not-reached"] or problems)
+        return Check(question="expectations", verdict="failed", broken=True, text=text, diagnostics=problems), ()
+    how = [f"applied in the simulator ({case.fidelity})"] if plan.operations else []
+    how += ["with the steps by hand done"] if hands else []
+    return _judged(expected, ", ".join(how) or "nothing moves", _places(case, len(expected))), expected
+
+
+def _tried(case: Case, world: World, plan: Plan) -> tuple[tuple[Diagnostic, ...], tuple[Expected, ...]]:
+    """Return what went wrong in the simulator, and what became of the expectations."""
+    if not plan.operations:
+        from pico.policy.expectations import check_expectations
+
+        return (), check_expectations(case.setup, trial.seen_in(world), case.wanted.expect)
+    report = trial.run(case.setup, world, plan, fidelity=case.fidelity, lab=case.candidate.root)
+    if report.outcome == "done" and not report.remaining and not report.absent:
+        return (), report.expectations
+    told = [f"{c.component} {c.text}" for c in report.remaining] or [f"{n} is not there" for n in report.absent]
+    text = f"the simulator did not get there: {report.failed} of {len(plan.operations)} operations failed"
+    return (*report.diagnostics, error("not-reached", text, detail="still to do: " + ", ".join(told))), ()
+
+
+def _judged(expected: tuple[Expected, ...], how: str, places: Sequence[SourceRange | None]) -> Check:
+    said = f"{sum(e.holds is True for e in expected)} of {len(expected)} hold" if expected else "nothing is expected"
+    failing = tuple(_failure(e, at) for e, at in zip(expected, places, strict=True) if not e.holds)
+    verdict: Verdict = "failed" if failing else "passed"
+    return Check(question="expectations", verdict=verdict, text=f"{said}; {how}", diagnostics=failing)
+
+
+def _places(case: Case, number: int) -> list[SourceRange | None]:
+    """Return where the expectations are written, one after the other."""
+    states = case.candidate.manifests.documents.get("LabState", ())
+    found = [where(d, "expect", n, "that") for d in states for n in range(number) if find(d, "expect", n)]
+    return [*found] if len(found) == number else [None] * number
+
+
+def _failure(one: Expected, at: SourceRange | None) -> Diagnostic:
+    verb = "fails" if one.holds is False else "can't be told, which is a failure"
+    text = f"the expectation `{one.that}` {verb}{f': {one.message}' if one.message else ''}"
+    return error("expectation", text, detail=one.why, source=at)
+
+
+def first(found: Sequence[Diagnostic]) -> str:
+    """Return the first error in a line, and how many more there are."""
+    wrong = [d.summary for d in found if d.severity == "error"]
+    return wrong[0] + (f", and {len(wrong) - 1} more" if len(wrong) > 1 else "")
