@@ -32,7 +32,7 @@ _KNOWN: tuple[tuple[str, str, str], ...] = (
         "commit the edits (`pico commit`), or shelve them (`git stash`); shelving files moves nothing on the table",
     ),
     (r"dubious ownership", "git-ownership", "the repository belongs to somebody else; git says how to trust it"),
-    (r"failed to sign|signing failed|load public key|no private key", "git-signing", "see `git config user.signingKey`"),
+    (r"failed to sign|signing failed|load public key|private key", "git-signing", "see `git config user.signingkey`"),
     (r"nothing to commit|nothing added to commit|no changes added", "nothing-to-commit", "nothing differs from HEAD"),
     (r"partial commit during a", "git-merging", "end the merge first: `git commit`, or `git merge --abort`"),
     (

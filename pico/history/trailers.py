@@ -41,7 +41,7 @@ def trailers(message: str) -> Trailers:
         if match and not line[0].isspace():
             found.append((match[1], match[2].strip()))
         elif found and line[0].isspace():
-            found[-1] = (found[-1][0], f"{found[-1][1]} {line.strip()}")
+            found[-1] = (found[-1][0], f"{found[-1][1]} {line.strip()}".strip())
     return tuple(found)
 
 

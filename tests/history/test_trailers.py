@@ -1,4 +1,4 @@
-"""Trailers: one block at the end of a message, as git reads it; what PICO writes of a state replaces what was copied."""
+"""Trailers: one block at the end of a message, as git reads it; what was copied from another commit gives way."""
 
 from __future__ import annotations
 
