@@ -12,7 +12,7 @@ from pico.model.record import as_json
 
 from .diff import lines
 from .plan import address, change_of, reason, tally, what
-from .style import columns, count, listed, paint, seconds, wrap
+from .style import WIDTH, columns, count, listed, pad, paint, seconds, width, wrap
 
 SIGNS = {"passed": "✓", "advised": "!", "failed": "✗", "skipped": "–"}
 _COLORS = {"passed": "green", "advised": "yellow", "failed": "red", "skipped": "dim"}
@@ -81,14 +81,22 @@ def why(plan: Plan, op: Operation) -> tuple[str, str, str]:
 def _lab(checked: Checked, lab: LabChecked) -> str:
     where = "" if lab.folder == "." else f" · {lab.folder}"
     head = f"{paint('bold', lab.lab)}{where} · {checked.what} against {base(lab)}"
-    rows = [[f"{paint(_COLORS[c.verdict], SIGNS[c.verdict])} {TITLES[c.question]}", said(c)] for c in lab.checks]
-    blocks = [head, "\n".join(columns(rows, indent="  ", last=160)), *_changes(lab), *_plan(lab)]
+    blocks = [head, "\n".join(line for check in lab.checks for line in _check(check)), *_changes(lab), *_plan(lab)]
     blocks += ["\n".join(line for note in lab.notes for line in wrap(f"Note: {note}.", ""))] if lab.notes else []
     if lab.pictures:
         blocks.append(f"Pictures: {', '.join(p.path for p in lab.pictures)}.")
     color = "red" if lab.exit_code else "green"
     word = "Refused" if lab.exit_code else "Passed"
     return "\n\n".join([*blocks, f"{paint(color, word)}: {verdict(lab)}."])
+
+
+def _check(check: Check) -> list[str]:
+    """Return the line of a question; what was found stands beside it, or below where that is too long."""
+    found, room = said(check), max(len(title) for title in TITLES.values())
+    head = f"  {paint(_COLORS[check.verdict], SIGNS[check.verdict])} {pad(TITLES[check.question], room)}"
+    if width(head) + 2 + width(found) <= WIDTH:
+        return [f"{head}  {found}".rstrip()]
+    return [head.rstrip(), *wrap(found, " " * 6)]
 
 
 def _changes(lab: LabChecked) -> list[str]:

@@ -168,5 +168,5 @@ def _failure(one: Expected, at: SourceRange | None) -> Diagnostic:
 
 def first(found: Sequence[Diagnostic]) -> str:
     """Return the first error in a line, and how many more there are."""
-    wrong = [d.summary for d in found if d.severity == "error"]
+    wrong = [d.summary for d in found if d.severity == "error"] or [d.summary for d in found]
     return wrong[0] + (f", and {len(wrong) - 1} more" if len(wrong) > 1 else "")
