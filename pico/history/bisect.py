@@ -2,16 +2,18 @@
 
 Pure: commits are numbers, parents before children, the last of them is the one known to be bad; costs are passed in.
 Halving counts trials alike; here a trial costs what the bench needs to get there, and the measurement. On a line of
-history the least expected time is found exactly (every order of trials, by intervals); where branches meet, the commit
-with the most information per second is taken.
+history the least expected time is found exactly (every order of trials, by intervals). Where branches meet, of the
+trials with the most information per second that one is best after which always taking the most is quickest.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
+PROMISING = 12
+"""Of how many trials it is worked out what is expected after them, where branches meet."""
 MOST = 400
 """Of how many commits of a line the least time is found exactly; the work grows with their cube."""
 
@@ -47,23 +49,18 @@ class Suspects:
 
 @dataclass(frozen=True)
 class Choice:
-    """A commit to try next. `travel`: how long the bench needs to get there; `measure`: the measurement [s]; `future`:
-    what is expected after it on a line of history [s], else None, and then `information` counts [bit]; `doubt`: how
-    much longer it counts because a neighbor could not be told."""
+    """A commit to try next. `travel`: how long the bench needs to get there; `measure`: the measurement; `future`: what
+    is expected after it [s]; `doubt`: how much longer it counts because a neighbor could not be told."""
 
     index: int
     travel: float
     measure: float
-    future: float | None = None
-    information: float = 1.0
+    future: float
     doubt: float = 1.0
 
     def score(self, travel: float | None = None) -> float:
-        """Return what to choose the least of, where getting there takes `travel` seconds instead of the estimate."""
-        seconds = ((self.travel if travel is None else travel) + self.measure) * self.doubt
-        if self.future is not None:
-            return seconds + self.future
-        return seconds / self.information if self.information > 0 else math.inf
+        """Return what is expected in all [s], where getting there takes `travel` instead of the estimate."""
+        return ((self.travel if travel is None else travel) + self.measure) * self.doubt + self.future
 
 
 def choices(
@@ -74,7 +71,7 @@ def choices(
     `first(c)`: how long the bench needs from where it stands to commit c; `between(a, b)`: from a to b; `measure`: how
     long a measurement takes [s].
     """
-    ways = _exact if suspects.linear and len(suspects.parents) <= MOST else _greedy
+    ways = _exact if suspects.linear and len(suspects.parents) <= MOST else _promising
     found = ways(suspects, first, between, measure)
     return sorted(found, key=lambda c: (c.score(), c.index))
 
@@ -86,20 +83,89 @@ def halfway(suspects: Suspects) -> int | None:
     return max(even, key=lambda n: (even[n], -n), default=None)
 
 
-def _greedy(
+def _promising(
     suspects: Suspects, first: Callable[[int], float], between: Callable[[int, int], float], measure: float
 ) -> list[Choice]:
-    before, total = suspects.ancestors(), sum(suspects.weight)
-    found = []
-    for n in sorted(suspects.testable):
-        share = sum(w for k, w in enumerate(suspects.weight) if before[n] >> k & 1) / total if total else 0.0
-        found.append(Choice(n, first(n), measure, information=entropy(share), doubt=_doubt(suspects, n)))
-    return found
+    """Return the trials with the most information per second, with what is expected after each where the trial with
+    the most is always taken."""
+    if not suspects.testable:
+        return []
+    greedy = _Greedy(suspects, between, measure)
+    travel = {n: first(n) for n in greedy.trials}
+    best = greedy.rated([travel[n] for n in greedy.trials])[:PROMISING]
+    return [Choice(n, travel[n], measure, greedy.after(n), _doubt(suspects, n)) for n in best]
 
 
-def entropy(share: float) -> float:
-    """Return the information of a verdict that is bad with this probability [bit]."""
-    return -sum(p * math.log2(p) for p in (share, 1.0 - share) if p > 0)
+@dataclass
+class _Greedy:
+    """The search that takes the trial with the most information per second every time. Suspects are rows of flags."""
+
+    suspects: Suspects
+    between: Callable[[int, int], float]
+    measure: float
+    trials: list[int] = field(init=False)
+    _known: dict[tuple[bytes, int], float] = field(default_factory=dict)
+    _rows: dict[int, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        import numpy as np
+
+        count, bits = len(self.suspects.parents), self.suspects.ancestors()
+        self.trials = sorted(self.suspects.testable)
+        flags = (np.frombuffer(bits[n].to_bytes(count // 8 + 1, "little"), np.uint8) for n in self.trials)
+        self._bad = np.array([np.unpackbits(f, bitorder="little")[:count] for f in flags], dtype=bool)
+        self._weight = np.asarray(self.suspects.weight, dtype=float)
+
+    def rated(self, travel: Sequence[float]) -> list[int]:
+        """Return the trials, that with the most information per second first, where all are suspects still."""
+        import numpy as np
+
+        rates = self._rates(np.ones(len(self._weight), dtype=bool), np.asarray(travel))
+        return [self.trials[k] for k in np.argsort(-rates, kind="stable").tolist()]
+
+    def after(self, trial: int) -> float:
+        """Return what is expected after a first trial [s]."""
+        import numpy as np
+
+        return self._split(np.ones(len(self._weight), dtype=bool), self.trials.index(trial))
+
+    def _split(self, left: Any, k: int) -> float:
+        """Return what is expected after trial `k` where `left` are suspects [s]."""
+        bad = left & self._bad[k]
+        total = float(self._weight[left].sum())
+        share = float(self._weight[bad].sum()) / total if total else 0.0
+        return share * self._rest(bad, k) + (1 - share) * self._rest(left & ~bad, k)
+
+    def _rest(self, left: Any, at: int) -> float:
+        import numpy as np
+
+        key = (np.packbits(left).tobytes(), at)
+        if key not in self._known:
+            rates = self._rates(left, self._row(at))
+            k = int(rates.argmax())
+            more = rates[k] > 0 and int((self._weight[left] > 0).sum()) > 1
+            self._known[key] = float(self._row(at)[k]) + self.measure + self._split(left, k) if more else 0.0
+        return self._known[key]
+
+    def _rates(self, left: Any, travel: Any) -> Any:
+        """Return the information of each trial per second [bit/s]."""
+        import numpy as np
+
+        weight = self._weight * left
+        total = weight.sum()
+        share = self._bad @ weight / total if total else np.zeros(len(self.trials))
+        share = np.clip(share, 0.0, 1.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            bits = -np.nan_to_num(share * np.log2(share)) - np.nan_to_num((1 - share) * np.log2(1 - share))
+        return bits / np.maximum(travel + self.measure, 1e-6)
+
+    def _row(self, at: int) -> Any:
+        import numpy as np
+
+        if at not in self._rows:
+            here = self.trials[at]
+            self._rows[at] = np.array([self.between(here, n) if n != here else 0.0 for n in self.trials])
+        return self._rows[at]
 
 
 def _doubt(suspects: Suspects, n: int) -> float:
@@ -120,10 +186,7 @@ def _exact(
     table = _Intervals(suspects, between, measure)
     table.fill()
     last = len(suspects.parents) - 1
-    return [
-        Choice(n, first(n), measure, future=table.after(n, last), doubt=_doubt(suspects, n))
-        for n in sorted(suspects.testable)
-    ]
+    return [Choice(n, first(n), measure, table.after(n, last), _doubt(suspects, n)) for n in sorted(suspects.testable)]
 
 
 @dataclass
