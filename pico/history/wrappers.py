@@ -11,7 +11,8 @@ SUMMARY, ALONE = 40, 41
 # Git calls it with 7 arguments: path, then file, id and mode of the old and of the new side; with 9 where the path
 # changed, and with 1 where it is unmerged. It tells a driver neither its own options nor how a pager is fed, so they
 # are read from the command line of git. The ordinary diff is made from two trees of this one file, held in a folder of
-# their own: what git prints of them is, byte for byte, what it would have printed itself.
+# their own: what git prints of them is, byte for byte, what it would have printed itself. Files that git does not keep
+# (`git diff --no-index`) are compared as such.
 _DIFF = r"""pico_diff() (
 if test -n "$GIT_EXTERNAL_DIFF"; then sh -c "$GIT_EXTERNAL_DIFF \"\$@\"" sh "$@"; exit; fi
 if test $# -lt 7; then printf '* Unmerged path %s\n' "$1"; exit 0; fi
@@ -52,6 +53,9 @@ esac
 printf '%s %s\t%s\0' "$5" "$id" "$2" | GIT_INDEX_FILE=$at/$1 git update-index -z --index-info
 }
 ordinary() {
+case $1 in /* | ../*) return 1 ;; esac
+case ${8-} in /* | ../*) return 1 ;; esac
+case $3$6 in *[!0]*) ;; *) return 1 ;; esac
 at=$(mktemp -d) && trap 'rm -rf "$at"' EXIT || return 1
 objects=$(git rev-parse --path-format=absolute --git-path objects) || return 1
 objects=$objects${GIT_ALTERNATE_OBJECT_DIRECTORIES:+:$GIT_ALTERNATE_OBJECT_DIRECTORIES}
@@ -68,7 +72,7 @@ git --no-pager diff --no-ext-diff --no-textconv $given $renamed "$old" "$new"
 }
 other=$(git config diff.external)
 if test -n "$other"; then sh -c "$other \"\$@\"" sh "$@"; exit; fi
-ordinary "$@" || git --no-pager diff --no-ext-diff --no-textconv --no-index -- "$2" "$5"
+ordinary "$@" || git --no-pager diff --no-ext-diff --no-textconv --no-index $given -- "$2" "$5"
 exit 0
 ); pico_diff"""
 
@@ -85,6 +89,7 @@ if (flow > 0) { flow += depth(line); print; next }
 if (line ~ /^#/ || line ~ /^[ \t\r]*$/ || (below >= 0 && at > below)) { print; next }
 below = -1
 if (line ~ /^-/) { if (line ~ /^---/) n = 0; else below = at; print; next }
+if (at > 200) { print; next }
 if (!match(line, /^[A-Za-z_][A-Za-z0-9_.\/-]*:/) || substr(line, RLENGTH + 1) !~ /^([ \t\r]|$)/) { print; next }
 value = substr(line, RLENGTH + 1)
 while (n > 0 && column[n] >= at) n--

@@ -218,7 +218,12 @@ def test_every_other_command_of_git_does_its_work(lab: Lab) -> None:
     lab.git("stash", "pop", "-q")
     lab.git("add", "-p", stdin="s\ny\nn\n", env={"GIT_EDITOR": "true"})
     assert lab.git("diff", "--cached", "--no-ext-diff", "--numstat").startswith("1\t1\t")
+    lab.git("stash", "push", "-q", "-p", stdin="y\n")
+    lab.git("stash", "pop", "-q")
     lab.commit("moved")
+    lab.write("state/table.yaml", STATE)
+    lab.git("checkout", "-q", "-p", stdin="a\n")
+    assert (lab.folder / "state/table.yaml").read_text() == MOVED
     patch = lab.git("format-patch", "--stdout", "-1")
     lab.git("checkout", "-q", "-b", "other", "base")
     lab.git("am", "-q", stdin=patch)
@@ -265,6 +270,16 @@ def test_another_diff_program_that_was_asked_for_is_obeyed(lab: Lab) -> None:
     lab.write("state/table.yaml", MOVED)
     assert lab.git("diff", env={"GIT_EXTERNAL_DIFF": "echo mine"}).startswith("mine state/table.yaml")
     assert f"{SAID}\nmine state/table.yaml" in lab.git("-c", "diff.external=echo mine", "diff")
+
+
+def test_files_that_git_does_not_keep_are_compared_as_ever(lab: Lab) -> None:
+    outside = lab.folder.parent / "other.yaml"
+    outside.write_text(MOVED)
+    for other in (str(outside), "../other.yaml", "state/new.yaml"):
+        lab.write("state/new.yaml", MOVED)
+        asked = ["--no-index", "state/table.yaml", other]
+        ordinary = lab.git("diff", "--no-ext-diff", "--no-textconv", *asked, code=1)
+        assert lab.git("diff", *asked, code=None).endswith(ordinary)
 
 
 def test_color_only_where_git_would_use_it(lab: Lab) -> None:
