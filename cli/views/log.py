@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.history.commit import Commit
 from pico.history.folder import Entry
 from pico.history.graph import Row, lanes
-from pico.history.trailers import without_trailers
+from pico.history.trailers import meta, without_trailers
 from pico.model.record import as_json
 from pico.model.run import RunDocument
 
@@ -119,7 +119,8 @@ def header(entry: Entry) -> list[str]:
     c = entry.commit
     refs = f" ({', '.join(c.refs)})" if c.refs else ""
     head = [paint("yellow", f"commit {c.short}{refs}"), f"{c.author}, {c.time:%Y-%m-%d %H:%M}"]
-    return [*head, "", *wrap(without_trailers(c.message), "    ")]
+    recorded = [f"    {key}: {value}" for key, value in meta(c.message).items()]
+    return [*head, "", *wrap(without_trailers(c.message), "    "), *([""] if recorded else []), *recorded]
 
 
 def noted(part: str, notes: Sequence[Note]) -> str:
@@ -161,7 +162,7 @@ def ended(run: RunDocument) -> str:
 
 def data(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:
     """Return schema `pico.log/v1`: `head`, and `commits`: id, parents, refs, author, time, message, changes, evidence,
-    runs, rail."""
+    runs, meta, rail."""
     commits = list(log.commits())
     rails = {r.commit.id: r.rail for r in lanes(commits) if r.commit} if graph else {}
     shown = [entry_data(log.entry(c)) | ({"rail": rails[c.id]} if graph else {}) for c in commits]
@@ -179,4 +180,5 @@ def entry_data(entry: Entry) -> dict[str, Any]:
     return {
         "id": c.id, "parents": list(c.parents), "refs": list(c.refs), "author": c.author, "time": c.time.isoformat(),
         "message": c.message, "changes": as_json(entry.changes), "evidence": entry.evidence, "runs": as_json(runs),
+        "meta": meta(c.message),
     } | ({"unreadable": entry.unreadable} if entry.unreadable else {})  # fmt: skip
