@@ -86,10 +86,6 @@ class Blame:
         """Return every component that a state or the inventory names."""
         return self._states.keys() | self._parts.keys()
 
-    def kind(self, component: str) -> str:
-        """Return the type of a component; empty where the inventory does not have it."""
-        return self._part(component)[0]
-
     def put(self, delta: Delta, commit: str, packaged: Units, others: Sequence[Blame] = ()) -> None:
         """Go on to a commit that differs by `delta` from this one, its first parent; `others`: its other parents.
 
