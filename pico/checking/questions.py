@@ -13,6 +13,7 @@ from pico.checking.verdict import Check, Verdict
 from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
 from pico.manifest.places import find, where
 from pico.merging import overlapping
+from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.plan import Plan
@@ -141,9 +142,13 @@ def _tried(case: Case, world: World, plan: Plan) -> tuple[tuple[Diagnostic, ...]
     report = trial.run(case.setup, world, plan, fidelity=case.fidelity, lab=case.candidate.root)
     if report.outcome == "done" and not report.remaining and not report.absent:
         return (), report.expectations
-    told = [f"{c.component} {c.text}" for c in report.remaining] or [f"{n} is not there" for n in report.absent]
+    told = [f"{_name(c)} {c.text}" for c in report.remaining] or [f"{n} is not there" for n in report.absent]
     text = f"the simulator did not get there: {report.failed} of {len(plan.operations)} operations failed"
     return (*report.diagnostics, error("not-reached", text, detail="still to do: " + ", ".join(told))), ()
+
+
+def _name(change: Change) -> str:
+    return change.component if change.tunable == "pose" else f"{change.component}.{change.tunable}"
 
 
 def _judged(expected: tuple[Expected, ...], how: str, places: Sequence[SourceRange | None]) -> Check:

@@ -132,6 +132,16 @@ def test_random_faults_of_the_lab_do_not_count(lab: Lab) -> None:
     assert checked(lab).exit_code == 0
 
 
+def test_a_simulator_that_does_not_get_there_ends_with_1_and_says_what_went_wrong(lab: Lab) -> None:
+    lab.edit("  seed: 1", "  seed: 1\n  pad_friction: 0.01", "lab.yaml")
+    lab.edit("x: 520", "x: 560")
+    lab.expect("p2.pose.x < 0.0")
+    found = checked(lab, fidelity="physics")
+    assert found.exit_code == 1 and verdicts(found)["expectations"] == "failed"
+    assert [d.code for d in found.labs[0].diagnostics] == ["dropped", "not-reached"]
+    assert "p2 moved" in found.labs[0].diagnostics[1].detail and checked(lab).exit_code == 6
+
+
 def test_a_lab_that_the_base_does_not_have_starts_from_home(lab: Lab) -> None:
     lab.git("checkout", "-q", "--orphan", "fresh")
     lab.git("rm", "-q", "-r", "--cached", ".")
