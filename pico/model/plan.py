@@ -36,9 +36,10 @@ class Base:
 class Target:
     """What a plan leads to: a revision and its commit, or the manifest in the working tree (no revision).
 
-    `title`: what it is where it is neither (the bench before a run). `only`: the components that were asked for;
-    `exclude`: those that were to be left alone. None for a whole plan. `expect`: what is expected of the bench then.
-    `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`, `heal`), and `of` which run.
+    `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
+    `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
+    is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
+    `heal`), and `of` which run.
     """
 
     revision: str | None = None
@@ -59,8 +60,12 @@ class Target:
     @property
     def scope(self) -> str:
         """`only p2`, `without p1`, or nothing for a whole plan."""
-        words = [f"only {' and '.join(self.only)}"] if self.only else []
-        return ", ".join([*words, *([f"without {' and '.join(self.exclude)}"] if self.exclude else [])])
+        words = [f"only {_listed(self.only)}"] if self.only else []
+        return ", ".join([*words, *([f"without {_listed(self.exclude)}"] if self.exclude else [])])
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else names[0]
 
 
 @record
