@@ -9,6 +9,9 @@ from xml.etree import ElementTree as xml
 
 import pytest
 from commanding import Pico, edit
+from hypothesis import given
+from hypothesis import strategies as st
+from pico_cli.views.check_junit import junit
 from pico_cli.views.check_markdown import report
 from pico_cli.views.markdown import fenced, prose
 
@@ -198,6 +201,19 @@ def test_junit_of_what_is_not_valid_names_the_place_and_skips_the_rest(shel: Pat
     top = xml.parse(shel / "junit.xml").getroot()
     assert list(breaches(top)) == []
     assert (top[0][0].get("file"), top[0][0].get("line")) == (STATE, "10") and top[0].get("skipped") == "4"
+
+
+ANY = st.text(st.characters() | st.sampled_from("|`*_[]()<>@#!~&\n\x00\ud800"), max_size=60)
+
+
+@given(ANY)
+def test_whatever_is_said_is_one_cell_of_a_table_and_a_legal_document(words: str) -> None:
+    cell = prose(words)
+    assert not set(cell) & set("\n|<>") and not re.search(r"(?<!\\)`", cell)
+    failed = Check(question="stands", verdict="failed", text=words, diagnostics=(error("impossible", words),))
+    found = Checked(what=words, labs=(LabChecked(lab=words, checks=(failed,)),))
+    assert list(breaches(xml.fromstring(junit(found).encode()))) == []
+    assert report(found).encode()
 
 
 # files that hooks hand over
