@@ -218,7 +218,9 @@ def test_every_other_command_of_git_does_its_work(lab: Lab) -> None:
     lab.git("stash", "pop", "-q")
     lab.git("add", "-p", stdin="s\ny\nn\n", env={"GIT_EDITOR": "true"})
     assert lab.git("diff", "--cached", "--no-ext-diff", "--numstat").startswith("1\t1\t")
-    lab.git("stash", "push", "-q", "-p", stdin="y\n")
+    lab.git("reset", "-q")
+    lab.git("stash", "push", "-q", "-p", stdin="a\n")
+    assert (lab.folder / "state/table.yaml").read_text() == STATE
     lab.git("stash", "pop", "-q")
     lab.commit("moved")
     lab.write("state/table.yaml", STATE)
@@ -381,7 +383,7 @@ def test_exactly_what_differs_is_listed(old: dict[str, Any], new: dict[str, Any]
     def leaves(components: dict[str, Any]) -> dict[tuple[str, str], str]:
         found = {}
         for name, part in components.items():
-            found[name, "pose"] = repr((part.get("slot"), part.get("pose")))
+            found[name, "pose"] = repr((part.get("slot"), sorted(part.get("pose", {}).items())))
             for key in part.keys() - {"slot", "pose"}:
                 value = part[key]
                 found[name, key] = repr(float(value) + 0.0) if type(value) in (int, float) else repr(value)
