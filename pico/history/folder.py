@@ -342,5 +342,5 @@ def _edited(paths: tuple[str, ...]) -> Diagnostic:
     return error(
         "edited",
         f"{', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''} differ from the last commit",
-        hint='`pico commit -m "why"` keeps the edits, `git stash` shelves them, `git restore .` drops them',
+        hint='`pico commit -m "why"` keeps the edits, `pico stash` shelves them, `git restore .` drops them',
     )
