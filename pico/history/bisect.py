@@ -148,7 +148,7 @@ class _Greedy:
         return self._known[key]
 
     def _rates(self, left: Any, travel: Any) -> Any:
-        """Return the information of each trial per second [bit/s]."""
+        """Return the information of each trial per second [bit/s]; none of one that is no suspect any more."""
         import numpy as np
 
         weight = self._weight * left
@@ -157,7 +157,7 @@ class _Greedy:
         share = np.clip(share, 0.0, 1.0)
         with np.errstate(divide="ignore", invalid="ignore"):
             bits = -np.nan_to_num(share * np.log2(share)) - np.nan_to_num((1 - share) * np.log2(1 - share))
-        return bits / np.maximum(travel + self.measure, 1e-6)
+        return bits * left[self.trials] / np.maximum(travel + self.measure, 1e-6)
 
     def _row(self, at: int) -> Any:
         import numpy as np
