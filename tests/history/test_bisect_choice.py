@@ -52,7 +52,7 @@ def benches(draw: st.DrawFn, most: int, linear: bool) -> Bench:
 
 
 def least(bench: Bench) -> float:
-    """Return the least expected time over all decision trees: any trial may follow any other."""
+    """Return the least expected time over all decision trees: any suspect may be tried after any other."""
     weight, ancestors = bench.suspects.weight, bench.suspects.ancestors()
 
     @cache
@@ -61,7 +61,7 @@ def least(bench: Bench) -> float:
         if sum(weight[c] > 0 for c in left) < 2:
             return 0.0
         found = []
-        for trial in bench.suspects.testable:
+        for trial in bench.suspects.testable & left:
             bad = frozenset(c for c in left if ancestors[trial] >> c & 1)
             if bad and bad != left:
                 share = sum(weight[c] for c in bad) / total
