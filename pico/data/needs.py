@@ -14,6 +14,8 @@ from pico.history.repository import Repository
 from pico.model.record import as_json, record
 
 _RUN = re.compile(r"(?:.*/)?runs/\d{4}/\d{2}/([^/]+)/run\.json")
+LARGEST = 16 << 20
+"""Bytes above which nothing is the document of a run; `pico.trace.read` is stricter."""
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 # What Git does not know: files of runs that were not committed yet, and the journal of a bench.
 _LOOSE = (":(glob)**/runs/*/*/*/run.json", ":(glob)**/.pico/journal.sqlite")
@@ -50,7 +52,7 @@ def kept_needs(repository: Repository) -> Needs:
     for tree in _worktrees(repository):
         for path in _loose(tree):
             if path.name == "run.json":
-                found.append(_needed_by(path.parent.name, path.read_bytes()))
+                found.append(_needed_by(path.parent.name, path.read_bytes() if _readable(path) else b""))
             else:
                 found += _waiting(path.parent.parent)
     return united(found)
@@ -69,10 +71,12 @@ def united(found: Iterable[Iterable[Need]]) -> Needs:
 def _committed(repository: Repository, revisions: tuple[str, ...]) -> Iterator[tuple[str, bytes]]:
     """Yield id and document of each run in the trees of commits; git passes over trees that it has seen."""
     listed = git.run(repository.root, ["rev-list", "--objects", *revisions], doing="list what commits hold")
-    for line in listed.splitlines():
+    for line in listed.split("\n"):
         name, _, path = line.partition(" ")
         if path.endswith("/run.json") and (match := _RUN.fullmatch(path)):
-            yield match[1], repository.blob(name)
+            found = repository.handle[name]
+            if found.type_str == "blob" and found.size <= LARGEST:
+                yield match[1], found.data
 
 
 def _needed_by(run: str, document: bytes) -> tuple[Need, ...]:
@@ -81,15 +85,20 @@ def _needed_by(run: str, document: bytes) -> tuple[Need, ...]:
     Read more generously than `pico.trace.read` does: what the run of a newer PICO needs must be kept, too.
     """
     try:
-        data = json.loads(document)
-        artifacts = data.get("artifacts", ())
+        artifacts = json.loads(document).get("artifacts", ())
         return tuple(_need(run, a) for a in artifacts if _SHA256.fullmatch(str(a["sha256"])))
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+    except (ValueError, TypeError, KeyError, AttributeError, ArithmeticError, RecursionError):
         return ()
 
 
 def _need(run: str, artifact: Mapping[str, Any]) -> Need:
-    return Need(sha256=artifact["sha256"], size=int(artifact["size"]), name=str(artifact["name"]), runs=(run,))
+    name, size = _plain(str(artifact["name"])), max(0, int(artifact["size"]))
+    return Need(sha256=artifact["sha256"], size=size, name=name, runs=(_plain(run),))
+
+
+def _plain(name: str) -> str:
+    """Return a name as it may be shown: a repository of somebody else could hold one that rules a terminal."""
+    return "".join(c if c.isprintable() else "?" for c in name[:100])
 
 
 def _worktrees(repository: Repository) -> Iterator[Path]:
@@ -103,6 +112,10 @@ def _worktrees(repository: Repository) -> Iterator[Path]:
 def _loose(tree: Path) -> Iterator[Path]:
     found = git.run(tree, ["ls-files", "-z", "--others", "--", *_LOOSE], doing="list the files that are not committed")
     yield from (tree / name for name in found.split("\0") if name)
+
+
+def _readable(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink() and path.stat().st_size <= LARGEST
 
 
 def _waiting(root: Path) -> list[tuple[Need, ...]]:

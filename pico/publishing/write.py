@@ -26,7 +26,7 @@ def write(files: Iterable[File], store: Store, out: Path, moment: datetime) -> N
         fresh = out.with_name(f".{out.name}.unfinished")
         _discard(fresh)
         try:
-            (_write_zip if out.suffix == ".zip" else _write_folder)(files, store, fresh, moment)
+            (_write_zip if out.suffix.lower() == ".zip" else _write_folder)(files, store, fresh, moment)
             if out.is_dir():
                 out.rmdir()
             fresh.rename(out)

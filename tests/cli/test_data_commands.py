@@ -2,50 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import shutil
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 import pytest
 from commanding import Pico
+from data_labs import commit_run, damage, git, put, sha, write_run
 
 from pico.data.lab import LabData
-
-
-def git(*words: str, at: Path | str = ".") -> str:
-    done = subprocess.run(["git", *words], cwd=at, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
-def sha(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()
-
-
-def put(folder: Path, data: bytes) -> str:
-    return LabData.discover(folder).store.put(data)
-
-
-def write_run(folder: Path, run: str, *objects: bytes) -> str:
-    """Keep objects and write a run that needs them, as a recorder does; return the name of the last object."""
-    name = [put(folder, data) for data in objects][-1]
-    artifacts = [{"name": f"frame{i}.bin", "sha256": sha(d), "size": len(d)} for i, d in enumerate(objects)]
-    path = folder / "runs" / "2026" / "11" / run / "run.json"
-    path.parent.mkdir(parents=True)
-    path.write_text(json.dumps({"schema": "pico.run/v1", "id": run, "artifacts": artifacts}))
-    return name
-
-
-def commit_run(folder: Path, run: str, *objects: bytes) -> str:
-    name = write_run(folder, run, *objects)
-    git("add", "runs", at=folder)
-    git("commit", "-q", "-m", run, at=folder)
-    return name
 
 
 def stored(folder: Path) -> set[str]:
@@ -56,11 +24,6 @@ def age(folder: Path, days: float) -> None:
     store = LabData.discover(folder).store
     for name in store.all():
         os.utime(store.path(name), (time.time() - days * 86400,) * 2)
-
-
-def damage(path: Path) -> None:
-    path.chmod(0o644)
-    path.write_bytes(b"X" + path.read_bytes()[1:])
 
 
 @pytest.fixture
@@ -237,6 +200,9 @@ def test_what_a_newer_pico_wrote_is_kept_and_what_is_no_run_does_no_harm(lab: Pa
     kept = commit_run(lab, "run-a", b"frame a")
     path = lab / "runs" / "2026" / "11" / "run-a" / "run.json"
     path.write_text(path.read_text().replace("pico.run/v1", "pico.run/v9"))
+    esc = lab / "runs" / "2026" / "11" / "\x1b[31mred" / "run.json"
+    esc.parent.mkdir()
+    esc.write_text(json.dumps({"artifacts": [{"sha256": sha(b"x"), "size": float("inf"), "name": "x"}]}))
     hostile = lab / "runs" / "2026" / "11" / "hostile" / "run.json"
     hostile.parent.mkdir()
     for text in ("[]", "{", '{"artifacts": 3}', '{"artifacts": [{"sha256": "../../config", "size": 1, "name": "x"}]}'):
@@ -245,6 +211,31 @@ def test_what_a_newer_pico_wrote_is_kept_and_what_is_no_run_does_no_harm(lab: Pa
         git("commit", "-q", "-m", "not of ours")
         assert pico("data", "status").code == 0
         assert pico("data", "gc", "--grace", "0d", "--auto-approve").code == 0
+    assert stored(lab) == {kept}
+
+
+def test_a_name_from_somebody_elses_repository_does_not_rule_the_terminal(lab: Path, pico: Pico) -> None:
+    path = lab / "runs" / "2026" / "11" / "run\x1b[2J" / "run.json"
+    path.parent.mkdir(parents=True)
+    path.write_text(json.dumps({"artifacts": [{"sha256": sha(b"x"), "size": 1, "name": "\x1b]0;mine\x07"}]}))
+    git("add", "-A")
+    git("commit", "-q", "-m", "hostile")
+    out = pico("data", "status").out
+    assert f"missing {sha(b'x')}" in out
+    assert "\x1b" not in out
+
+
+def test_what_only_looks_like_a_run_is_not_read(lab: Path, tmp_path: Path, pico: Pico) -> None:
+    kept = commit_run(lab, "run-a", b"frame a")
+    (lab / "runs" / "2026" / "11" / "link").mkdir()
+    (lab / "runs" / "2026" / "11" / "link" / "run.json").symlink_to("/dev/zero")
+    (lab / "runs" / "2026" / "11" / "folder" / "run.json").mkdir(parents=True)
+    (lab / "runs" / "2026" / "11" / "folder" / "run.json" / "x").write_text("{}")
+    for _ in ("loose", "committed"):
+        assert pico("data", "gc", "--grace", "0d", "--auto-approve").code == 0
+        assert pico("data", "status").code == 0
+        git("add", "-A")
+        git("commit", "-q", "--allow-empty", "-m", "hostile")
     assert stored(lab) == {kept}
 
 

@@ -13,7 +13,7 @@ from urllib.parse import unquote
 
 import pytest
 from commanding import Pico
-from test_data_commands import git
+from data_labs import git
 
 from pico.data.lab import LabData
 
@@ -282,3 +282,13 @@ def test_pictures_is_all_or_none(lab: Path, pico: Pico) -> None:
     answer = pico("publish", "--pictures", "non")
     assert answer.code == 1
     assert "did you mean `none`?" in answer.err
+
+
+def test_a_script_publishes_too(lab: Path, tmp_path: Path) -> None:
+    import pico
+
+    with pico.open(lab) as bench:
+        made = bench.publish("HEAD", tmp_path / "crate", pictures=False)
+        assert bench.data.status().absent == ()
+    assert made.evidence == "kinematic"
+    assert entities(tmp_path / "crate")["./"]["identifier"] == made.commit

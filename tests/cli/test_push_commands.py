@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from commanding import Pico
-from test_data_commands import commit_run, damage, git
+from data_labs import commit_run, damage, git
 
 from pico.data.lab import LabData
 
