@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import yaml
 
 from pico.diagnostics import Diagnostic, error
@@ -48,6 +50,19 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("did not find expected node content", "a value is missing", "quote text that begins with `,`, `?` or `%`"),
     ("did not find expected <document start>", "text after the end of the document", "check the indentation"),
 )
+
+_CONFLICT = re.compile(r"^(<{7,} .*?)\r?$(?s:.*?)^={7,}\r?$(?s:.*?)^>{7,} ", re.MULTILINE)
+
+
+def conflict(source: Source) -> Diagnostic | None:
+    """Return the diagnostic of the first conflict of a merge that stands in a text, None where there is none."""
+    if "<<<<<<< " not in source.content:
+        return None
+    found = _CONFLICT.search(source.content)
+    if found is None:
+        return None
+    hint = "say what is to hold, take the three marked lines out, then `git add` the file and `pico commit`"
+    return error("merge-conflict", "a merge left a conflict here", hint=hint, source=source.range(*found.span(1)))
 
 
 def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:

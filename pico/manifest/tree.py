@@ -13,7 +13,7 @@ from typing import Any
 import yaml
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.manifest.broken import explain
+from pico.manifest.broken import conflict, explain
 from pico.manifest.scalars import Plain, resolve
 from pico.manifest.source import Source
 
@@ -91,6 +91,9 @@ def parse(source: Source) -> tuple[list[Document], list[Diagnostic]]:
     known = _recent.roots.get(source.content)
     if known is not None:
         return [Document(source, root) for root in known], []
+    marked = conflict(source)
+    if marked:
+        return [], [marked]
     builder = _Builder(source)
     try:
         _refuse_directives(source)

@@ -191,7 +191,7 @@ def test_it_ends_a_merge_whose_conflicts_are_resolved(built: Path, pico: Pico) -
     git("commit", "-qam", "ours")
     git("merge", "-q", "other", ok=False)
     marked = pico("commit", "-m", "x")
-    assert marked.code == 1 and "state/table.yaml" in marked.err
+    assert marked.code == 1 and "error[merge-conflict]" in marked.err and "--> state/table.yaml:" in marked.err
     git("checkout", "-q", "--theirs", "state/table.yaml")
     unresolved = pico("commit", "-m", "x")
     assert unresolved.code == 1 and "error[merge-conflict]" in unresolved.err and "`git add`" in unresolved.err
