@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pico.bench import Bench
     from pico.bisecting import Bisection, Proposal
     from pico.model.event import Event
+    from pico.model.plan import Plan
 
 AGAIN = "`pico bisect continue` goes on: what was judged is in git's log"
 
@@ -54,7 +55,7 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
     if proposal.plan.operations and not auto_approve and not session.confirm(view.question(proposal)):
         session.say(f"Nothing moved. {AGAIN}; `pico bisect skip` leaves this one out.")
         return ExitCode.ERROR
-    seconds, code = bring(session, bench, proposal)
+    seconds, code = bring(session, bench, proposal.plan)
     if code:
         search.spent(proposal.commit, seconds)
         session.say(f"{AGAIN}.")
@@ -68,13 +69,13 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
     return None
 
 
-def bring(session: Session, bench: Bench, proposal: Proposal) -> tuple[float, int]:
+def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
     """Run the plan of a configuration; return how long the bench took [s], and 0 where it stands as planned."""
-    if not proposal.plan.operations:
+    if not plan.operations:
         bench.settle()
         return 0.0, ExitCode.DONE
-    run = bench.run(proposal.plan)
-    screen = Quiet(session, Progress(proposal.plan))
+    run = bench.run(plan)
+    screen = Quiet(session, Progress(plan))
     with interrupts(run):
         for event in run:
             screen.show(event)

@@ -26,7 +26,6 @@ def bisect_step(context: typer.Context, expect: Expect, fidelity: Fidelity = Non
     ask. Exits with 0 where it is good, 1 where it is bad, 125 where it can't be built or told, and from 128 on where
     the bench is in trouble, so that git stops: 128 more than the exit code of `pico apply`.
     """
-    from pico.bisecting.records import Proposal
     from pico.bisecting.step import Step, bisecting, step
 
     from ..bisecting import bring
@@ -43,7 +42,7 @@ def bisect_step(context: typer.Context, expect: Expect, fidelity: Fidelity = Non
         return CODES[found.verdict]
 
     def run(plan: Plan) -> float:
-        return _run(session, bench, plan, bring(session, bench, Proposal(commit="", plan=plan)))
+        return _run(session, bench, plan, bring(session, bench, plan))
 
     found = step(bench, expect, run)
     session.show(view.Step, found)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.expressions import ExpressionError, Language
 from pico.history.bisect_git import Verdict
 from pico.model.lab import Setup
@@ -56,8 +57,14 @@ def require_expression(setup: Setup, text: str) -> None:
         raise PicoError(error("expression", f"{exc}", detail=f"{text}\n{caret}", hint=hint)) from exc
 
 
-def require_known(seen: Observation, plan: Plan) -> None:
-    """Raise PicoError where nobody can say how the bench stands: then no plan of any configuration can be trusted."""
+def require_known(setup: Setup, seen: Observation, plan: Plan) -> None:
+    """Raise PicoError where nobody can say how the bench stands, or (exit code DENIED) where somebody is at the table
+    and nothing may move: that is no matter of one configuration."""
+    speaking = {rule.name for rule in setup.lab.policy.rules if re.search(r"\bhuman_present\b", rule.that)}
+    for rule in _denying(plan):
+        if rule.get("rule") in speaking:
+            text = f"the policy of this lab denies it: {rule.get('rule')}: {rule.get('text')}"
+            raise PicoError(error("denied", text), ExitCode.DENIED)
     found = [d for d in plan.diagnostics if d.code in UNSURE]
     found += [p for p in seen.problems if p.severity == "error" and p not in found]
     if found or plan.absent:
@@ -74,8 +81,11 @@ def impossible(plan: Plan) -> str:
     for d in plan.diagnostics:
         if d.severity == "error":
             return d.summary
-    for rule in plan.policy:
-        if not rule.get("holds") and rule.get("level") == "mandatory":
-            return f"denied by the lab's policy: {rule.get('rule')}: {rule.get('text')}"
+    for rule in _denying(plan):
+        return f"denied by the lab's policy: {rule.get('rule')}: {rule.get('text')}"
     by_hand = [op for op in plan.operations if op.primitive == "operator"]
     return f"{by_hand[0].component} needs a person" if by_hand else ""
+
+
+def _denying(plan: Plan) -> list[Mapping[str, Any]]:
+    return [rule for rule in plan.policy if not rule.get("holds") and rule.get("level") == "mandatory"]

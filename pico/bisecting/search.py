@@ -243,7 +243,7 @@ class Bisection:
 
     def _known_plan(self, commit: str, seen: Observation) -> Plan:
         plan = self.bench.plan(commit)
-        require_known(seen, plan)
+        require_known(self.bench.setup, seen, plan)
         return plan
 
     def _tell(self, tried: Tried) -> None:

@@ -56,7 +56,7 @@ def step(bench: Builder, expect: str, bring: Callable[[Plan], float]) -> Step:
     except PicoError as exc:
         return Step(commit=commit, verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
     plan = bench.plan(commit)
-    require_known(bench.observe(), plan)
+    require_known(bench.setup, bench.observe(), plan)
     if why := impossible(plan):
         return Step(commit=commit, verdict="skip", why=why)
     seconds = bring(plan)

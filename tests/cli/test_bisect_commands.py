@@ -78,6 +78,7 @@ def test_the_commit_that_broke_it_is_found_and_nothing_of_the_files_is_touched(
     assert "configurations tried" in answer.out and "`pico apply` brings it back" in answer.out
     assert TABLE.read_text() == before and git("rev-parse", "HEAD") == head
     assert git("symbolic-ref", "--short", "HEAD") == "main"
+    assert "break" in git("-c", "core.pager=cat", "bisect", "visualize", "--oneline")
     log = git("bisect", "log")
     assert f"# first bad commit: [{history['break']}]" in log
     Path("kept.log").write_text(log + "\n")
@@ -131,6 +132,22 @@ def test_what_cannot_be_built_read_or_told_is_skipped_and_named(shel: Path, pico
     assert f"skipped {made[0][:7]}: p1" in answer.out and "overlap" in answer.out
     assert f"skipped {made[1][:7]}:" in answer.out
     assert f"git bisect skip {made[0]}" in git("bisect", "log")
+
+
+def test_what_the_policy_denies_is_skipped_but_somebody_at_the_table_stops_the_search(
+    history: dict[str, str], pico: Pico
+) -> None:  # fmt: skip
+    pico("sim", "person", "here")
+    answer = pico("bisect", "run", "main", "good", "--expect", LIMIT, *YES)
+    assert answer.code == 7 and "nobody_near_the_arm" in answer.err and "pico bisect continue" in answer.err
+    assert pico("bisect-step", "--expect", LIMIT).code == 135
+    pico("sim", "person", "away")
+    rule = "plan.target.state.p1.pose.x < 300 || plan.target.state.p1.pose.x > 312"
+    edit(Path("lab.yaml"), "policy:\n  rules:", f"policy:\n  rules:\n    - {{name: not_there, that: {rule}}}")
+    answer = pico("bisect", "continue", "--json", *YES)
+    skipped = [t for t in events(answer, "tried") if t["verdict"] == "skip"]
+    assert [t["commit"] for t in skipped] == [history["break"]] and "not_there" in skipped[0]["why"]
+    assert events(answer, "over")[0]["suspects"] == [history["break"], history["c"]]
 
 
 def test_an_expectation_that_cannot_be_told_is_neither_good_nor_bad(history: dict[str, str], pico: Pico) -> None:
@@ -269,7 +286,7 @@ def test_git_bisect_run_finds_it_with_pico_bisect_step(
 ) -> None:  # fmt: skip
     edit(Path("lab.yaml"), "storage/a1:", "storage/z9: {x: 60, y: 860}\n  storage/a1:")
     git("commit", "-q", "-a", "-m", "another slot")
-    git("bisect", "start", *([] if checkout else ["--no-checkout"]), "main", "good")
+    git("bisect", "start", *([] if checkout else ["--no-checkout"]), history["c"], history["angle"])
     said = git("bisect", "run", "sh", "-c", f'{STEP} --expect "{LIMIT}"')
     assert f"{history['break']} is the first bad commit" in said
     git("bisect", "reset")
