@@ -29,6 +29,10 @@ runs/** -diff linguist-generated
 # lines that two branches append both stay
 notes/*.md merge=union
 """
+_BESIDE = (
+    ("notes", b"merge=union", "notes/*.md merge=union", "lines of notes that two branches append both stay"),
+    ("runs", b"-diff", "runs/** -diff linguist-generated", "what runs recorded is not shown line by line"),
+)
 _NAME = "PICO: manifests merge value by value"
 _SECTION = re.compile(rb'^\[merge "pico"\]\s*$', re.MULTILINE)
 _PYTHON = re.compile(rb'^\s*driver = "?(.+?) -P -m pico\.history\.driver ', re.MULTILINE)
@@ -133,6 +137,7 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
     elif not found.shown:
         hint = "`echo '*.yaml diff=pico' >> .gitattributes`, and commit that: `git diff` then says what moved"
         wrong.append(warning("git-attributes", "no .gitattributes says that PICO shows what differs", hint=hint))
+    wrong += _beside(folder)
     if found.refused:
         hint = "`pico git install` sets it again"
         wrong.append(warning("git-driver", "git does not know the merge driver: it was taken out here", hint=hint))
@@ -143,6 +148,19 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
         hint = "`pico git install` with the PICO that is to be used; until then git merges lines"
         wrong.append(error("git-driver", "the merge driver does not start", hint=hint))
     return tuple(wrong)
+
+
+def _beside(folder: Path) -> list[Diagnostic]:
+    """Return what is missing in the attributes of what lies beside the manifests, where there is such a thing."""
+    found = _git_folder(folder)
+    own = folder.resolve()
+    below = [p for p in (own, *own.parents) if found and p.is_relative_to(found[0])]
+    wrong = []
+    for inside, attribute, line, why in _BESIDE:
+        if (own / inside).is_dir() and not any(_names(attribute, p / ".gitattributes") for p in below):
+            hint = f"`echo '{line}' >> .gitattributes`, and commit that"
+            wrong.append(warning("git-attributes", f"no .gitattributes says that {why}", hint=hint))
+    return wrong
 
 
 def _runs() -> bool:

@@ -303,6 +303,14 @@ def test_a_lab_of_before_keeps_working_and_doctor_says_how_to_add_the_diff(lab: 
     assert not wire(lab.folder) and "pico_diff" in lab.git("config", "diff.pico.command")
 
 
+def test_doctor_names_the_lines_that_notes_and_runs_need(lab: Lab) -> None:
+    (lab.folder / "notes").mkdir()
+    (lab.folder / "runs").mkdir()
+    assert checkup(lab.folder) == ()
+    lab.write(".gitattributes", "*.yaml merge=pico diff=pico\n")
+    assert [d.hint.split("'")[1].split()[0] for d in checkup(lab.folder)] == ["notes/*.md", "runs/**"]
+
+
 def test_uninstall_takes_both_out_and_remembers_beside_other_settings(lab: Lab) -> None:
     lab.git("config", "pico.diff", "summary")
     uninstall(lab.folder)
