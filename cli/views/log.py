@@ -14,6 +14,7 @@ from pico.model.record import as_json
 from pico.model.run import RunDocument
 
 from .diff import brief, lines
+from .runs import shown
 from .style import WIDTH, columns, count, pad, paint, seconds, width, wrap
 
 if TYPE_CHECKING:
@@ -131,15 +132,18 @@ def noted(part: str, notes: Sequence[Note]) -> str:
 
 def proofs(entry: Entry) -> list[str]:
     """Return in a few words how far the state of a commit is proven, and how its runs ended."""
-    evidence = [entry.evidence] if entry.evidence else []
+    inherited = entry.standing is not None and entry.standing.verdict == "inherited"
+    evidence = ["inherited"] if inherited else [entry.evidence] if entry.evidence else []
     return [*evidence, *(ended(run) for run in entry.runs)]
 
 
 def proven(entry: Entry) -> list[str]:
     """Return lines with the evidence for a commit, and for each of its runs how it ended and what did not hold."""
     found = []
-    if entry.evidence and not entry.runs:
-        found.append(f"  {paint('dim', 'evidence')} {entry.evidence}, as the message says; it carries no run")
+    standing = entry.standing
+    if standing and standing.verdict != "unknown":
+        by = f" ({standing.evidence})" if standing.evidence else ""
+        found += wrap(f"{paint('dim', standing.verdict)}{by}: {shown(standing.why)}", "  ")
     for run in entry.runs:
         color = "green" if run.outcome == "done" else "red"
         found.append(f"  {paint('dim', f'run {run.id}')}: {paint(color, ended(run))} ({run.evidence})")
@@ -162,7 +166,7 @@ def ended(run: RunDocument) -> str:
 
 def data(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:
     """Return schema `pico.log/v1`: `head`, and `commits`: id, parents, refs, author, time, message, changes, evidence,
-    runs, meta, rail."""
+    verdict, runs, meta, rail."""
     commits = list(log.commits())
     rails = {r.commit.id: r.rail for r in lanes(commits) if r.commit} if graph else {}
     shown = [entry_data(log.entry(c)) | ({"rail": rails[c.id]} if graph else {}) for c in commits]
@@ -179,6 +183,7 @@ def entry_data(entry: Entry) -> dict[str, Any]:
     ]  # fmt: skip
     return {
         "id": c.id, "parents": list(c.parents), "refs": list(c.refs), "author": c.author, "time": c.time.isoformat(),
-        "message": c.message, "changes": as_json(entry.changes), "evidence": entry.evidence, "runs": as_json(runs),
+        "message": c.message, "changes": as_json(entry.changes), "evidence": entry.evidence,
+        "verdict": entry.standing.verdict if entry.standing else "", "runs": as_json(runs),
         "meta": meta(c.message),
     } | ({"unreadable": entry.unreadable} if entry.unreadable else {})  # fmt: skip

@@ -32,6 +32,7 @@ from pico.model.lab import Setup
 from pico.model.record import record
 from pico.model.report import Captured, Committed
 from pico.model.run import RunDocument
+from pico.model.standing import Standing
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
@@ -45,14 +46,22 @@ STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*
 class Entry:
     """One commit with what it changed on the table against its first parent, or why that can't be told.
 
-    Where the history was asked for it: the `runs` that it carries, and the `evidence` for its state.
+    Where the history was asked for it: the `runs` that it carries, and how far its state is proven (`standing`; None
+    where nothing claims to prove it).
     """
 
     commit: Commit
     changes: tuple[Change, ...] = ()
     unreadable: str = ""
     runs: tuple[RunDocument, ...] = ()
-    evidence: str = ""
+    standing: Standing | None = None
+
+    @property
+    def evidence(self) -> str:
+        """What proves its state: `kinematic`, `physics`, `emulated` or `hardware`; `planned`; empty for nothing."""
+        if self.standing is None:
+            return ""
+        return self.standing.evidence or ("planned" if self.standing.verdict == "planned" else "")
 
 
 class LabFolder:

@@ -16,9 +16,8 @@ from pico.history.notes import Note, note_path, notes
 from pico.history.ranges import for_rev_list
 from pico.history.runs import runs_added
 from pico.history.scope import Scope, unknown_parts
-from pico.history.trailers import EVIDENCE, values
+from pico.history.standing import Standings
 from pico.model.diff import Change
-from pico.model.run import RunDocument
 
 _BATCHES = (1, 8, 64)
 """How many commits are read at once: first one, so that it can be shown."""
@@ -45,6 +44,7 @@ class Log:
         self.repository = folder.history()
         self._real: dict[str, Commit] = {}  # with the parents that they have, shown or not
         self._entries: dict[str, Entry] = {}
+        self._standings = Standings(folder)
 
     def __iter__(self) -> Iterator[Entry]:
         for commit in self.commits():
@@ -64,7 +64,7 @@ class Log:
         """Return a commit of `commits` with what it did."""
         found = self._entries.pop(commit.id, None) or self._read(commit)
         runs = runs_added(self.repository, commit, self.folder.root)
-        return replace(found, commit=commit, runs=runs, evidence=evidence_of(commit, runs))
+        return replace(found, commit=commit, runs=runs, standing=self._standings.at_a_glance(commit, runs))
 
     def notes(self) -> dict[str, tuple[Note, ...]]:
         """Return what people noted on the components that were asked for, as the working tree has it."""
@@ -153,12 +153,6 @@ class Log:
             return changes
         held = {n for c in commits for p in scope.paths for n in self._diffs.components_of(c, p)}
         return scope.keep(changes, held)
-
-
-def evidence_of(commit: Commit, runs: tuple[RunDocument, ...]) -> str:
-    """Return how far the state of a commit is proven: what its last run counts as, else what its message says."""
-    said = values(commit.message, EVIDENCE)
-    return runs[-1].evidence if runs else said[-1] if said else ""
 
 
 def bridged(commits: list[Commit], wanted: Callable[[Commit], bool]) -> list[Commit]:

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.folder import Entry, LabFolder
-from pico.history.log import evidence_of
 from pico.history.notes import Note, note_path, notes
 from pico.history.runs import runs_added
+from pico.history.standing import Standings
 from pico.model.lab import Setup
 from pico.model.record import record
 from pico.model.state import LabState
@@ -40,7 +40,7 @@ def show(folder: LabFolder, what: str) -> Shown:
     entry = folder.entry(commit)
     runs = runs_added(repository, commit, folder.root)
     kept = tuple(c for c in entry.changes if component in (None, c.component))
-    entry = replace(entry, changes=kept, runs=runs, evidence=evidence_of(commit, runs))
+    entry = replace(entry, changes=kept, runs=runs, standing=Standings(folder).of(commit, state.digest()))
     about = [component] if component else sorted({c.component for c in kept})
     return Shown(entry=entry, setup=setup, state=state, component=component, notes=_notes(folder, commit.id, about))
 

@@ -13,12 +13,15 @@ from functools import cached_property
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history import trailers
+from pico.history.blame_cache import Cache
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
 from pico.history.runs import CarriedRun, files_at, places_in_history, read_carried, runs_added
 from pico.model.run import STRENGTH, RunDocument
 from pico.model.standing import Standing, Verdict
 from pico.trace.run import intact
+
+CACHE = "pico/states.sqlite"
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,7 @@ class Standings:
     folder: LabFolder
     own: Sequence[RunDocument] = ()
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    _cache: Cache | None = None
 
     @cached_property
     def runs(self) -> Mapping[str, Sequence[CarriedRun]]:
@@ -56,10 +60,36 @@ class Standings:
             runs.sort(key=lambda r: (STRENGTH[r.document.evidence], r.document.ended_at), reverse=True)
         return found
 
+    def at_a_glance(self, commit: Commit, added: Sequence[RunDocument]) -> Standing | None:
+        """Return the standing of a commit of which the runs that it `added` are known, for a list of many; None where
+        nothing claims, and nothing proves, that its state was ever on a bench."""
+        claimed = any(trailers.values(commit.message, key) for key in (trailers.EVIDENCE, trailers.RUN))
+        if not (claimed or added or self.runs):
+            return None
+        found = self.of(commit)
+        return found if claimed or added or found.verdict != "planned" else None
+
+    def _state(self, commit: Commit) -> str:
+        """Return the digest of the state of a commit: what was found once is remembered, where the commit says itself
+        what bench it is of."""
+        from pico import __version__
+
+        if self._cache is None:
+            self._cache = Cache(self.folder.history().common / CACHE)
+        key = f"{__version__} {self.folder.history().relative(self.folder.root)} {commit.id}"
+        known = self._cache.get(key)
+        if known is None:
+            setup, state = self.folder.historic(commit.id)
+            known = state.digest()
+            if setup is not self.folder.setup:
+                self._cache.put(key, known)
+                self._cache.flush()
+        return known
+
     def of(self, commit: Commit, state: str | None = None) -> Standing:
         """Return the standing of a commit; `state`: the digest of its state, where that is known already."""
         try:
-            state = state or self.folder.historic(commit.id)[1].digest()
+            state = state or self._state(commit)
         except PicoError as exc:
             return Standing(verdict="unknown", commit=commit.id, why=exc.diagnostics[0].summary)
         wrong: list[Diagnostic] = []

@@ -442,3 +442,20 @@ def test_what_is_too_big_for_a_commit_goes_to_the_content_store(lab: Path, monke
     away = load_run(LabFolder(lab), run)
     assert (away.operations, [here.present for here in away.artifacts]) == ((), [False, False])
     assert "trace.jsonl.gz" in away.diagnostics[0].summary
+
+
+def test_a_log_tells_for_each_commit_what_proves_it(lab: Path) -> None:
+    git(lab, "checkout", "-qb", "side")
+    turned(lab, "p2", 3)
+    run, _ = turned(lab, "p1", 5)
+    git(lab, "checkout", "-q", "main")
+    git(lab, "cherry-pick", "side")
+    for _ in range(2):  # the second time from what the first remembered
+        with Bench.open(lab) as bench:
+            copied, plain, *_ = list(bench.log("main"))
+            proven = next(iter(bench.log("side")))
+        assert copied.standing is not None
+        assert (copied.standing.verdict, copied.evidence) == ("inherited", "")
+        assert (plain.standing, plain.evidence) == (None, "")
+        assert proven.standing is not None
+        assert (proven.standing.run, proven.evidence) == (run, "kinematic")
