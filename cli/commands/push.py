@@ -18,9 +18,7 @@ if TYPE_CHECKING:
     from pico.data.lab import LabData
     from pico.data.transfer import Moved
 
-Words = Annotated[
-    list[str] | None, typer.Argument(metavar="[REMOTE] [REF...]", help="For git, as it is; git's options, too.")
-]
+Words = Annotated[list[str] | None, typer.Argument(metavar="REMOTE|REF", help="For git, as it is; git's options, too.")]
 
 
 def push(

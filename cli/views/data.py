@@ -63,6 +63,8 @@ def objects(needs: tuple[Need, ...]) -> str:
 
 def _holdings(found: Holdings) -> str:
     needed = tuple(found.needs.values())
+    if not needed and not found.spare:
+        return "No run in any commit needs large data."
     spare = sum(size for _, size in found.spare)
     here = tuple(n for n in needed if n.sha256 in found.here)
     rows = [_row("needed", needed, f"by {count(len({r for n in needed for r in n.runs}), 'run')}")]

@@ -53,6 +53,7 @@ def place_of(repository: Repository, word: str | None) -> Place | None:
         return None
     if word == LFS:
         return LfsObjects(repository)
+    word = word.removeprefix("file://")
     if "://" in word:
         return Bucket(word)
     folder = (repository.root / Path(word).expanduser()).resolve()
@@ -136,7 +137,6 @@ class Bucket:
         path = self._path(sha256)
         with store.open(sha256) as file, self._reached():
             file.close()  # it is intact; fsspec wants its name
-            self._files.makedirs(path.rpartition("/")[0], exist_ok=True)
             self._files.put_file(str(store.path(sha256)), path)
             self._files.invalidate_cache()
             if self._files.size(path) != store.size(sha256):
