@@ -136,7 +136,10 @@ class LabFolder:
 
     def manifests_at(self, revision: str) -> Manifests:
         """Return the manifests of a revision, its states read against the bench as it is now."""
-        files = self.history().files(revision, self.root)
+        try:
+            files = self.history().files(revision, self.root)
+        except PicoError as exc:
+            raise PicoError([_no_revision(d, revision, self.setup) for d in exc.diagnostics]) from exc
         manifests = load_files(_named(revision, files), setup=self.setup)
         return replace(manifests, diagnostics=tuple(_at_revision(d, revision) for d in manifests.diagnostics))
 
@@ -320,6 +323,13 @@ def _bench_of(files: Mapping[str, bytes]) -> tuple[tuple[str, bytes], ...]:
 def _named(revision: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the files by the names that diagnostics show: `e1:state/table.yaml`."""
     return {f"{revision}:{path}": data for path, data in files.items()}
+
+
+def _no_revision(d: Diagnostic, revision: str, setup: Setup) -> Diagnostic:
+    """Return a diagnostic of a revision that there is not; a component may have been meant."""
+    if revision not in setup.lab.inventory:
+        return d
+    return replace(d, hint=f"{revision} is a component, and goes after `--`: `-- {revision}`, or `REV -- {revision}`")
 
 
 def _at_revision(d: Diagnostic, revision: str) -> Diagnostic:

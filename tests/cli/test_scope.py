@@ -128,6 +128,7 @@ def test_the_rest_of_a_component_stays_as_it_stands(shel: Path, pico: Pico) -> N
         (["plan", "e1", "--", "p2.slot"], "name it as `pose`"),
         (["plan", "e1", "--", "--exact"], "options go before `--`"),
         (["plan", "e1", "p2"], "components go after `--`"),
+        (["plan", "p2"], "p2 is a component, and goes after `--`"),
         (["apply", "e1.plan", "--", "p2"], "is a saved plan"),
     ],
 )
