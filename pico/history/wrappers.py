@@ -35,7 +35,7 @@ case $word in
 esac
 done
 said=$(git config pico.diff)
-if test "$said" != lines && grep -qs 'apiVersion.*pico/' "$2" "$5"; then
+if test "$said" != lines && grep -qs 'apiVersion.*pico/' -- "$2" "$5"; then
 said=$(PYTHON -P -m pico.history.diff_driver "$color" "$said" "$@" 2>/dev/null)
 case $? in
 SUMMARY) printf '%s\n\n' "$said" ;;
@@ -48,7 +48,7 @@ if test "$5" = .; then return 0; fi
 case $id in
 *[!0]*) ;;
 *) if test "$5" = 120000; then how=--no-filters; else how=--path=$2; fi
-id=$(git hash-object -w "$how" "$3" 2>/dev/null) || return 1 ;;
+id=$(git hash-object -w "$how" -- "$3" 2>/dev/null) || return 1 ;;
 esac
 printf '%s %s\t%s\0' "$5" "$id" "$2" | GIT_INDEX_FILE=$at/$1 git update-index -z --index-info
 }
@@ -102,11 +102,11 @@ flow = depth(value)
 }"""
 
 _TEXT = r"""pico_text() {
-if grep -qs '^apiVersion:.*pico/' "$1" && text=$(LC_ALL=C awk 'ADDRESSES' "$1" 2>/dev/null && echo .); then
-if test -n "$(tail -c 1 "$1")"; then text=${text%?.}; else text=${text%.}; fi
+if grep -q '^apiVersion:.*pico/' <"$1" && text=$(LC_ALL=C awk 'ADDRESSES' <"$1" 2>/dev/null && echo .); then
+if test -n "$(tail -c 1 <"$1")"; then text=${text%?.}; else text=${text%.}; fi
 printf '%s' "$text"
 else
-cat "$1"
+cat <"$1"
 fi
 }; pico_text"""
 

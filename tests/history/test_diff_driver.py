@@ -274,6 +274,17 @@ def test_another_diff_program_that_was_asked_for_is_obeyed(lab: Lab) -> None:
     assert f"{SAID}\nmine state/table.yaml" in lab.git("-c", "diff.external=echo mine", "diff")
 
 
+@pytest.mark.parametrize("name", ["-w.yaml", "x=1.yaml", 'a "b" $(c).yaml', "two\nlines.yaml", "--.yaml", "µ.yaml"])
+def test_odd_names_are_names(lab: Lab, name: str) -> None:
+    lab.write(name, STATE)
+    lab.commit("odd")
+    lab.write(name, MOVED)
+    assert _lines_of_git(lab.git("diff")) == lab.ordinary() != ""
+    assert "~ p2.angle  90 → 1 deg" in lab.git("diff")
+    lab.commit("moved")
+    assert "+p2.angle: 1" in lab.git("show") and "p2.angle: 1" in lab.git("blame", "--", name)
+
+
 def test_files_that_git_does_not_keep_are_compared_as_ever(lab: Lab) -> None:
     outside = lab.folder.parent / "other.yaml"
     outside.write_text(MOVED)
