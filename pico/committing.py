@@ -16,7 +16,7 @@ from pico.evidence import changed_by, evidence, stands
 from pico.history.contents import Contents, contents, nothing
 from pico.history.default_message import default_message
 from pico.history.folder import LabFolder
-from pico.history.trailers import EVIDENCE, require_meta, values
+from pico.history.trailers import EVIDENCE, LAB, require_meta, values
 from pico.history.underway import message_of, require_resolved
 from pico.model.address import Named, read_addresses
 from pico.model.diff import Change, diff_states
@@ -83,9 +83,12 @@ def draft(folder: LabFolder, seen: Observation, asked: Asked) -> str:
     _refuse(folder, seen, asked, named)
     live = live_state(folder.setup, seen, sure=True)
     captured, state = (Captured(), folder.state) if asked.mode == "planned" else folder.preview(live, named)
-    among = named.keys() | (contents(folder, named).components or ()) if named else folder.setup.lab.inventory
+    content = contents(folder, named)
+    if not (captured.files or content.paths or recording.unrecorded(folder)):
+        raise PicoError(nothing(named))
+    among = named.keys() | (content.components or ()) if named else folder.setup.lab.inventory
     changes = tuple(c for c in _changes(folder, state) if c.component in among)
-    return default_message(changes, captured.files)
+    return default_message(changes, captured.files or content.paths)
 
 
 def _refuse(folder: LabFolder, seen: Observation, asked: Asked, named: Named | None) -> None:
@@ -114,8 +117,13 @@ def _evidence(
 ) -> str:  # fmt: skip
     documents = [data for path, data in runs.items() if path.endswith("/run.json")]
     changed = {(c.component, c.tunable) for c in changes} | changed_by(documents)
+    before = _before(folder)
+    return evidence(folder.setup, folder.root, seen, state, changed, observed=observed, before=before)
+
+
+def _before(folder: LabFolder) -> str:
+    """Return what HEAD says that its state of this lab rests on; empty where it says nothing of it."""
     head = folder.history().head().commit
-    known = values(folder.history().resolve(head).message, EVIDENCE) if head else ()
-    return evidence(
-        folder.setup, folder.root, seen, state, changed, observed=observed, before=known[-1] if known else ""
-    )
+    said = folder.history().resolve(head).message if head else ""
+    of_this_lab = any(value.split(" ")[0] == folder.setup.lab.name for value in values(said, LAB))
+    return (values(said, EVIDENCE) or ("",))[-1] if of_this_lab else ""

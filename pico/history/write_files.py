@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
+
+from pico.diagnostics import PicoError, error
 
 
 def write_files(root: Path, files: Mapping[str, bytes | None], scratch: Path) -> None:
@@ -20,11 +23,20 @@ def write_files(root: Path, files: Mapping[str, bytes | None], scratch: Path) ->
 def write_file(path: Path, data: bytes, scratch: Path) -> None:
     """Write one file whole or not at all, first into the folder `scratch`, so that a kill leaves nothing beside it.
 
-    It is on the disk before it takes the other's place. Only for who holds the lock of writers.
+    It is on the disk before it takes the other's place. Only for who holds the lock of writers. Raises PicoError where
+    the folder or the disk does not allow it.
     """
-    scratch.mkdir(parents=True, exist_ok=True)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    fresh = scratch / "write.tmp"
+    try:
+        scratch.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _write(path, data, scratch / "write.tmp")
+    except OSError as exc:
+        if exc.errno != errno.EXDEV:
+            raise PicoError(error("folder", f"can't write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
+        _write(path, data, path.with_name(f".{path.name}.tmp"))  # `scratch` is on another disk
+
+
+def _write(path: Path, data: bytes, fresh: Path) -> None:
     with fresh.open("wb") as file:
         file.write(data)
         file.flush()

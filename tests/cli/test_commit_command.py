@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -174,12 +175,34 @@ def test_notes_are_carried_along_and_can_be_committed_alone(built: Path, pico: P
     assert pico("note", "p2", " ").code == 1
 
 
+def test_a_lab_in_a_folder_of_a_repository_is_committed_from_anywhere(
+    tmp_path: Path, shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    top = tmp_path / "top"
+    (top / "docs").mkdir(parents=True)
+    shutil.copytree(shel, top / "labs" / "shel", ignore=shutil.ignore_patterns(".git"))
+    monkeypatch.chdir(top / "docs")
+    git("init", "-q", "-b", "main", "..")
+    git("add", "..")
+    git("commit", "-q", "-m", "all of it")
+    lab = ("-C", "../labs/shel")
+    assert pico(*lab, "apply", "--auto-approve").code == 0
+    pico(*lab, "sim", "nudge", "p2", "--dx", "5")
+    pico(*lab, "note", "p2", "shoved")
+    assert pico(*lab, "commit", "p2").code == 0
+    files = git("show", "--name-only", "--format=").split()
+    assert [f for f in files if "/runs/" not in f] == ["labs/shel/notes/p2.md", "labs/shel/state/table.yaml"]
+    assert sum(f.endswith("run.json") for f in files) == 1
+    assert body().startswith("p2 moved 5 mm\n")
+    assert git("status", "--porcelain") == ""
+
+
 def test_a_detached_head_commits_and_warns(built: Path, pico: Pico) -> None:
     git("checkout", "-q", "--detach")
     pico("sim", "nudge", "p2", "--dx", "5")
     answer = pico("commit", "-m", "off the road")
     assert answer.code == 0 and "`git switch -c NAME`" in answer.out
-    assert pico("commit", "--json").code == 1
+    assert "error[nothing-to-commit]" in pico("commit", "-e").err
 
 
 def test_it_ends_a_merge_whose_conflicts_are_resolved(built: Path, pico: Pico) -> None:
