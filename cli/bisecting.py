@@ -57,11 +57,11 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
         return ExitCode.ERROR
     seconds, code = bring(session, bench, proposal.plan)
     if code:
-        search.spent(proposal.commit, seconds)
+        search.spent(proposal.commit, seconds, built=False)
         session.say(f"{AGAIN}.")
         return code
     if not search.task.expect:
-        search.spent(proposal.commit, seconds)
+        search.spent(proposal.commit, seconds, built=True)
         session.say(view.judge_it(name))
         return ExitCode.DONE
     tried = search.judge(proposal, seconds)

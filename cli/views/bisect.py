@@ -18,7 +18,7 @@ from .style import count, listed, paint, seconds, wrap
 
 SCHEMA = "pico.bisect/v1"
 _STYLES = {"good": "green", "bad": "red", "skip": "yellow"}
-_HOW = {"same": "no trial", "impossible": "can't be built", "unreadable": "can't be read", "person": "as told"}
+_HOW = {"same": "no trial", "impossible": "can't be built", "unreadable": "can't be read"}
 
 
 class Begun:

@@ -102,17 +102,28 @@ class Bisection:
         return tried
 
     def told(self, found: Verdict, commit: str | None = None) -> Tried:
-        """Take a person's word for the configuration that is under trial, or for another commit."""
+        """Take a person's word for the configuration that is under trial, or for another commit.
+
+        Raises PicoError where the search is over, and where the bench was not brought to what is under trial.
+        """
+        if self.left() < 2:
+            raise PicoError(error("bisect", "the bisection is over", hint="`pico bisect reset` ends it"))
         name = commit or self.git.pointed()
-        if name is None:
-            raise PicoError(error("bisect", "no configuration is under trial", hint="`pico bisect continue`"))
-        tried = Tried(commit=name, verdict=found, by="person", measure=self.task.measure)
+        built = [note["commit"] for note in self.git.notes() if note.get("built")]
+        if commit is None and (name is None or name != (built or [None])[-1]):
+            text = f"the bench was not brought to {name[:7] if name else 'any configuration'} yet"
+            hint = "`pico bisect continue` does; or name the commit that you mean"
+            raise PicoError(error("bisect", text, hint=hint))
+        end: End = "fork" if name in self.git.unproven(self.git.ends()) else ""
+        tried = Tried(
+            commit=str(name), verdict=found, by="person", why="as told", end=end, measure=self.task.measure
+        )  # fmt: skip
         self._tell(tried)
         return tried
 
-    def spent(self, commit: str, seconds: float) -> None:
-        """Take note of what the bench took to get to a configuration, or only near it, without a verdict [s]."""
-        self.git.note({"spent": round(seconds, 3), "commit": commit})
+    def spent(self, commit: str, seconds: float, *, built: bool) -> None:
+        """Take note of what the bench took to get to a configuration [s], or only near it, without a verdict."""
+        self.git.note({"spent": round(seconds, 3), "commit": commit, "built": built})
 
     def settle(self) -> None:
         """Tell git the verdicts that were written down and not told, because the process was killed in between."""

@@ -170,7 +170,18 @@ def test_a_person_judges_step_by_step_in_words_of_git_or_of_pico(history: dict[s
         if "is the first bad commit" in answer.out:
             break
     assert f"{history['break'][:7]} is the first bad commit" in answer.out
+    assert "the bisection is over" in pico("bisect", "skip", *YES).err
     assert pico("bisect", "reset").code == 0 and not bisecting()
+
+
+def test_nobody_judges_what_the_bench_was_not_brought_to(history: dict[str, str], pico: Pico) -> None:
+    pico("bisect", "start", "main", "good", *YES)
+    at = git("rev-parse", "BISECT_HEAD")
+    git("bisect", "bad")
+    assert at in git("bisect", "log").splitlines()[-1]
+    answer = pico("bisect", "good", *YES)
+    assert answer.code == 1 and "the bench was not brought to" in answer.err
+    assert pico("bisect", "good", "good~0", *YES).code == 0
 
 
 def test_nothing_moves_without_a_yes(history: dict[str, str], pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -270,6 +281,10 @@ def test_where_the_fork_is_bad_it_was_mended_on_the_good_branch(history: dict[st
     git("checkout", "-q", "main")
     answer = pico("bisect", "run", "main", "mended", "--expect", LIMIT, *YES)
     assert answer.code == 1 and f"{history['c'][:7]}" in answer.out and "was mended on the way to mended" in answer.out
+    pico("bisect", "reset")
+    pico("bisect", "start", "main", "mended", *YES)
+    answer = pico("bisect", "bad", *YES)
+    assert answer.code == 1 and "was mended on the way to mended" in answer.out
 
 
 def test_a_shallow_clone_says_how_to_get_the_rest(history: dict[str, str], pico: Pico) -> None:
