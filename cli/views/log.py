@@ -15,7 +15,7 @@ from pico.model.run import RunDocument
 
 from .diff import brief, lines
 from .runs import shown
-from .style import WIDTH, columns, count, pad, paint, seconds, width, wrap
+from .style import WIDTH, columns, count, pad, paint, printable, seconds, width, wrap
 
 if TYPE_CHECKING:
     from pico.history.log import Log
@@ -75,11 +75,11 @@ def _below(rows: list[Row], i: int) -> str:
 def _short(commits: Sequence[Commit], checked_out: str | None) -> Callable[[Entry, int], list[str]]:
     """Return a function from a commit to one line: name, message, motions, proof; more where they do not fit."""
     names = min(max((width(_name(c, checked_out)) for c in commits), default=0), 24)
-    room = min(max((width(c.summary) for c in commits), default=0), 44)
+    room = min(max((width(printable(c.summary)) for c in commits), default=0), 44)
 
     def render(entry: Entry, columns: int) -> list[str]:
         name = _name(entry.commit, checked_out)
-        head = f"{pad(paint('yellow', name), names)}  {pad(entry.commit.summary, room)}"
+        head = f"{pad(paint('yellow', name), names)}  {pad(printable(entry.commit.summary), room)}"
         what, proof = _what(entry), " · ".join(proofs(entry))
         if width(head) + 2 + width(what) + (3 + width(proof) if proof else 0) <= columns:
             return [f"{head}  {paint('cyan', what)}{paint('dim', f' · {proof}' if proof else '')}".rstrip()]
@@ -100,7 +100,7 @@ def _what(entry: Entry) -> str:
         return f"can't be read: {entry.unreadable}"
     if not entry.changes:
         return "nothing on the table"
-    if not entry.commit.parents:
+    if entry.first:
         moved = sum(c.tunable == "pose" for c in entry.changes)
         values = len(entry.changes) - moved
         parts = [count(moved, "component") + " away from home"] * bool(moved) + [
@@ -119,14 +119,14 @@ def header(entry: Entry) -> list[str]:
     """Return id, names, author, date and message of a commit, without the trailers that PICO wrote."""
     c = entry.commit
     refs = f" ({', '.join(c.refs)})" if c.refs else ""
-    head = [paint("yellow", f"commit {c.short}{refs}"), f"{c.author}, {c.time:%Y-%m-%d %H:%M}"]
-    recorded = [f"    {key}: {value}" for key, value in meta(c.message).items()]
-    return [*head, "", *wrap(without_trailers(c.message), "    "), *([""] if recorded else []), *recorded]
+    head = [paint("yellow", f"commit {c.short}{refs}"), printable(f"{c.author}, {c.time:%Y-%m-%d %H:%M}")]
+    recorded = [printable(f"    {key}: {value}") for key, value in meta(c.message).items()]
+    return [*head, "", *wrap(printable(without_trailers(c.message)), "    "), *([""] if recorded else []), *recorded]
 
 
 def noted(part: str, notes: Sequence[Note]) -> str:
     """Return the notes on a part, oldest first."""
-    rows = [[note.day, note.author, note.text] for note in notes]
+    rows = [[note.day, printable(note.author), printable(note.text)] for note in notes]
     return "\n".join([paint("bold", f"Notes on {part}:"), *columns(rows, indent="  "), ""])
 
 
@@ -146,11 +146,12 @@ def proven(entry: Entry) -> list[str]:
         found += wrap(f"{paint('dim', standing.verdict)}{by}: {shown(standing.why)}", "  ")
     for run in entry.runs:
         color = "green" if run.outcome == "done" else "red"
-        found.append(f"  {paint('dim', f'run {run.id}')}: {paint(color, ended(run))} ({run.evidence})")
+        found.append(f"  {paint('dim', f'run {shown(run.id)}')}: {paint(color, ended(run))} ({run.evidence})")
         for one in run.expectations:
             if not one.holds:
                 verb = "failed" if one.holds is False else "could not be told"
-                found.append(f"    {paint('red', '✗')} {f'{one.message}: ' if one.message else ''}`{one.that}` {verb}")
+                said = f"{one.message}: `{one.that}`" if one.message else f"`{one.that}`"
+                found.append(f"    {paint('red', '✗')} {shown(said)} {verb}")
     return found
 
 

@@ -10,6 +10,13 @@ from typing import Any
 WIDTH = 100
 _CODES = {"bold": 1, "dim": 2, "red": 31, "green": 32, "yellow": 33, "blue": 34, "cyan": 36}
 _ANSI = re.compile(r"\x1b\[[0-9;]*m")
+_OWN = "|".join(str(code) for code in (0, *_CODES.values()))
+_UNSAFE = re.compile(
+    rf"\x1b(?!\[(?:{_OWN})m)|\r(?!\n)"
+    r"|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]"
+)
+"""What may steer a terminal: control characters (C0 and C1), but for tabs, line breaks and the colors of `paint`; and
+the marks that turn the direction of writing."""
 
 
 def paint(style: str, text: str) -> str:
@@ -20,6 +27,22 @@ def paint(style: str, text: str) -> str:
 def plain(text: str) -> str:
     """Return `text` without color."""
     return _ANSI.sub("", text)
+
+
+def printable(text: str) -> str:
+    """Return what somebody else wrote, without what would steer the terminal; line breaks stay."""
+    return "".join(c if c.isprintable() or c == "\n" else "    " if c == "\t" else "?" for c in plain(text))
+
+
+def inert(text: str) -> str:
+    """Return `text` with what may steer a terminal written out (`\\x1b`, `\\u202e`): names, messages and notes are
+    written by others. The colors of `paint` stay."""
+    return _UNSAFE.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def inert_json(text: str) -> str:
+    """Return a JSON document with what may steer a terminal as JSON escapes it; it says the same."""
+    return _UNSAFE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def width(text: str) -> int:

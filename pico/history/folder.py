@@ -47,13 +47,14 @@ class Entry:
     """One commit with what it changed on the table against its first parent, or why that can't be told.
 
     Where the history was asked for it: the `runs` that it carries, and how far its state is proven (`standing`; None
-    where nothing claims to prove it).
+    where nothing claims to prove it). `first`: no commit before it has the lab.
     """
 
     commit: Commit
     changes: tuple[Change, ...] = ()
     unreadable: str = ""
     runs: tuple[RunDocument, ...] = ()
+    first: bool = False
     standing: Standing | None = None
 
     @property

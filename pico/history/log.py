@@ -64,7 +64,8 @@ class Log:
         """Return a commit of `commits` with what it did."""
         found = self._entries.pop(commit.id, None) or self._read(commit)
         runs = runs_added(self.repository, commit, self.folder.root)
-        return replace(found, commit=commit, runs=runs, standing=self._standings.at_a_glance(commit, runs))
+        first = not any(self._diffs.files(parent) for parent in self._real[commit.id].parents[:1])
+        return replace(found, commit=commit, runs=runs, first=first, standing=self._standings.at_a_glance(commit, runs))
 
     def notes(self) -> dict[str, tuple[Note, ...]]:
         """Return what people noted on the components that were asked for, as the working tree has it."""

@@ -55,6 +55,11 @@ def test_a_log_about_a_part_shows_what_became_of_it_alone(shel: Path, pico: Pico
     assert pico("log", "e1", "--", "p1.pose").out.count("commit ") == 1
 
 
+def test_only_the_first_state_is_called_that(shel: Path, pico: Pico) -> None:
+    assert "the first state: 1 tunable set" in pico("log", "--graph", "--", "p1.angle").out
+    assert "ly_200 placed at (720, 420, 0°)" in pico("log", "--graph", "--", "ly_200").out
+
+
 def test_a_part_is_followed_from_file_to_file_and_after_it_is_gone(shel: Path, pico: Pico) -> None:
     text = Path("state/table.yaml").read_text()
     head, _, rest = text.partition("  p2:\n")
@@ -234,3 +239,10 @@ def test_history_can_be_read_while_the_manifests_are_in_conflict(shel: Path, pic
     assert "state/table.yaml" in pico("diff").err
     edit(Path("lab.yaml"), "kind: Lab", "kind: Lob")
     assert "E1-3" in pico("log", "e1", "--", "p2").out
+
+
+def test_messages_of_others_steer_no_terminal(shel: Path, pico: Pico) -> None:
+    git("commit", "-q", "--allow-empty", "-m", "be\x1b]0;gone\x07ware\x1b[2J", "-m", "second \x9b2J line")
+    for words in (["log", "-1"], ["log", "--oneline", "-1"], ["log", "--graph", "-1"], ["show"]):
+        out = pico(*words).out
+        assert "be?]0;gone?ware" in out and not {"\x1b", "\x07", "\x9b"} & set(out)
