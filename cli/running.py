@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
-from .session import Session, colored, write
+from .session import Session, write
 from .views import report as report_view
 from .views.run import Progress
-from .views.style import plain
 
 if TYPE_CHECKING:
     from pico.bench import Bench
@@ -47,7 +46,7 @@ class Screen:
             self.stay(line)
         elif self.terminal and (live := self.progress.live(event)) and time.monotonic() - self.last > 0.05:
             self.last = time.monotonic()
-            write(sys.stdout, f"\r{live if colored(sys.stdout) else plain(live)}\x1b[K", end="")
+            write(sys.stdout, live, end="", over=True)
 
     def stay(self, line: str) -> None:
         if self.terminal:

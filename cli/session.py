@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
 import typer
 
-from .views.style import plain
+from .views.style import inert, inert_json, plain
 from .waiting import waiting
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Session:
 
     def document(self, data: Any) -> None:
         """Print one JSON document, in one line."""
-        write(sys.stdout, json.dumps(data, ensure_ascii=False, default=str))
+        write(sys.stdout, inert_json(json.dumps(data, ensure_ascii=False, default=str)))
 
     def say(self, text: str) -> bool:
         """Print text for people; nothing with `--json`. Return whether somebody may still read."""
@@ -116,13 +116,15 @@ def colored(stream: TextIO) -> bool:
     return shown and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
-def write(stream: TextIO, text: str, end: str = "\n") -> bool:
+def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False) -> bool:
     """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly.
 
+    What would steer a terminal is written out (`views.style.inert`). `over`: over the line where the cursor is.
     Return whether somebody may still read.
     """
+    safe = inert(text if colored(stream) else plain(text))
     try:
-        stream.write((text if colored(stream) else plain(text)) + end)
+        stream.write(f"\r{safe}\x1b[K{end}" if over else f"{safe}{end}")
         stream.flush()
     except BrokenPipeError:
         silence(stream)

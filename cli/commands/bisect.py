@@ -10,7 +10,7 @@ import typer
 from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Fidelity, Yes
-from ..session import Session
+from ..session import Session, write
 
 if TYPE_CHECKING:
     from pico.history.bisect_git import Verdict
@@ -134,7 +134,7 @@ def log(context: typer.Context) -> int:
     if session.json:
         session.document({"schema": "pico.bisect/v1", "kind": "log", "log": text})
     else:
-        sys.stdout.write(text)
+        write(sys.stdout, text, end="")
     return ExitCode.DONE
 
 

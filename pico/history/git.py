@@ -1,4 +1,9 @@
-"""The user's own `git`, for what must run hooks, sign and obey configuration. Never through a shell."""
+"""The user's own `git`, for what must run hooks, sign and obey configuration. Never through a shell.
+
+A repository's own configuration may name programs, and git runs them: that is wanted where git acts (hooks and filters
+of a commit or a checkout), and not where PICO only looks. So what looks runs with hooks, monitors, filters, signature
+checks and network turned off (`_guards`), whatever the repository says.
+"""
 
 from __future__ import annotations
 
@@ -51,6 +56,18 @@ _LOCAL = (
     "GIT_ALTERNATE_OBJECT_DIRECTORIES",
 )  # fmt: skip
 
+# What changes a repository, or speaks to another one: there git does what git does. All else only looks.
+_ACTS = frozenset(
+    ("add", "bisect", "branch", "checkout", "commit", "config", "maintenance", "merge", "pull", "push", "read-tree",
+     "reset", "stash", "tag")
+)  # fmt: skip
+_COMPARES = frozenset(("status", "diff", "diff-index", "diff-files"))
+"""What reads the files of the working tree through the filters of a repository."""
+_ALWAYS = ("-c", "core.fsmonitor=false")
+_LOOKING = ("-c", "core.hooksPath=/dev/null", "-c", "log.showSignature=false", "-c", "safe.bareRepository=explicit")
+_OFFLINE = {"GIT_ALLOW_PROTOCOL": "none", "GIT_TERMINAL_PROMPT": "0", "GIT_NO_LAZY_FETCH": "1", "GIT_PAGER": "cat"}
+_FILTERS = r"^filter\..*\.(clean|smudge|process|required)$"
+
 
 def run(
     root: Path, arguments: Sequence[str], *, doing: str, stdin: str = "", hook: str | None = None,
@@ -64,10 +81,11 @@ def run(
     itself. Raises PicoError with git's own words and what to do, where it does not end with one of the exit codes
     `ends`.
     """
-    environment = {**_environment(root), **extra}
+    options, looking = _guards(root, arguments)
+    environment = {**_environment(root), **looking, **extra}
     try:
         done = subprocess.run(
-            ["git", *arguments], cwd=root, env=environment, input=stdin.encode(), stdout=subprocess.PIPE,
+            ["git", *options, *arguments], cwd=root, env=environment, input=stdin.encode(), stdout=subprocess.PIPE,
             stderr=None if shown else subprocess.PIPE, check=False, pass_fds=inherit,
         )  # fmt: skip
     except FileNotFoundError:
@@ -84,11 +102,12 @@ def stream(root: Path, arguments: Sequence[str], *, doing: str) -> Iterator[str]
 
     Raises PicoError with git's own words where it fails.
     """
+    options, looking = _guards(root, arguments)
     with tempfile.TemporaryFile() as said:
         try:
             running = subprocess.Popen(
-                ["git", *arguments], cwd=root, env=_environment(root), stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE, stderr=said,
+                ["git", *options, *arguments], cwd=root, env={**_environment(root), **looking},
+                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=said,
             )  # fmt: skip
         except FileNotFoundError:
             hint = "install git, or add it to PATH"
@@ -135,6 +154,34 @@ def index(root: Path, folder: Path) -> Path:
     """Return the index of the working tree `root`, whose own folder of git is `folder`; GIT_INDEX_FILE counts."""
     told = _environment(root).get("GIT_INDEX_FILE")
     return (root / told).absolute() if told else folder / "index"
+
+
+def _guards(root: Path, arguments: Sequence[str]) -> tuple[tuple[str, ...], dict[str, str]]:
+    """Return the options and the environment that keep git from running what only the repository names."""
+    words = (w for i, w in enumerate(arguments) if not w.startswith("-") and (i == 0 or arguments[i - 1] != "-c"))
+    command, argument = next(words, ""), next(words, "")
+    if command in _ACTS and (command, argument) not in (("stash", "list"), ("bisect", "log")):
+        return _ALWAYS, {}
+    return (*_ALWAYS, *_LOOKING), _OFFLINE | (_without_filters(root) if command in _COMPARES else {})
+
+
+def _without_filters(root: Path) -> dict[str, str]:
+    """Return the environment that turns off the filters which the repository itself configures; the user's own stay.
+
+    By the environment, not by `-c`: there a name may hold any character.
+    """
+    asked = ["config", "--show-scope", "--name-only", "-z", "--get-regexp", _FILTERS]
+    words = run(root, asked, doing="read its configuration", ends=(0, 1)).split("\0")
+    pairs = zip(words[::2], words[1::2], strict=False)
+    own = dict.fromkeys(name.rpartition(".")[0] for scope, name in pairs if scope in ("local", "worktree"))
+    keys = ("clean", ""), ("smudge", ""), ("process", ""), ("required", "false")
+    off = [(f"{driver}.{key}", value) for driver in own for key, value in keys]
+    told = os.environ.get("GIT_CONFIG_COUNT", "")
+    first = int(told) if told.isdigit() else 0
+    found = {"GIT_CONFIG_COUNT": str(first + len(off))} if off else {}
+    for number, (name, value) in enumerate(off, first):
+        found |= {f"GIT_CONFIG_KEY_{number}": name, f"GIT_CONFIG_VALUE_{number}": value}
+    return found
 
 
 def _environment(root: Path) -> dict[str, str]:

@@ -60,14 +60,18 @@ class Repository:
         found = told[0] if told else pygit2.discover_repository(str(path.absolute()), False, ceiling)
         if not found:
             return None
+        if not told:
+            _refuse_embedded(Path(found), path)
         try:
             handle = pygit2.Repository(found)
         except Exception as exc:  # GitError, or ValueError and KeyError of the same cause
             raise _unreadable(Path(found), str(exc)) from exc
         tree = told[1] if told else handle.workdir
         if tree is None:
-            hint = "clone it, and work in the clone"
-            raise PicoError(error("git-bare", f"{found} is a bare repository, without files to edit", hint=hint))
+            raise PicoError(_bare(Path(found)))
+        if not path.resolve().is_relative_to(Path(tree).resolve()):
+            hint = "look at `core.worktree` in its configuration: somebody set it"
+            raise PicoError(error("git-elsewhere", f"{found} says that its files are in {tree}, not here", hint=hint))
         return cls(handle, Path(tree).resolve())
 
     @classmethod
@@ -348,6 +352,19 @@ class Repository:
             time=datetime.fromtimestamp(author.time, zone),
             refs=refs.get(name, ()),
         )
+
+
+def _refuse_embedded(found: Path, path: Path) -> None:
+    """Raise PicoError for a repository that lies among the files of another one, where a clone may have brought it: its
+    configuration is then somebody else's, and names programs."""
+    own = found.resolve()
+    if own.name != ".git" and own in (path.resolve(), *path.resolve().parents):
+        raise PicoError(_bare(own))
+
+
+def _bare(folder: Path) -> Diagnostic:
+    hint = "clone it, and work in the clone"
+    return error("git-bare", f"{folder} is a bare repository, without files to edit", hint=hint)
 
 
 def _unreadable(path: Path, words: str) -> PicoError:
