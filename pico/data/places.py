@@ -1,12 +1,11 @@
-"""Where copies of a lab's data are kept: a folder such as a mounted share, or a bucket of an object store."""
+"""Where copies of a lab's data are kept: a folder such as a mounted share, or what git-lfs has, or see `bucket`."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, BinaryIO, Protocol
+from typing import BinaryIO, Protocol
 
 from pico.data.needs import Needs
 from pico.diagnostics import PicoError, error
@@ -55,6 +54,8 @@ def place_of(repository: Repository, word: str | None) -> Place | None:
         return LfsObjects(repository)
     word = word.removeprefix("file://")
     if "://" in word:
+        from pico.data.bucket import Bucket
+
         return Bucket(word)
     folder = (repository.root / Path(word).expanduser()).resolve()
     if not folder.is_dir():
@@ -103,79 +104,28 @@ class LfsObjects:
         path = self._path(sha256)
         with store.open(sha256) as file:
             if not path.is_file():
-                _write(path, _heard(file, heard))
+                _write(path, pieces(file, heard))
 
     def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
         with self._path(sha256).open("rb") as file:
-            store.put(_heard(file, heard), expected=sha256)
+            store.put(pieces(file, heard), expected=sha256)
 
     def _path(self, sha256: str) -> Path:
         return self._root / sha256[:2] / sha256[2:4] / sha256
 
 
-class Bucket:
-    """A bucket, or anything else that fsspec reaches by an URL. An upload that broke off has another size, and counts
-    as not there."""
-
-    def __init__(self, url: str) -> None:
-        self.name = url
-        with self._reached():
-            try:
-                from fsspec.core import url_to_fs
-            except ImportError:
-                raise PicoError(_missing_extra(url)) from None
-            self._files, self._root = url_to_fs(url)
-
-    def present(self, wanted: Needs) -> frozenset[str]:
-        with self._reached():
-            self._files.invalidate_cache()
-            listed = self._files.find(f"{self._root}/sha256", detail=True)
-            sizes = {path.rpartition("/")[2]: found["size"] for path, found in listed.items()}
-        return frozenset(n.sha256 for n in wanted.values() if sizes.get(n.sha256) == n.size)
-
-    def send(self, sha256: str, store: Store, heard: Heard) -> None:
-        path = self._path(sha256)
-        with store.open(sha256) as file, self._reached():
-            file.close()  # it is intact; fsspec wants its name
-            self._files.put_file(str(store.path(sha256)), path)
-            self._files.invalidate_cache()
-            if self._files.size(path) != store.size(sha256):
-                raise OSError(f"{path} came out in another size")
-        heard(store.size(sha256))
-
-    def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
-        with self._reached(), self._files.open(self._path(sha256), "rb") as file:
-            store.put(_heard(file, heard), expected=sha256)
-
-    def _path(self, sha256: str) -> str:
-        return f"{self._root}/sha256/{sha256[:2]}/{sha256[2:4]}/{sha256}"
-
-    @contextmanager
-    def _reached(self) -> Iterator[None]:
-        """Say in its own words what an object store refused; its errors are of any kind."""
-        try:
-            yield
-        except PicoError:
-            raise
-        except ImportError as exc:
-            raise PicoError(_missing_extra(self.name, str(exc))) from exc
-        except Exception as exc:
-            text = f"{self.name} can't be used: {' '.join(str(exc).split()) or type(exc).__name__}"
-            raise PicoError(error("data-place", text)) from exc
-
-
 def _copy(sha256: str, source: Store, target: Store, heard: Heard) -> None:
     with source.open(sha256) as file:
-        target.put(_heard(file, heard), expected=sha256)
+        target.put(pieces(file, heard), expected=sha256)
 
 
-def _write(path: Path, pieces: Iterator[bytes]) -> None:
+def _write(path: Path, content: Iterator[bytes]) -> None:
     """Write a file so that it is there whole or not at all."""
     fresh = path.with_name(f"{path.name}.{os.getpid()}.tmp")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with fresh.open("wb") as file:
-            file.writelines(pieces)
+            file.writelines(content)
             file.flush()
             os.fsync(file.fileno())
         fresh.replace(path)
@@ -184,12 +134,8 @@ def _write(path: Path, pieces: Iterator[bytes]) -> None:
         raise PicoError(error("data-io", f"{path} can't be written: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
-def _heard(file: BinaryIO | Any, heard: Heard) -> Iterator[bytes]:
+def pieces(file: BinaryIO, heard: Heard) -> Iterator[bytes]:
+    """Yield what is in a file, and tell how many bytes were taken."""
     while piece := file.read(CHUNK):
         yield piece
         heard(len(piece))
-
-
-def _missing_extra(url: str, words: str = "") -> Any:
-    hint = "`pip install pico-lab[object-store]`; a folder needs nothing more"
-    return error("data-extra", f"PICO can't reach {url} as it is installed", detail=words, hint=hint)

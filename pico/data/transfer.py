@@ -14,6 +14,8 @@ from pico.trace.store import Store
 Shared = Callable[[float], None]
 """Is told which share of the bytes is through, 0 to 1."""
 
+_ELSEWHERE = "another clone may have an intact copy: `pico data push` there"
+
 
 @record
 class Holdings:
@@ -103,13 +105,8 @@ def _move(found: Holdings, wanted: Iterable[Need], copy: Callable[[str, Heard], 
         except PicoError as exc:
             if exc.diagnostics[0].code not in ("data-damaged", "data-missing"):
                 raise
-            wrong += [named(need, d) for d in exc.diagnostics]
+            wrong += [error(d.code, d.summary, detail=needed_by(need), hint=_ELSEWHERE) for d in exc.diagnostics]
     return Moved(place=str(found.place), objects=tuple(moved), lost=found.lost, diagnostics=tuple(wrong))
-
-
-def named(need: Need, d: Diagnostic) -> Diagnostic:
-    """Return a diagnostic of an object with what it is to whom."""
-    return error(d.code, d.summary, detail=needed_by(need), hint=d.hint)
 
 
 def needed_by(need: Need) -> str:

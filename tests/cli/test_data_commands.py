@@ -128,7 +128,12 @@ def test_what_arrives_damaged_is_refused_and_the_others_come(lab: Path, share: P
     assert answer.code == 1
     assert f"the object {bad} is damaged" in answer.err
     assert "frame0.bin of run-a" in answer.err
+    assert "another clone may have an intact copy" in answer.err
     assert stored(lab) == {good}
+    LabData.discover(lab).store.put(b"frame a")
+    assert pico("data", "push").code == 0  # the damaged copy was set aside, so that an intact one can take its place
+    assert pico("data", "pull").code == 0
+    assert next(share.rglob(f"sha256/*/*/{bad}")).read_bytes() == b"frame a"
 
 
 def test_what_is_damaged_here_is_not_sent(lab: Path, share: Path, pico: Pico) -> None:
