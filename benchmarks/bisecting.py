@@ -1,7 +1,7 @@
 """How much time at the bench `pico bisect` needs to find the commit that broke something, beside halving.
 
     python benchmarks/bisecting.py [--commits 128] [--seeds 10] [--measure 5] [--merges] [--scattered]
-        [--suspicion 1]
+        [--suspicion 1] [--pairs 5]
 
 Builds labs of about thirty parts with a random history (a commit moves or turns one to five parts, as a sub-assembly is
 worked on; with --scattered parts from anywhere; with --merges branches that were worked on at the same time) and plants
@@ -9,7 +9,8 @@ a commit that breaks an expectation. `pico bisect run` then searches in the simu
 ends, plans, moves and measures for real. From the same place `git bisect` does, with `pico bisect-step`, which always
 takes the middle. The expectation speaks of one part, so that commits which moved it are suspected first; with
 `--suspicion 1` all are alike, and only the costs are weighed. Prints a line a seed and the ratios of the simulated
-seconds of the search, a measurement counted with --measure seconds. The exit code is 1 where a wrong commit is named.
+seconds of the search, a measurement counted with --measure seconds; and how near the estimates
+that the choice weighs are to real plans (--pairs). The exit code is 1 where a wrong commit is named.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import argparse
 import io
 import json
 import os
+import random
 import statistics
 import subprocess
 import sys
@@ -36,6 +38,7 @@ from bisecting_labs import EXPECT, Written, history  # noqa: E402
 from pico_cli.main import main as pico  # noqa: E402
 
 from pico.bench import Bench  # noqa: E402
+from pico.bisecting.costs import PlanSeconds  # noqa: E402
 from pico.bisecting.step import step  # noqa: E402
 from pico.history.bisect_git import GitBisect  # noqa: E402
 from pico.model.plan import Plan  # noqa: E402
@@ -96,6 +99,14 @@ def halved(lab: Written, measure: float) -> Found:
     return Found(first, trials, total)
 
 
+def compared(lab: Written, count: int, seed: int) -> list[tuple[float, float]]:
+    """Return what is reckoned to get from where the bench stands to some commits, and what plans take [s]."""
+    with Bench.open(lab.root, fidelity="kinematic") as bench:
+        seen, clock = bench.observe(), PlanSeconds(bench.setup)
+        some = random.Random(seed).sample(lab.commits, min(count, len(lab.commits)))
+        return [(clock.to(seen, bench.state_at(c)), bench.plan(c).makespan) for c in some]
+
+
 def _stand(bench: Bench, revision: str) -> None:
     plan = bench.plan(revision)
     if plan.operations:
@@ -116,12 +127,13 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="first seed")
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--measure", type=float, default=5.0, help="seconds a measurement")
+    parser.add_argument("--pairs", type=int, default=5, help="plans a seed that the estimate is compared with")
     parser.add_argument("--suspicion", type=float, default=10.0, help="as of `pico bisect run`; 1: all commits alike")
     parser.add_argument("--merges", action="store_true", help="with branches and merges")
     parser.add_argument("--scattered", action="store_true", help="commits move parts from anywhere")
     given = parser.parse_args()
     print(" seed commits planted trials   lab s  halving: trials   lab s  ratio  with ends  reckoned  CPU s")
-    wrong, pairs = 0, []
+    wrong, pairs, estimates = 0, [], list[tuple[float, float]]()
     for seed in range(given.first, given.first + given.seeds):
         began = time.process_time()
         with tempfile.TemporaryDirectory() as folder:
@@ -130,6 +142,7 @@ def main() -> int:
                 _stand(bench, "main")
             ours = cheapest(lab, given.measure, given.suspicion)
             gits = halved(lab, given.measure)
+            estimates += compared(lab, given.pairs, seed)
         cpu = time.process_time() - began
         missed = [f.commit for f in (ours, gits) if f.commit != lab.first_bad]
         wrong += bool(missed)
@@ -150,6 +163,12 @@ def main() -> int:
         f"({mine:.0f} of {git:.0f} s), mean {statistics.mean(ratios):.3f}, median {statistics.median(ratios):.3f}, "
         f"worst {max(ratios):.3f}; with the measurement of both ends {(mine + both) / (git + both):.3f}"
     )
+    if len(estimates) > 1:
+        about, real = zip(*estimates, strict=True)
+        print(
+            f"{len(estimates)} estimates beside real plans: {sum(about) / sum(real):.3f} of their seconds, "
+            f"correlation {statistics.correlation(about, real):.4f}"
+        )
     return 1 if wrong else 0
 
 
