@@ -70,21 +70,23 @@ class Standings:
         return found if claimed or added or found.verdict != "planned" else None
 
     def _state(self, commit: Commit) -> str:
-        """Return the digest of the state of a commit: what was found once is remembered, where the commit says itself
-        what bench it is of."""
-        from pico import __version__
-
+        """Return the digest of the state of a commit; what was found once is remembered, for this bench (a commit may
+        not say itself of which it is)."""
         if self._cache is None:
             self._cache = Cache(self.folder.history().common / CACHE)
-        key = f"{__version__} {self.folder.history().relative(self.folder.root)} {commit.id}"
+        key = f"{self._bench} {commit.id}"
         known = self._cache.get(key)
         if known is None:
-            setup, state = self.folder.historic(commit.id)
-            known = state.digest()
-            if setup is not self.folder.setup:
-                self._cache.put(key, known)
-                self._cache.flush()
+            known = self.folder.historic(commit.id)[1].digest()
+            self._cache.put(key, known)
+            self._cache.flush()
         return known
+
+    @cached_property
+    def _bench(self) -> str:
+        from pico import __version__
+
+        return f"{__version__} {self.folder.history().relative(self.folder.root)} {self.folder.setup.digest()}"
 
     def of(self, commit: Commit, state: str | None = None) -> Standing:
         """Return the standing of a commit; `state`: the digest of its state, where that is known already."""
