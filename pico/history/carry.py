@@ -141,7 +141,7 @@ def _step(
     repository = folder.history()
     inside = repository.relative(folder.root)
     commit = repository.resolve(revision)
-    name = commit.label if revision.startswith(("HEAD", "@")) else label_of(commit, revision)
+    name = commit.short if revision.startswith(("HEAD", "@")) else label_of(commit, revision)
     parent = _parent(folder, commit, name, mainline)
     made = manifest_tree(handle, handle[commit.id].tree, inside)
     was = manifest_tree(handle, handle[parent.id].tree if parent else None, inside)
