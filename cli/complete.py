@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import stat
 import subprocess
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -113,6 +114,9 @@ _REVISION = (
     "plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render",
     "verify", "publish", "runs list", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
 )  # fmt: skip
+_SAFE = re.compile(r"[^\s\\'\"`$&|;<>()*?!#{}\[\]\x00-\x1f\x7f-\x9f]+")
+"""What a shell takes as it stands: bash puts what is offered into the command line as it is."""
+_LARGEST = 2 * 1024 * 1024
 _NAME = re.compile(r"  ([a-z][a-z0-9_]*):\s*(?:\{.*)?(?:#.*)?")
 
 
@@ -120,7 +124,7 @@ def candidates(words: Sequence[str]) -> list[str]:
     """Return what the last of `words` (those after `pico`; it may be empty) can become."""
     *before, last = words or [""]
     folder = Path(before[before.index("-C") + 1]) if "-C" in before[:-1] else Path()
-    return sorted({c for c in _offered(before, last, folder) if c.startswith(last)})
+    return sorted({c for c in _offered(before, last, folder) if c.startswith(last) and _SAFE.fullmatch(c)})
 
 
 def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
@@ -171,12 +175,23 @@ def _inventory(folder: Path) -> Iterator[str]:
     here = folder.resolve()
     root = next((p for p in (here, *here.parents) if (p / "lab.yaml").is_file()), here)
     for path in root.glob("*.yaml"):
+        if not _readable(path):
+            continue
         inside = False
         for line in path.read_text(errors="replace").splitlines():
             if line[:1] not in (" ", "#", ""):
                 inside = line.startswith("inventory:")
             elif inside and (match := _NAME.fullmatch(line)):
                 yield match[1]
+
+
+def _readable(path: Path) -> bool:
+    """Return whether a file is one that PICO reads: no link, no pipe that would never end, not too large."""
+    try:
+        found = path.lstat()
+    except OSError:
+        return False
+    return stat.S_ISREG(found.st_mode) and found.st_size <= _LARGEST
 
 
 SCRIPTS = {

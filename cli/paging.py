@@ -1,4 +1,4 @@
-"""Long answers in a pager on a terminal, as git shows its own: GIT_PAGER, core.pager, PAGER, else `less -FRX`."""
+"""Long answers in a pager on a terminal, as git shows its own: GIT_PAGER, the user's core.pager, PAGER, else `less -FRX`."""
 
 from __future__ import annotations
 
@@ -53,9 +53,17 @@ def _wait(pager: subprocess.Popen[bytes]) -> None:
 
 def _pager(session: Session) -> str:
     """Return the command of the pager as a shell takes it; empty for none."""
-    asked = ["git", "-C", str(session.folder), "var", "GIT_PAGER"]
-    try:
-        found = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.strip()
-    except OSError:
-        found = os.environ.get("PAGER", "less")
+    told = os.environ.get("GIT_PAGER")
+    found = _configured(session) or os.environ.get("PAGER", "less") if told is None else told
     return "" if found == "cat" else found
+
+
+def _configured(session: Session) -> str:
+    """Return the user's own `core.pager`; what a repository sets does not count, for looking must not run it."""
+    asked = ["git", "-C", str(session.folder), "config", "--show-scope", "-z", "--get-all", "core.pager"]
+    try:
+        words = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.split("\0")
+    except OSError:
+        return ""
+    pairs = zip(words[::2], words[1::2], strict=False)
+    return ([""] + [pager for scope, pager in pairs if scope in ("system", "global", "command")])[-1]
