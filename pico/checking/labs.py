@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -110,14 +110,6 @@ def _drawn(
         return found
     from pico.checking.drawn import draw
 
-    stem = next(name for name in _stems(found.lab) if not any(_stem_taken(lab, name) for lab in others))
+    alike = sum(lab.lab == found.lab for lab in others)
+    stem = f"{found.lab}-{alike + 1}" if alike else found.lab
     return replace(found, pictures=draw(candidate, before, found, pictures, stem))
-
-
-def _stems(name: str) -> Iterator[str]:
-    yield name
-    yield from (f"{name}-{number}" for number in range(2, 10**6))
-
-
-def _stem_taken(lab: LabChecked, stem: str) -> bool:
-    return any(Path(picture.path).name.startswith(f"{stem}-") for picture in lab.pictures)
