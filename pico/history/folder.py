@@ -192,13 +192,6 @@ class LabFolder:
             before = home
         return Entry(commit=commit, changes=between(before, after))
 
-    def log(self, revision: str | None = None, *, every: bool = False, limit: int | None = None) -> Iterator[Entry]:
-        """Yield the commits that changed the lab, newest first: of a revision (HEAD), or of `every` branch and tag."""
-        repository = self.history()
-        tips = repository.tips() if every else (revision or "HEAD",)
-        for commit in repository.log(tips, folder=self.root, limit=limit):
-            yield self.entry(commit)
-
     def refuse_edits(self) -> None:
         """Raise PicoError where the manifests hold edits that a checkout would lose."""
         edited = self.history().changed(self.root)

@@ -52,7 +52,8 @@ def _steps(lab: str) -> Iterator[tuple[str, Plan]]:
         make_example(lab, Path(name) / lab)
         folder = LabFolder(Path(name) / lab)
         motion = ArmMotion(folder.setup)
-        commits = [entry.commit for entry in reversed(list(folder.log(every=True)))]
+        repository = folder.history()
+        commits = list(repository.log(repository.tips(), folder=folder.root))[::-1]
         states = {c.id: folder.state_at(c.id) for c in commits}
         for n, (a, b) in enumerate(pairwise([*commits, commits[0]]), 1):
             case = Case(folder.setup, as_seen(folder.setup, states[a.id]), states[b.id])
