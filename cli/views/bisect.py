@@ -158,7 +158,8 @@ def _asked(search: Bisection) -> str:
 
 def _found(entry: Entry) -> list[str]:
     c = entry.commit
-    head = f'{paint("bold", c.label)} is the first bad commit: "{c.summary}", {c.author}, {c.time:%Y-%m-%d %H:%M}'
+    name = c.short + (f" ({', '.join(c.refs)})" if c.refs else "")
+    head = f'{paint("bold", name)} is the first bad commit: "{c.summary}", {c.author}, {c.time:%Y-%m-%d %H:%M}'
     changed = [f"  {entry.unreadable}"] if entry.unreadable else lines(entry.changes) or ["  nothing on the table"]
     return [*wrap(head, ""), *changed]
 

@@ -6,13 +6,14 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pico.bisecting.records import Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.expressions import ExpressionError, Language
 from pico.history.bisect_git import Verdict
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
-from pico.model.state import Expectation
+from pico.model.state import Expectation, LabState
 from pico.model.vocabulary import functions_of, measured, names_of, spoken_of, values_of
 from pico.policy.expectations import check_expectations, shown
 
@@ -35,6 +36,27 @@ def verdict(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> t
     values, _ = values_of(setup, seen, spoken_of(setup, (one.that for one in expect)))
     said = [shown(one.that, values) or f"`{one.that}` holds" for one in expect]
     return "good", "; ".join(dict.fromkeys(said))
+
+
+def not_as_called(setup: Setup, seen: Observation, state: LabState | None, tried: Tried, name: str) -> Diagnostic:
+    """Return what to say where an end, called `name`, is not what it was called: `tried.end`."""
+    from pico.model.drift import drift_of
+
+    off = [c for c in drift_of(setup, seen, state) if not c.tolerated] if state else []
+    differs = "; ".join(f"{c.component}.{c.tunable} {c.text}" for c in off[:4])
+    hints = {
+        "good": "so the cause is not in the history: something else on the bench has changed since. `pico drift`, "
+        "`pico verify`; or name an older good commit",
+        "bad": "so there is nothing to be found: check the expectation, or name another bad commit",
+    }
+    if tried.verdict == "skip":
+        hints = dict.fromkeys(hints, "choose an expectation that the bench can tell now")
+    is_now = "can't be told" if tried.verdict == "skip" else f"is {tried.verdict}"
+    return error(
+        "not-as-called", f"{name} was called {tried.end} and {is_now} now: {tried.why}",
+        detail=f"the bench differs from it: {differs}" if differs else "the bench stands as that commit says",
+        hint=hints[tried.end],
+    )  # fmt: skip
 
 
 def decisive(setup: Setup, expect: Sequence[Expectation]) -> frozenset[str]:

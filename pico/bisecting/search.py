@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Protocol
 
 from pico.bisecting.configurations import Configurations, Lineage, alike
-from pico.bisecting.judging import decisive, impossible, require_known, verdict
+from pico.bisecting.judging import decisive, impossible, not_as_called, require_known, verdict
 from pico.bisecting.records import End, Outcome, Proposal, Task, Tried
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.history.bisect import Choice
 from pico.history.bisect_git import Ends, GitBisect, Verdict
 from pico.history.folder import LabFolder
@@ -62,8 +62,9 @@ class Bisection:
         ends = self.git.ends()
         if pending := self._ends():
             return self._end(pending)
-        if self.mended is None and (forks := self.git.unproven(ends)):
-            return self._fork(forks[0])
+        for fork in self.git.unproven(ends) if self.mended is None else ():
+            if found := self._fork(fork):
+                return found
         while self.mended is None:
             ends = self.git.ends()
             lineage = self.git.suspects(ends)
@@ -95,9 +96,9 @@ class Bisection:
             measure=self.task.measure, estimate=proposal.plan.makespan,
         )  # fmt: skip
         if proposal.end in ("good", "bad") and found != proposal.end:
-            found_wrong = self._not_as_called(tried, seen)
             self.git.reset()
-            raise PicoError(found_wrong)
+            state = self._configurations.state(tried.commit)
+            raise PicoError(not_as_called(self.bench.setup, seen, state, tried, self._called(tried.end)))
         self._tell(tried)
         return tried
 
@@ -199,13 +200,17 @@ class Bisection:
             )  # fmt: skip
         return Proposal(commit=commits[nearest], plan=plan, end=nearest, left=len(self.git.suspects(self.git.ends())))
 
-    def _fork(self, commit: str) -> Proposal:
+    def _fork(self, commit: str) -> Proposal | None:
+        """Return the fork of a good branch to be tried; None where it can't be, and was skipped: git goes on, too."""
+        if self._configurations.state(commit) is None:
+            why = self._configurations.unreadable[commit]
+            self._tell(Tried(commit=commit, verdict="skip", why=why, by="unreadable", end="fork"))
+            return None
         plan = self._known_plan(commit, self.bench.observe())
         if why := impossible(plan):
-            text = f"{commit[:7]}, where {self._called('good')} and {self._called('bad')} part, can't be built: {why}"
-            raise PicoError(error("bisect", text, hint="name a good ancestor"), ExitCode.IMPOSSIBLE)
-        self.git.point(commit)
-        return self._proposal(commit, plan, left=len(self.git.suspects(self.git.ends())), end="fork")
+            self._tell(Tried(commit=commit, verdict="skip", why=why, by="impossible", end="fork"))
+            return None
+        return self._proposal(commit, plan, left=self.left(), end="fork")
 
     def _proposal(self, commit: str, plan: Plan, left: int, end: End = "") -> Proposal:
         self.git.point(commit)
@@ -267,26 +272,6 @@ class Bisection:
         self.said = self.git.tell(tried.verdict, [tried.commit])
         if tried.end == "fork" and tried.verdict == "bad":
             self.mended = tried.commit
-
-    def _not_as_called(self, tried: Tried, seen: Observation) -> Diagnostic:
-        from pico.model.drift import drift_of
-
-        state = self._configurations.state(tried.commit)
-        off = [c for c in drift_of(self.bench.setup, seen, state) if not c.tolerated] if state else []
-        differs = "; ".join(f"{c.component}.{c.tunable} {c.text}" for c in off[:4])
-        name, is_now = self._called(tried.end), "can't be told" if tried.verdict == "skip" else f"is {tried.verdict}"
-        hints = {
-            "good": "so the cause is not in the history: something else on the bench has changed since. `pico drift`, "
-            "`pico verify`; or name an older good commit",
-            "bad": "so there is nothing to be found: check the expectation, or name another bad commit",
-        }
-        if tried.verdict == "skip":
-            hints = dict.fromkeys(hints, "choose an expectation that the bench can tell now")
-        return error(
-            "not-as-called", f"{name} was called {tried.end} and {is_now} now: {tried.why}",
-            detail=f"the bench differs from it: {differs}" if differs else "the bench stands as that commit says",
-            hint=hints[tried.end],
-        )  # fmt: skip
 
     def _called(self, end: End) -> str:
         task = self.task

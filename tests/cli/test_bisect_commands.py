@@ -275,6 +275,18 @@ def test_a_good_branch_asks_for_its_fork_first(history: dict[str, str], pico: Pi
     assert [t["commit"] for t in events(answer, "tried") if t["end"] == "fork"] == [history["a"]]
 
 
+def test_a_fork_that_cannot_be_built_is_skipped_as_git_does(shel: Path, pico: Pico) -> None:
+    fork = commit("onto p2", "x: 290", "x: 515")
+    commit("back", "x: 515", "x: 295")
+    made = commit("break", "x: 295", "x: 310")
+    git("checkout", "-q", "-b", "side", fork)
+    commit("also back", "x: 515", "x: 285")
+    git("checkout", "-q", "main")
+    answer = pico("bisect", "run", "main", "side", "--expect", LIMIT, *YES)
+    assert answer.code == 0 and f"{made[:7]} (main) is the first bad commit" in answer.out
+    assert f"skipped {fork[:7]}: p1" in answer.out
+
+
 def test_where_the_fork_is_bad_it_was_mended_on_the_good_branch(history: dict[str, str], pico: Pico) -> None:
     git("checkout", "-q", "-b", "mended", history["c"])
     commit("mended", "x: 314", "x: 292")
