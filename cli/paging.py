@@ -1,4 +1,4 @@
-"""Long answers in a pager on a terminal, as git shows its own: GIT_PAGER, the user's core.pager, PAGER, else `less -FRX`."""
+"""Long answers in a pager on a terminal, as git shows its own: GIT_PAGER, the user's core.pager, PAGER, or less."""
 
 from __future__ import annotations
 
