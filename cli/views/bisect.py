@@ -191,7 +191,7 @@ def _where(search: Bisection) -> str:
     stands = next((t.commit for t in reversed(search.tried) if t.by in ("measured", "person")), None)
     where = f"The bench stands at {stands[:7]}; the files were not touched. " if stands else ""
     back = "`pico apply` brings it back to the manifest. " if stands else ""
-    return f"{where}{back}`git bisect log` tells what was judged; `pico bisect reset` ends the bisection."
+    return f"{where}{back}`pico bisect log` tells what was judged; `pico bisect reset` ends the bisection."
 
 
 def _name(called: str, commit: str) -> str:
