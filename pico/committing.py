@@ -23,7 +23,7 @@ from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
 from pico.model.state import LabState, home_state
-from pico.model.status import compare, refuse_unapplied
+from pico.model.status import refuse_unapplied
 
 CommitMode = Literal["strict", "capture", "planned"]
 
@@ -95,8 +95,8 @@ def _refuse(folder: LabFolder, seen: Observation, asked: Asked, named: Named | N
     """Raise PicoError where what is to be committed holds edits that were never applied, and nobody said who wins."""
     if asked.mode != "strict":
         return
-    status = compare(folder.setup, folder.committed(), folder.state, seen)
-    refuse_unapplied(status, contents(folder, named).components if named else None)
+    components = contents(folder, named).components if named else None
+    refuse_unapplied(folder.setup, folder.committed(), folder.state, seen, components)
 
 
 def _changes(folder: LabFolder, state: LabState) -> tuple[Change, ...]:

@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
 """Matches the content of a file that holds states alone, nothing of the bench."""
 
+FULL = 40
+"""Digits of the whole id of a commit."""
+
 
 @record
 class Entry:
@@ -76,6 +79,7 @@ class LabFolder:
         self.root = find_lab(path)
         self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
         self._files: dict[str, bytes] = {}
+        self._historic: dict[str, tuple[Setup, LabState]] = {}
         self._writing = False
         self.wrong: PicoError | None = None
         try:
@@ -93,11 +97,23 @@ class LabFolder:
         files, found = read_folder(self.root)
         if files == self._files and not found:
             return
-        self.manifests = load_folder(self.root)
-        self.setup, self.state = self.manifests.require()
-        self._files = files
         shown = shown_path(self.root)
-        self._benches[_bench_of({os.path.relpath(p, shown): data for p, data in files.items()})] = self.setup
+        bench = _bench_of({os.path.relpath(p, shown): data for p, data in files.items()})
+        known = self._benches.get(bench) if self._files and not found else None
+        self._adopt(files, self._read(files, known) if known else load_folder(self.root))
+        self._benches[bench] = self.setup
+
+    def _read(self, files: Mapping[str, bytes], setup: Setup) -> Manifests:
+        """Return manifests of which only states may have changed since the last time."""
+        read = load_files(files, setup=setup)
+        states = {p for p, data in files.items() if STATE_ONLY.search(data)}
+        kept = tuple(d for d in self.manifests.diagnostics if d.source is None or d.source.path not in states)
+        return replace(read, diagnostics=(*kept, *read.diagnostics))
+
+    def _adopt(self, files: dict[str, bytes], manifests: Manifests) -> None:
+        self.manifests = manifests
+        self.setup, self.state = manifests.require()
+        self._files = files
 
     def _stand_in(self) -> bool:
         """Take bench and state from HEAD, and return whether that was possible."""
@@ -149,11 +165,17 @@ class LabFolder:
 
         A revision without a Lab of its own is read against the bench as it is now.
         """
+        if revision in self._historic:
+            return self._historic[revision]
         files = self.history().files(revision, self.root)
         bench = _bench_of(files)
         if bench not in self._benches:
             self._benches[bench] = load_files(_named(revision, files)).setup
-        return load_files(_named(revision, files), setup=self._benches[bench] or self.setup).require()
+        setup = self._benches[bench]
+        found = load_files(_named(revision, files), setup=setup or self.setup).require()
+        if setup and len(revision) == FULL:  # the whole id of a commit means the same for ever
+            self._historic = {**dict([*self._historic.items()][-3:]), revision: found}
+        return found
 
     def committed(self) -> LabState | None:
         """Return the state at HEAD, as far as the bench as it is now has its parts and slots.
@@ -185,12 +207,15 @@ class LabFolder:
             after = self.historic(commit.id)
         except PicoError as exc:
             return Entry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
-        home = (after[0], home_state(after[0]))
+        return Entry(commit=commit, changes=self._since(commit.parents[0] if commit.parents else None, after))
+
+    def _since(self, commit: str | None, after: tuple[Setup, LabState]) -> tuple[Change, ...]:
+        """Return what changed on the table since a commit; since every part was at home, where there is none."""
         try:
-            before = self.historic(commit.parents[0]) if commit.parents else home
+            before = self.historic(commit) if commit else None
         except PicoError:
-            before = home
-        return Entry(commit=commit, changes=between(before, after))
+            before = None
+        return between(before or (after[0], home_state(after[0])), after)
 
     def refuse_edits(self) -> None:
         """Raise PicoError where the manifests hold edits that a checkout would lose."""
@@ -225,28 +250,30 @@ class LabFolder:
             return self.preview(live, named)[0]
         with self.writing("pico capture"):
             spliced = self._spliced(live, named)
-            found = self._captured(spliced, written=True)[0]
+            found, manifests = self._captured(spliced, written=True)
             for name, data in sorted(spliced.items()):
                 write_file(Path(name), data, self.root / ".pico")
-            self.reload()
+            self._adopt({**self._files, **spliced}, manifests)
             return found
 
     def preview(self, live: LabState, named: Named | None = None) -> tuple[Captured, LabState]:
         """Return what a capture would write, and the state that the manifests would then hold; raises PicoError."""
-        return self._captured(self._spliced(live, named), written=False)
+        captured, manifests = self._captured(self._spliced(live, named), written=False)
+        return captured, manifests.require()[1]
 
     def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
         return capture(self._files, self.setup, self.state, live, named)
 
-    def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, LabState]:
-        after = load_files({**self._files, **spliced}, setup=self.setup).require()[1]
+    def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
+        manifests = self._read({**self._files, **spliced}, self.setup) if spliced else self.manifests
+        after = manifests.require()[1]
         captured = Captured(
             changes=diff_states(self.setup, self.state, after),
             files=tuple(sorted(spliced)),
             written=written,
             patch="".join(_patch(name, self._files[name], spliced[name]) for name in sorted(spliced)),
         )
-        return captured, after
+        return captured, manifests
 
     def notes(self, part: str) -> tuple[Note, ...]:
         """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
@@ -293,13 +320,14 @@ class LabFolder:
             added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
             added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
             text = with_trailers(message, added)
+            before = repository.head().commit
             made = repository.commit(content.paths, text, ignored=written, whole=bool(ending))
         return Committed(
             commit=made.id,
             message=message.strip(),
             branch=repository.head().branch,
             state=digest,
-            changes=self.entry(made).changes,
+            changes=self._since(before, (self.setup, content.state)),
             captured=captured,
             realized=evidence != "planned",
             evidence=evidence,

@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.diff import Change, diff_observed, place_json, show_value
+from pico.model.diff import Change, diff_observed, diff_states, place_json, show_value
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between
@@ -62,12 +62,18 @@ class Status:
     unknown: Mapping[str, Pose] = field(default_factory=dict)
 
 
-def compare(setup: Setup, committed: LabState | None, desired: LabState, seen: Observation, head: str = "") -> Status:
-    """Return the three states side by side, sorted by component and tunable; `committed` is None without a commit."""
+def compare(
+    setup: Setup, committed: LabState | None, desired: LabState, seen: Observation, head: str = "", *,
+    only: Collection[str] | None = None,
+) -> Status:  # fmt: skip
+    """Return the three states side by side, sorted by component and tunable; `committed` is None without a commit.
+
+    `only`: these components.
+    """
     off = _by_address(diff_observed(setup, seen, desired))
     moved = _by_address(diff_observed(setup, seen, committed)) if committed else {}
     rows: list[StatusRow] = []
-    for name in sorted(setup.lab.inventory):
+    for name in sorted(setup.lab.inventory if only is None else setup.lab.inventory.keys() & set(only)):
         rows.append(_pose_row(setup, name, committed, desired, seen, off, moved))
         rows.extend(_value_rows(setup, name, committed, desired, seen, off, moved))
     unknown = {name: thing.pose for name, thing in seen.unknown.items()}
@@ -164,13 +170,20 @@ def _deviation(goal: Pose, live: Pose) -> str:
     return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
 
 
-def refuse_unapplied(status: Status, components: Collection[str] | None = None) -> None:
+def refuse_unapplied(
+    setup: Setup, committed: LabState | None, desired: LabState, seen: Observation,
+    components: Collection[str] | None = None,
+) -> None:  # fmt: skip
     """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied.
 
     Edits of a part that nobody sees, or not surely, count as well: nobody can say that they were. `components`: only of
     these.
     """
-    rows = [row for row in status.rows if components is None or row.component in components]
+    edited = None if committed is None else {c.component for c in diff_states(setup, committed, desired)}
+    among = edited if components is None else set(components) & (edited if edited is not None else set(components))
+    if among is not None and not among:
+        return
+    rows = compare(setup, committed, desired, seen, only=among).rows
     unsure = {row.component: row.note for row in rows if row.note}
     edits = [
         row for row in rows
