@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
+from pico.history.blame_cache import Cache
 from pico.history.commit import Commit
 from pico.history.repository import Repository
 from pico.model.run import RunDocument
 from pico.trace.read import read_document
 
 _PLACE = re.compile(r"\d{4}/\d{2}/")
+CACHE = "pico/runs.sqlite"
 SLACK = 86400.0
 """Seconds by which the clocks of two machines may differ."""
 
@@ -73,10 +76,12 @@ def places_in_history(
 ) -> dict[str, RunPlace]:
     """Return where each run was added, by its id: looking through all that `tips` (commit ids; None: every branch and
     tag, and HEAD) reach and `hidden` do not, back to `since` [s since 1970]."""
-    trees, found = _Trees(repository, repository.relative(folder)), {}
-    for handle in _walk(repository, tips, hidden, since):
-        for place in trees.added(handle):
-            found[place.id] = place  # the older one counts
+    found: dict[str, RunPlace] = {}
+    with closing(Cache(repository.common / CACHE)) as cache:
+        trees = _Trees(repository, repository.relative(folder), cache)
+        for handle in _walk(repository, tips, hidden, since):
+            for place in trees.added(handle):
+                found[place.id] = place  # the older one counts
     return found
 
 
@@ -162,10 +167,12 @@ def tip_ids(repository: Repository) -> tuple[str, ...]:
 
 @dataclass(slots=True)
 class _Trees:
-    """The `runs` folders of commits; those that are the same are read once."""
+    """The `runs` folders of commits; those that are the same are read once, and what a commit added only the first
+    time, where a `cache` remembers it."""
 
     repository: Repository
     inside: str
+    cache: Cache | None = None
     _known: dict[str, Mapping[str, str]] = field(default_factory=dict)
 
     def added(self, commit: Any) -> tuple[RunPlace, ...]:
@@ -176,8 +183,19 @@ class _Trees:
             return ()
         if not before:
             return tuple(self.places(commit).values())
-        fresh = set.intersection(*(_fresh(b, own) for b in before))
-        return tuple(RunPlace(n[8:], f"runs/{n}", str(own[n].id), str(commit.id)) for n in sorted(fresh))
+        fresh = self._remembered(own, before)
+        return tuple(RunPlace(n[8:], f"runs/{n}", str(own[n].id), str(commit.id)) for n in fresh)
+
+    def _remembered(self, own: Any, before: list[Any]) -> list[str]:
+        """Return the runs, as `2026/11/<id>`, that one `runs` folder has and none of those `before`."""
+        key = " ".join(["runs", str(own.id), *sorted(str(b.id) for b in before)])
+        known = self.cache.get(key) if self.cache else None
+        if known is not None and all(name in own for name in known.split()):
+            return known.split()
+        fresh = sorted(set.intersection(*(_fresh(b, own) for b in before)))
+        if self.cache:
+            self.cache.put(key, " ".join(fresh))
+        return fresh
 
     def places(self, commit: Any) -> dict[str, RunPlace]:
         """Return the runs that a commit has, by id."""

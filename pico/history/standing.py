@@ -16,12 +16,10 @@ from pico.history import trailers
 from pico.history.blame_cache import Cache
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
-from pico.history.runs import CarriedRun, files_at, places_in_history, read_carried, runs_added
+from pico.history.runs import CACHE, CarriedRun, files_at, places_in_history, read_carried, runs_added
 from pico.model.run import STRENGTH, RunDocument
 from pico.model.standing import Standing, Verdict
 from pico.trace.run import intact
-
-CACHE = "pico/states.sqlite"
 
 
 @dataclass(frozen=True)
