@@ -13,6 +13,7 @@ from collections.abc import Collection, Iterable
 from contextlib import closing
 from pathlib import Path
 
+from pico.attachment import bench_folder
 from pico.journal import Journal
 from pico.model.diff import value_distance
 from pico.model.drift import drift_of
@@ -45,7 +46,7 @@ def evidence(
     known = [(c, t) for c, t in changed if c in setup.lab.inventory]
     if not known:
         return before if before in STRENGTH and before != "planned" else observed
-    brought = _brought(setup, root / ".pico" / "journal.sqlite", state, known)
+    brought = _brought(setup, bench_folder(root) / "journal.sqlite", state, known)
     return min((brought.get(one) or observed for one in known), key=lambda e: STRENGTH.get(e, 0))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pico.attachment import bench_folder
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan, Target, plan_from_json
@@ -75,7 +76,7 @@ async def settle(bench: AsyncBench) -> None:
 
     Raises PicoError for what only a person can tell.
     """
-    if (bench.root / ".pico" / "journal.sqlite").exists() and _journal(bench).unsettled():
+    if (bench_folder(bench.root) / "journal.sqlite").exists() and _journal(bench).unsettled():
         await bench.backend.release(await bench.backend.acquire("pico apply"))
 
 

@@ -6,6 +6,7 @@ import statistics
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
+from pico.attachment import bench_folder
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
 from pico.model.drift import drift_of
@@ -229,7 +230,7 @@ def _records(bench: AsyncBench) -> Sequence[JournalRecord]:
     """Return what the journal knows; nothing where there is none, or it can't be read: looking must not fail for it."""
     from pico.journal import Journal
 
-    path = bench.root / ".pico" / "journal.sqlite"
+    path = bench_folder(bench.root) / "journal.sqlite"
     if not path.exists():
         return ()
     try:

@@ -50,9 +50,10 @@ def stop(context: typer.Context, now: Now = False) -> int:
 
 
 def _last_run(root: Path) -> RunRecord | None:
+    from pico.attachment import bench_folder
     from pico.journal import Journal
 
-    journal = Journal(root / ".pico" / "journal.sqlite")
+    journal = Journal(bench_folder(root) / "journal.sqlite")
     try:
         runs = journal.runs()
         return runs[-1] if runs else None

@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
+from pico.attachment import bench_folder, require_attached
 from pico.backends.protocol import Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.record import record
@@ -46,23 +47,37 @@ class Holder:
 
 
 class BenchLock:
-    """The lock of the lab in folder `root`: `.pico/lock`, with the holder in `.pico/holder.json`."""
+    """The lock of the lab in folder `root`: `.pico/lock`, with the holder in `.pico/holder.json`.
+
+    They are those of the worktree that is attached to the bench; only there it can be taken.
+    """
 
     def __init__(self, root: Path, clock: Callable[[], str] = utc_now) -> None:
-        self._folder = root / ".pico"
+        self._root = root
         self._clock = clock
         self._file: int | None = None
 
     def acquire(self, holder: str) -> Lease:
-        """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for."""
+        """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for, or which worktree
+        the bench is attached to."""
+        require_attached(self._root)
         file = self._open()
         if not self._locked(file):
             os.close(file)
             raise PicoError(self._taken(), ExitCode.LOCKED)
+        try:
+            require_attached(self._root)  # it may have been taken to another worktree meanwhile
+        except PicoError:
+            os.close(file)
+            raise
         self._file = file
         lease = Lease(token=self._last_token() + 1, holder=holder, since=self._clock())
         self._write_holder(lease)
         return lease
+
+    @property
+    def _folder(self) -> Path:
+        return bench_folder(self._root)
 
     def _locked(self, file: int) -> bool:
         """Try to lock; who only asks for the holder has the lock for an instant, too, and does not count."""
@@ -90,7 +105,7 @@ class BenchLock:
             try:
                 return self.acquire(holder)
             except PicoError as exc:
-                if exc.exit_code != ExitCode.LOCKED or time.monotonic() >= deadline:
+                if exc.diagnostics[0].code != "locked" or time.monotonic() >= deadline:
                     raise
             await asyncio.sleep(RETRY)
 
@@ -113,7 +128,7 @@ class BenchLock:
     def _open(self) -> int:
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            return os.open(self._folder / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            return os.open(self._folder / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
         except OSError as exc:
             text = f"the bench cannot be locked in {self._folder}: {(exc.strerror or str(exc)).lower()}"
             raise PicoError(error("lock-file", text)) from exc

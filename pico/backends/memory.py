@@ -11,6 +11,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+from pico.attachment import bench_folder
 from pico.model.observation import Observation, Uncertainty
 from pico.model.pose import Pose
 from pico.model.record import as_json, record
@@ -36,7 +37,7 @@ class Seen:
 
 def memory_path(root: Path) -> Path:
     """Return where the memory of the lab in folder `root` is kept."""
-    return root / ".pico" / "seen.json"
+    return bench_folder(root) / "seen.json"
 
 
 def recall(root: Path) -> dict[str, Seen]:

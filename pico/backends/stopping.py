@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import Literal
 
+from pico.attachment import bench_folder
 from pico.diagnostics import PicoError, error
 
 Asking = Literal["safely", "now"]
@@ -37,4 +38,4 @@ def asked_to_stop(root: Path, token: int) -> Asking | None:
 
 
 def _note(root: Path) -> Path:
-    return root / ".pico" / "stop.json"
+    return bench_folder(root) / "stop.json"

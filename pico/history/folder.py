@@ -13,6 +13,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from pico.attachment import own_folder
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
 from pico.history.commit import Commit, Head
@@ -77,6 +78,7 @@ class LabFolder:
 
     def __init__(self, path: Path, *, history: bool = False) -> None:
         self.root = find_lab(path)
+        own_folder(self.root)
         self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
         self._files: dict[str, bytes] = {}
         self._historic: dict[str, tuple[Setup, LabState]] = {}

@@ -24,8 +24,9 @@ def write_file(path: Path, data: bytes, scratch: Path) -> None:
     """Write one file whole or not at all, first into the folder `scratch`, so that a kill leaves nothing beside it.
 
     It is on the disk before it takes the other's place. Only for who holds the lock of writers. Raises PicoError where
-    the folder or the disk does not allow it.
+    the folder or the disk does not allow it, and where a link leads out of the lab.
     """
+    _refuse_links(path, scratch.parent)
     try:
         scratch.mkdir(parents=True, exist_ok=True)
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -36,8 +37,18 @@ def write_file(path: Path, data: bytes, scratch: Path) -> None:
         _write(path, data, path.with_name(f".{path.name}.tmp"))  # `scratch` is on another disk
 
 
+def _refuse_links(path: Path, lab: Path) -> None:
+    """Raise PicoError where a link in the lab would take what is written out of it."""
+    named, real = path.parent.absolute(), path.parent.resolve()
+    top = lab.resolve()
+    if not real.is_relative_to(top) and (named.is_relative_to(top) or named.is_relative_to(lab.absolute())):
+        text = f"{path} is not written: a symbolic link leads to {real}, out of the lab"
+        raise PicoError(error("symlink", text, hint="put a folder in its place"))
+
+
 def _write(path: Path, data: bytes, fresh: Path) -> None:
-    with fresh.open("wb") as file:
+    fresh.unlink(missing_ok=True)
+    with fresh.open("xb") as file:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())

@@ -45,7 +45,7 @@ def write_lock(path: Path, doing: str, seconds: float = WAIT) -> Iterator[None]:
 def _open(path: Path) -> int:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
     except OSError as exc:
         raise PicoError(error("folder", f"can't write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock, utc_now
 from pico.backends.protocol import Capabilities, Lease
 from pico.backends.sim import judge
@@ -81,7 +82,7 @@ class SimBackend:
         if self._journal is None:
             from pico.journal import Journal
 
-            self._journal = Journal(self.root / ".pico" / "journal.sqlite", self._clock)
+            self._journal = Journal(bench_folder(self.root) / "journal.sqlite", self._clock)
         return self._journal
 
     async def describe(self) -> Capabilities:

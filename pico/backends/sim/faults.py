@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from pico.attachment import bench_folder
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.geometry.shape import placed, separation
 from pico.geometry.table import overhang
@@ -116,7 +117,7 @@ def save_faults(root: Path, faults: Faults) -> None:
 
 
 def _path(root: Path) -> Path:
-    return root / ".pico" / "sim" / "faults.json"
+    return bench_folder(root) / "sim" / "faults.json"
 
 
 def beside(pose: Pose, draw: random.Random) -> Pose:

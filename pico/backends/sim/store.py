@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import SCHEMA, Body, FreePose, Shape, World, new_world
@@ -23,7 +24,7 @@ from pico.twin.camera_errors import CameraShift
 
 def world_path(root: Path) -> Path:
     """Return where the world of the lab in folder `root` is kept."""
-    return root / ".pico" / "sim" / "world.json"
+    return bench_folder(root) / "sim" / "world.json"
 
 
 def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]:
