@@ -10,8 +10,10 @@ from typing import Any
 
 import pytest
 from commanding import Pico
+from pico_cli.views.verified import proof
 
 from pico.bench import Bench
+from pico.model.standing import Standing
 
 
 @pytest.fixture(scope="module")
@@ -217,3 +219,34 @@ def test_a_damaged_journal_hides_nothing_of_what_commits_prove(here: Path, pico:
     assert listed.code == 0
     assert len(listed.out.splitlines()) == 3
     assert "is damaged" in listed.err
+
+
+@pytest.mark.parametrize(
+    ("evidence", "said"),
+    [
+        ("kinematic", "Simulated (kinematic): never hardware."),
+        ("physics", "Simulated (physics): never hardware."),
+        ("emulated", "On emulated devices, never hardware."),
+        ("hardware", "On hardware."),
+    ],
+)
+def test_what_kind_of_bench_proved_it_is_said_in_words(evidence: str, said: str) -> None:
+    found = Standing(verdict="verified", commit="c" * 40, evidence=evidence, run="r1", carried="d" * 40, why="it did")
+    assert said in [line.strip() for line in proof(found)]
+
+
+def test_without_git_the_runs_of_the_bench_are_listed_and_nothing_is_proven(
+    ran: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico
+) -> None:
+    shutil.copytree(ran, tmp_path / "plain", ignore=shutil.ignore_patterns(".git", "runs"))
+    monkeypatch.chdir(tmp_path / "plain")
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path))
+    assert len(runs(pico)) == 3
+    assert "no commit has it yet" in pico("runs", "show").out
+    assert "standing" not in pico("verify", "--json").data
+    wrong = pico("runs", "list", "e1")
+    assert wrong.code == 1
+    assert "no Git repository" in wrong.err
+    subprocess.run(["git", "init", "-q"], check=True)
+    assert len(runs(pico)) == 3
+    assert "standing" not in pico("verify", "--json").data
