@@ -29,6 +29,9 @@ def require_resolved(root: Path, own: Path) -> Underway:
     Raises PicoError that names the files in conflict, and for a rebase, which only git goes on with.
     """
     found = underway(own)
+    if found == "merge" and _made(root, own):
+        git.run(root, ["merge", "--quit"], doing="forget a merge that was made")
+        found = underway(own)
     listed = git.run(root, ["ls-files", "--unmerged", "-z"], doing="list the conflicts").split("\0")
     files = sorted({entry.partition("\t")[2] for entry in listed if entry})
     begun = f"a {found} is under way" if found else "files were merged (`git stash pop`, perhaps)"
@@ -42,6 +45,12 @@ def require_resolved(root: Path, own: Path) -> Underway:
         text = "a rebase is under way: it commits by itself what it has put on top"
         raise PicoError(error("git-rebasing", text, hint="`git rebase --continue`, or `git rebase --abort`"))
     return found
+
+
+def _made(root: Path, own: Path) -> bool:
+    """Whether HEAD is the merge under way: git was killed after it had written that, and before it forgot it."""
+    sides = (own / "MERGE_HEAD").read_text(encoding="ascii", errors="replace").split()
+    return set(sides) <= set(git.answer(root, ["rev-parse", "HEAD^@"]).split())
 
 
 def message_of(own: Path) -> str:

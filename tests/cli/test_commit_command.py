@@ -224,6 +224,10 @@ def test_it_ends_a_merge_whose_conflicts_are_resolved(built: Path, pico: Pico) -
     assert len(git("show", "-s", "--format=%P").split()) == 2
     assert body().startswith("Merge branch 'other'\n\nPico-State: ")
     assert trailer("Pico-Evidence") == ["planned"]
+    (built / ".git" / "MERGE_HEAD").write_text(git("rev-parse", "other"))  # a git that was killed just then
+    assert pico("note", "p2", "x").code == 0
+    assert pico("commit", "-m", "a note").code == 0
+    assert len(git("show", "-s", "--format=%P").split()) == 1
 
 
 def test_a_rebase_is_gits_to_go_on_with(built: Path, pico: Pico) -> None:
