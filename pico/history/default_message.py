@@ -15,13 +15,15 @@ _ASIDE = re.compile(r" \([^()]*\)")
 def default_message(changes: Sequence[Change], files: Sequence[str] = ()) -> str:
     """Return a message for a commit with these physical changes to these files, by paths relative to the lab.
 
-    The first line is of at most 72 characters, plain ones: they pass through every mail and every terminal.
+    The first line is of at most 72 characters, plain ones: they pass through every mail and every terminal. Nothing
+    follows it where it says everything.
     """
     if not changes:
         return _nothing_moved(files)
     ordered = sorted(changes, key=lambda c: c.tunable != "pose")
     body = "\n".join(_plain(f"{_address(c)} {_said(c)}{_ends(c)}") for c in ordered)
-    return f"{_subject(ordered)}\n\n{body}"
+    subject = _subject(ordered)
+    return subject if subject == body else f"{subject}\n\n{body}"
 
 
 def _subject(changes: Sequence[Change]) -> str:
