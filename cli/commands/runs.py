@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 app = typer.Typer(
     rich_markup_mode=None, no_args_is_help=True, help="List the runs that commits carry, show one, or compare two."
 )
-Run = Annotated[str | None, typer.Argument(metavar="RUN", help="The beginning of its id; without it the last run.")]
+Run = Annotated[
+    str | None, typer.Argument(metavar="RUN", help="The beginning or the end of its id; without it the last run.")
+]
 
 
 @app.command(name="list")

@@ -44,9 +44,9 @@ class Loaded:
 
 
 def load_run(folder: LabFolder, word: str | None = None) -> Loaded:
-    """Return the run whose id begins with `word`, the last one where None.
+    """Return the run whose id begins or ends with `word`, the last one where None.
 
-    Raises PicoError for one that there is not, for a beginning of several, and for a document that is damaged.
+    Raises PicoError for one that there is not, for a word that fits several, and for a document that is damaged.
     """
     wrong: list[Diagnostic] = []
     own = {run.document.id: run for run in unrecorded(folder, wrong)}
@@ -67,15 +67,15 @@ def _last(folder: LabFolder, own: Mapping[str, Recorded], places: Mapping[str, R
 
 
 def _chosen(word: str, names: Sequence[str]) -> str:
-    """Return the one name that a word means, or begins."""
-    found = [name for name in names if name.startswith(word)]
+    """Return the one name that a word is, begins, or ends: tables show the last six characters."""
+    found = [name for name in names if name.startswith(word) or (word and name.endswith(f"-{word}"))]
     if word in names:
         return word
     if len(found) == 1:
         return found[0]
     if found:
         some = ", ".join(f"`{name}`" for name in found[:4])
-        raise PicoError(error("run", f"{len(found)} runs begin with `{word}`", hint=f"write more of it: {some}"))
+        raise PicoError(error("run", f"{len(found)} runs begin or end with `{word}`", hint=f"write more of it: {some}"))
     inside = [name for name in names if word and word in name]
     hint = f"did you mean `{inside[-1]}`?" if inside else "`pico runs list --all` shows them"
     raise PicoError(error("run", f"there is no run `{word[:60]}`", hint=hint))

@@ -90,6 +90,7 @@ def test_a_run_is_shown_with_everything_by_the_beginning_of_its_id(here: Path, p
     assert "move lx_125 → (395, 420, 0°)" in answer.out
     assert "planned" in answer.out
     assert pico("runs", "show", second[:-1]).out.startswith(f"run {second}")
+    assert pico("runs", "show", second[-6:]).out.startswith(f"run {second}")
     data = pico("runs", "show", first, "--json").data
     assert (data["schema"], data["document"]["id"]) == ("pico.recorded/v1", first)
     assert {op["outcome"] for op in data["operations"]} == {"done"}
@@ -122,13 +123,13 @@ def test_two_runs_are_compared(here: Path, pico: Pico) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["show", "2026"], "3 runs begin with `2026`"),
+        (["show", "2026"], "3 runs begin or end with `2026`"),
         (["show", "1999"], "there is no run `1999`"),
         (["list", "e9"], "there is no revision `e9`"),
         (["list", "--all", "e1"], "--all"),
         (["list", "main...e1"], "runs are listed of `A..B`"),
         (["list", "--component", "p3"], "there is no component `p3`"),
-        (["compare", "2026", "1999"], "begin with"),
+        (["compare", "2026", "1999"], "begin or end with"),
     ],
 )
 def test_mistakes_are_sentences(here: Path, pico: Pico, words: list[str], said: str) -> None:
