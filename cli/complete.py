@@ -92,7 +92,7 @@ GROUPS = {
     "bisect": ("start", "run", "continue", "good", "bad", "skip", "status", "log", "reset"),
     "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
     "catalog": ("list", "show"),
-    "git": ("install", "uninstall"),
+    "git": ("install", "uninstall", "attach"),
     "runs": ("list", "show", "compare"),
     "data": ("status", "push", "pull", "fsck", "gc", "pointers"),
 }

@@ -65,7 +65,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "calibrate": "Find out where the cameras are and how their lenses draw.",
         "markers": "Write the markers of the lab as a PDF, to print and stick on.",
         "data": "Bring the large data of runs to where it is kept, and from there; look after it.",
-        "git": "Let git merge manifests by PICO, or no longer.",
+        "git": "Let git merge manifests by PICO, or not; attach a worktree.",
         "doctor": "Check that git, its merge driver and the manifests are as PICO needs them.",
         "completion": "Print the completion script of a shell; its first line says how to install it.",
         "version": "Show the versions of PICO and what it stands on.",

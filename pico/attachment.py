@@ -49,7 +49,7 @@ def bench_folder(root: Path) -> Path:
 
     Raises PicoError where that is a link, for PICO writes there.
     """
-    place = _place(root)
+    place = lab_place(root)
     return own_folder((place and attached(place)) or root)
 
 
@@ -78,7 +78,7 @@ def _links(folder: Path) -> list[Path]:
 def require_attached(root: Path) -> None:
     """Attach the worktree of the lab in `root` to its bench where none is; raises PicoError (exit code LOCKED) where
     another one is. Call it with the bench locked, before something moves."""
-    place = _place(root)
+    place = lab_place(root)
     if place is None or not any(root.glob("*.yaml")):  # a scratch folder is no lab
         return
     with _recording(place) as record:
@@ -101,7 +101,7 @@ def attach(root: Path) -> Path | None:
     Call it with the bench locked where it was. Returns the folder that had it until now; None where there was none, or
     where that is gone with all that it kept. Raises PicoError outside a repository, and where files can't be moved.
     """
-    place = _place(root)
+    place = lab_place(root)
     if place is None:
         hint = "outside Git each folder has a bench of its own"
         raise PicoError(error("git-none", f"{root} is in no Git repository, so there is nothing to attach", hint=hint))
@@ -116,7 +116,7 @@ def attach(root: Path) -> Path | None:
     return there
 
 
-def _place(root: Path) -> Place | None:
+def lab_place(root: Path) -> Place | None:
     """Return where a lab lies, None outside Git; without git, for every command asks."""
     root = Path(os.path.realpath(root))
     for top in (root, *root.parents):
@@ -144,7 +144,7 @@ def _told(place: Place, record: Mapping[str, str]) -> Path | None:
 
 def _is_of(folder: Path, place: Place) -> bool:
     """Return whether a folder still is this lab in a worktree of the same repository."""
-    found = _place(folder) if folder.is_dir() else None
+    found = lab_place(folder) if folder.is_dir() else None
     return found is not None and (found.common, found.inside) == (place.common, place.inside)
 
 

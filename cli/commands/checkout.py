@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pico.attachment import require_attached
 from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, Yes
@@ -62,6 +63,8 @@ def checkout(
 
 def _go(session: Session, bench: Bench, what: str | Taken, plan: Plan, before: str) -> int:
     """Bring files and bench there, and return the exit code."""
+    if plan.operations:
+        require_attached(bench.root)
     notes = bench.checkout_files(what)
     if not session.json:
         session.report(notes)

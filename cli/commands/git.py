@@ -1,13 +1,16 @@
-"""`pico git install` and `pico git uninstall`."""
+"""`pico git install`, `pico git uninstall` and `pico git attach`."""
 
 from __future__ import annotations
 
 import typer
 
 from ..session import Session
+from ..views import attached
 from ..views import wired as view
 
-app = typer.Typer(rich_markup_mode=None, no_args_is_help=True, help="Let git merge manifests by PICO, or no longer.")
+app = typer.Typer(
+    rich_markup_mode=None, no_args_is_help=True, help="Let git merge manifests by PICO, or not; attach a worktree."
+)
 
 
 @app.command()
@@ -18,6 +21,20 @@ def install(context: typer.Context) -> int:
     session = Session.of(context)
     install(session.folder)
     session.show(view, installed=True)
+    return 0
+
+
+@app.command()
+def attach(context: typer.Context) -> int:
+    """Attach this worktree to the bench, which it takes from the worktree that has it; that one then only plans.
+
+    A repository's first worktree that moves something is attached by itself.
+    """
+    from pico.backends.lease import attach
+
+    session = Session.of(context)
+    root = session.history().root
+    session.show(attached, root, attach(root))
     return 0
 
 

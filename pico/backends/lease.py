@@ -12,10 +12,11 @@ import json
 import os
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
 
+from pico import attachment
 from pico.attachment import bench_folder, require_attached
 from pico.backends.protocol import Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
@@ -191,6 +192,16 @@ async def wait_until_free(root: Path, seconds: float) -> None:
         if time.monotonic() >= deadline:
             raise PicoError(_in_use(who, f"it was waited for {seconds:g} s"), ExitCode.LOCKED)
         await asyncio.sleep(RETRY)
+
+
+def attach(root: Path) -> Path | None:
+    """Attach the worktree of the lab in `root` to its bench, and return the folder that had it, None for none.
+
+    Raises PicoError, exit code LOCKED, where somebody moves the bench.
+    """
+    had = bench_folder(root).parent
+    with BenchLock(had).held("pico git attach") if had != root else nullcontext():
+        return attachment.attach(root)
 
 
 def _in_use(who: Holder, more: str = "") -> Diagnostic:

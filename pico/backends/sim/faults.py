@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pico.attachment import bench_folder
+from pico.attachment import bench_folder, require_attached
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.geometry.shape import placed, separation
 from pico.geometry.table import overhang
@@ -108,6 +108,7 @@ def faults_of(setup: Setup, root: Path) -> Faults:
 
 def save_faults(root: Path, faults: Faults) -> None:
     """Let these faults happen on the simulated bench in `root` from now on; raises PicoError."""
+    require_attached(root)
     try:
         _path(root).parent.mkdir(parents=True, exist_ok=True)
         _path(root).write_text(json.dumps(as_json(faults)), encoding="utf-8")

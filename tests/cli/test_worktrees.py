@@ -1,0 +1,191 @@
+"""Several worktrees of one repository: one has the bench, the others look at it and plan."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from commanding import Pico
+
+from pico.attachment import attached, bench_folder, lab_place, require_attached
+from pico.backends.lease import BenchLock
+from pico.diagnostics import PicoError
+
+
+def git(folder: Path, *words: str) -> str:
+    done = subprocess.run(["git", *words], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+@pytest.fixture
+def other(shel: Path) -> Path:
+    """A second worktree, at e1."""
+    folder = shel.parent / "other"
+    git(shel, "worktree", "add", "-q", str(folder), "-b", "second", "e1")
+    return folder
+
+
+def at(pico: Pico, folder: Path, *words: str, code: int = 0) -> str:
+    answer = pico("-C", str(folder), *words)
+    assert answer.code == code, (words, answer.out, answer.err)
+    return answer.out + answer.err
+
+
+def test_the_first_that_moves_has_the_bench_and_the_other_one_plans_against_it(
+    shel: Path, other: Path, pico: Pico
+) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    assert "Nothing to do" in at(pico, other, "plan", "e1")
+    assert not (other / ".pico" / "sim").exists()
+    at(pico, other, "status")
+    at(pico, other, "drift", "--detailed-exitcode")
+    at(pico, other, "plan", "e2", "--detailed-exitcode", code=2)
+    assert lab_place(shel).record.is_file()
+    assert attached(lab_place(other)) == shel
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("apply", "e2", "--auto-approve"), ("checkout", "e2", "--auto-approve"), ("set", "cam", "exposure=3"),
+        ("stow", "p2"), ("sim", "reset"), ("sim", "nudge", "p2", "--dx", "5"), ("sim", "faults", "drop=0.5"),
+        ("sim", "person", "here"),
+    ],
+)  # fmt: skip
+def test_what_would_move_the_bench_is_refused_in_another_worktree_which_stays_as_it_is(
+    shel: Path, other: Path, pico: Pico, words: tuple[str, ...]
+) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    before = (shel / ".pico/sim/world.json").read_text()
+    said = at(pico, other, *words, code=5)
+    assert f"only plans: the bench is attached to {shel}" in said and "`pico git attach`" in said
+    assert (shel / ".pico/sim/world.json").read_text() == before
+    assert not (shel / ".pico/sim/faults.json").exists()
+    assert git(other, "rev-parse", "HEAD") == git(shel, "rev-parse", "e1^0")
+
+
+def test_files_of_another_worktree_go_elsewhere_without_the_bench(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    at(pico, other, "checkout", "e2", "--files-only")
+    assert git(other, "rev-parse", "HEAD") == git(shel, "rev-parse", "e2^0")
+
+
+def test_another_worktree_captures_and_commits_what_the_bench_shows(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e2", "--auto-approve")
+    at(pico, other, "commit", "--capture", "-m", "the bench as it stands")
+    assert "Nothing to do" in at(pico, other, "plan")
+
+
+def test_the_bench_moves_to_the_worktree_that_is_attached(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    world = (shel / ".pico/sim/world.json").read_bytes()
+    answer = pico("-C", str(other), "git", "attach", "--json")
+    assert answer.code == 0 and answer.data == {
+        "schema": "pico.attached/v1", "folder": str(other), "before": str(shel),
+    }  # fmt: skip
+    assert (other / ".pico/sim/world.json").read_bytes() == world
+    assert not (shel / ".pico/sim/world.json").exists()
+    assert "Nothing to do" in at(pico, shel, "plan", "e1")
+    at(pico, other, "apply", "e2", "--auto-approve")
+    at(pico, shel, "apply", "e1", "--auto-approve", code=5)
+    at(pico, other, "undo", "--auto-approve")  # the journal came along
+    assert "Nothing to do" in at(pico, shel, "plan", "e1")
+
+
+def test_what_a_worktree_had_of_its_own_before_is_set_aside(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    (other / ".pico/sim").mkdir(parents=True)
+    (other / ".pico/sim/world.json").write_text("of an older PICO")
+    at(pico, other, "git", "attach")
+    assert (other / ".pico/replaced/sim/world.json").read_text() == "of an older PICO"
+
+
+def test_a_bench_in_use_is_not_taken_away(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    with BenchLock(shel).held("somebody's apply"):
+        assert "somebody's apply" in at(pico, other, "git", "attach", code=5)
+    assert attached(lab_place(other)) == shel
+
+
+def test_a_bench_whose_worktree_is_gone_is_free_and_that_is_said(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, other, "apply", "e1", "--auto-approve")
+    git(shel, "worktree", "remove", "--force", str(other))
+    said = at(pico, shel, "apply", "e1", "--auto-approve", code=5)
+    assert f"attached to {other}, which is gone, with its simulated table" in said
+    at(pico, shel, "git", "attach")
+    at(pico, shel, "apply", "e1", "--auto-approve")
+
+
+def test_a_repository_that_was_moved_or_copied_keeps_its_bench(shel: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    copy = shel.parent / "copy"
+    shutil.copytree(shel, copy)
+    assert bench_folder(copy) == copy / ".pico"
+    at(pico, copy, "apply", "e2", "--auto-approve")
+    assert "Nothing to do" in at(pico, shel, "plan", "e1")
+
+
+def test_clones_have_a_bench_each(shel: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    git(shel.parent, "clone", "-q", str(shel), "clone")
+    at(pico, shel.parent / "clone", "apply", "--auto-approve")
+    assert "Nothing to do" in at(pico, shel, "plan", "e1")
+
+
+def test_two_labs_of_one_repository_are_two_benches(shel: Path, pico: Pico) -> None:
+    inner = shel.parent / "two"
+    git(shel.parent, "init", "-q", "two")
+    for name in ("a", "b"):
+        shutil.copytree(shel, inner / name, ignore=shutil.ignore_patterns(".git", ".pico"))
+    at(pico, inner / "a", "apply", "--auto-approve")
+    assert json.loads((inner / ".git/pico/bench.json").read_text()) == {"a": "../a"}
+    assert not (inner / "b" / ".pico" / "sim").exists()
+    at(pico, inner / "b", "apply", "--auto-approve")
+    assert bench_folder(inner / "b") == inner / "b" / ".pico"
+
+
+def test_a_lab_outside_git_has_its_bench_beside_it(shel: Path, pico: Pico) -> None:
+    shutil.rmtree(shel / ".git")
+    at(pico, shel, "apply", "--auto-approve")
+    assert bench_folder(shel) == shel / ".pico"
+    at(pico, shel, "git", "attach", code=1)
+
+
+def test_looking_attaches_nobody_and_scratch_folders_are_no_lab(shel: Path, other: Path, pico: Pico) -> None:
+    for words in (("status",), ("plan", "e2"), ("log",), ("check",)):
+        pico("-C", str(other), *words)
+    (shel / "scratch").mkdir()
+    require_attached(shel / "scratch")
+    assert not lab_place(shel).record.exists()
+
+
+def test_a_bench_from_before_worktrees_belongs_to_the_main_one(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    lab_place(shel).record.unlink()
+    at(pico, other, "apply", "e1", "--auto-approve", code=0)  # nothing to do there
+    at(pico, other, "stow", "p2", code=5)
+
+
+def test_a_record_that_is_damaged_names_nobody(shel: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    for text in ("", "[]", '{".": 3}', "\0", '{".": "../../../../../../etc"}'):
+        lab_place(shel).record.write_text(text)
+        assert bench_folder(shel) == shel / ".pico"
+
+
+def test_a_stop_from_another_worktree_reaches_the_bench(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    assert "othing" in at(pico, other, "stop")
+
+
+def test_a_bench_that_is_taken_meanwhile_is_not_moved_by_who_waited(shel: Path, other: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    waiting = BenchLock(shel)
+    at(pico, other, "git", "attach")
+    with pytest.raises(PicoError) as caught:
+        waiting.acquire("pico apply e2")
+    assert caught.value.diagnostics[0].code == "not-attached"
