@@ -10,7 +10,7 @@ from typing import Any, Literal
 from pico.diagnostics import PicoError
 from pico.history.commit import Commit
 from pico.history.folder import STATE_ONLY, Entry, LabFolder, between
-from pico.history.trees import is_manifest, left_out
+from pico.history.trees import entries, is_manifest, left_out
 from pico.manifest.bench_view import BenchView, view_of
 from pico.manifest.files import decode
 from pico.manifest.kinds import kind_of
@@ -151,13 +151,9 @@ def _below(tree: Any, at: str = "") -> dict[str, str]:
     """Return the manifests below a tree; links and submodules are none."""
     from pygit2.enums import FileMode
 
-    found: dict[str, str] = {}
-    for entry in tree:
-        if entry.filemode == FileMode.TREE:
-            found |= {} if left_out(f"{at}{entry.name}/*") else _below(entry, f"{at}{entry.name}/")
-        elif entry.filemode in (FileMode.BLOB, FileMode.BLOB_EXECUTABLE) and _manifest(at + entry.name):
-            found[at + entry.name] = str(entry.id)
-    return found
+    files = (FileMode.BLOB, FileMode.BLOB_EXECUTABLE)
+    listed = entries(tree, lambda folder: not left_out(f"{at}{folder}/*"))
+    return {at + p: str(entry.id) for p, entry in listed if entry.filemode in files and _manifest(at + p)}
 
 
 @cache

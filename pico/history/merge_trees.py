@@ -11,7 +11,7 @@ from pico.history.merge import Merged, merge
 from pico.history.merge_groups import groups_of
 from pico.history.merge_leaves import Conflict, Coupled
 from pico.history.merge_markers import Labels
-from pico.history.trees import is_manifest
+from pico.history.trees import entries, is_manifest
 
 
 @dataclass
@@ -77,13 +77,7 @@ def _below(tree: Any, folder: str) -> Any:
 def _entries(tree: Any, at: str = "") -> list[tuple[str, Any]]:
     from pygit2.enums import FileMode
 
-    found: list[tuple[str, Any]] = []
-    for entry in tree:
-        if entry.type_str == "tree":
-            found += _entries(entry, f"{at}{entry.name}/")
-        elif entry.type_str == "blob" and entry.filemode != FileMode.LINK:
-            found.append((at + entry.name, entry))
-    return found
+    return [(at + p, e) for p, e in entries(tree) if e.type_str == "blob" and e.filemode != FileMode.LINK]
 
 
 def _united(handle: Any, index: Any, trees: Sequence[Any], labels: Labels) -> Union:
@@ -106,9 +100,9 @@ def _united(handle: Any, index: Any, trees: Sequence[Any], labels: Labels) -> Un
 def _both_changed(trees: Sequence[Any], index: Any) -> list[tuple[str, tuple[Any, Any, Any]]]:
     """Return the files that both sides changed otherwise, with their blobs in base, ours and theirs."""
     found: dict[str, tuple[Any, Any, Any]] = {}
-    for entries in list(index.conflicts or ()):
-        path = next(e.path for e in (entries[1], entries[2], entries[0]) if e)
-        was, mine, other = (e.id if e else None for e in entries)
+    for sides in list(index.conflicts or ()):
+        path = next(e.path for e in (sides[1], sides[2], sides[0]) if e)
+        was, mine, other = (e.id if e else None for e in sides)
         found[path] = (was, mine, other)
     before, here, there = (blobs(tree) for tree in trees)
     for path in here.keys() & there.keys():

@@ -12,6 +12,8 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.manifest.source import Source
 
 MAX_BYTES = 2 * 1024 * 1024
+MAX_LEVELS = 64
+"""Folders in folders."""
 _NOT_TEXT = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _UTF8_BOM = b"\xef\xbb\xbf"
 _OTHER_BOMS = (b"\xff\xfe", b"\xfe\xff", b"\x00\x00\xfe\xff")
@@ -33,7 +35,7 @@ def read_folder(root: Path) -> tuple[dict[str, bytes], list[Diagnostic]]:
     """
     files: dict[str, bytes] = {}
     found: list[Diagnostic] = []
-    for path in _walk(root):
+    for path in _paths(root, found):
         shown = _below(root, path)
         try:
             files[shown] = _read(path, shown)
@@ -42,8 +44,19 @@ def read_folder(root: Path) -> tuple[dict[str, bytes], list[Diagnostic]]:
     return files, found
 
 
+def _paths(root: Path, found: list[Diagnostic]) -> Iterator[Path]:
+    try:
+        yield from _walk(root)
+    except PicoError as exc:
+        found.extend(exc.diagnostics)
+
+
 def _walk(root: Path) -> Iterator[Path]:
+    top = len(root.parts)
     for folder, folders, names in os.walk(root):
+        if len(Path(folder).parts) - top >= MAX_LEVELS:
+            at = _below(root, Path(folder))
+            raise PicoError(_whole(at, "too-deep", f"folders nested deeper than {MAX_LEVELS}", "no lab needs that"))
         folders[:] = sorted(n for n in folders if not n.startswith(".") and n != "runs")
         for name in sorted(names):
             if name.endswith(".yaml") and not name.startswith("."):
