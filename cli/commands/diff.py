@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..arguments import Revision
+from ..paging import paged
 from ..scope import scope_of
 from ..session import Session
 from ..views import diff as view
@@ -48,10 +49,11 @@ def diff(
         if found.b
         else "`pico plan` shows how it would be done."
     )
-    session.show(
-        view, found, a=bench.name_of(found.a), b=bench.name_of(found.b) if found.b else "the manifest",
-        next_step="" if names else step, stat=stat,
-    )  # fmt: skip
+    with paged(session):
+        session.show(
+            view, found, a=bench.name_of(found.a), b=bench.name_of(found.b) if found.b else "the manifest",
+            next_step="" if names else step, stat=stat,
+        )  # fmt: skip
     if picture:
         with waiting("Drawing"):
             session.bench().render_diff(found.a, found.b, out=session.folder / picture)

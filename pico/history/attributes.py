@@ -142,8 +142,9 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
         hint = "`pico git install` sets it again"
         wrong.append(warning("git-driver", "git does not know the merge driver: it was taken out here", hint=hint))
     elif not found.current:
-        what = "names a merge driver that is not there" if found.known else "does not know the merge driver"
-        wrong.append(warning("git-driver", f"git {what}", hint="`pico git install` sets it"))
+        what = "knows PICO's drivers as another PICO set them" if found.known else "does not know PICO's drivers"
+        hint = "`pico git install` sets them, and so does the next command in this lab"
+        wrong.append(warning("git-driver", f"git {what}", hint=hint))
     elif not _runs():
         hint = "`pico git install` with the PICO that is to be used; until then git merges lines"
         wrong.append(error("git-driver", "the merge driver does not start", hint=hint))

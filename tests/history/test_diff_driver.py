@@ -311,6 +311,7 @@ def test_a_lab_of_before_keeps_working_and_doctor_says_how_to_add_the_diff(lab: 
     assert found and found.attributed and not found.shown and found.current
     assert ["diff=pico" in d.hint for d in checkup(lab.folder)] == [True]
     lab.git("config", "--remove-section", "diff.pico")
+    assert "as another PICO set them" in checkup(lab.folder)[1].summary
     assert not wire(lab.folder) and "pico_diff" in lab.git("config", "diff.pico.command")
 
 
