@@ -14,7 +14,7 @@ from pico.model.record import as_json
 
 from .diff import brief, lines
 from .log import entry_data
-from .style import count, listed, paint, seconds, wrap
+from .style import count, listed, paint, seconds, shorten, wrap
 
 SCHEMA = "pico.bisect/v1"
 _STYLES = {"good": "green", "bad": "red", "skip": "yellow"}
@@ -65,7 +65,7 @@ class Tried:
         took = f"{tried.travel:.1f} + {tried.measure:g} s" if tried.by == "measured" else _HOW.get(tried.by, "")
         verdict = paint(_STYLES[tried.verdict], f"{tried.verdict:<4}")
         summary = search.summary(tried.commit)
-        line = f"{number:<13} {paint('yellow', tried.commit[:7])} {summary[:32]:<32} {took:>14}  {verdict}"
+        line = f"{number:<13} {paint('yellow', tried.commit[:7])} {shorten(summary, 32):<32} {took:>14}  {verdict}"
         return f"{line}  {tried.why}".rstrip()
 
     @staticmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,9 @@ from .style import columns, count, listed, paint, place
 
 if TYPE_CHECKING:
     from pico.history.compare import StateDiff
+
+
+_STEPS = re.compile(r" \(d[xy] [^()]*\)")
 
 
 def text(found: StateDiff, *, a: str, b: str, next_step: str = "", stat: bool = False) -> str:
@@ -50,7 +54,7 @@ def _counts(changes: Sequence[Change]) -> list[str]:
     rows = []
     for name in dict.fromkeys(c.component for c in changes):
         mine = [c for c in changes if c.component == name]
-        moved = [c.text.partition(" (")[0].partition(",")[0] for c in mine if c.tunable == "pose"]
+        moved = [_STEPS.sub("", c.text) for c in mine if c.tunable == "pose"]
         values = [c.tunable for c in mine if c.tunable != "pose"]
         rows.append([name, ", ".join([*moved, *([f"{listed(values)} set"] if values else [])])])
     return columns(rows, indent="  ")

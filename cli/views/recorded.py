@@ -37,7 +37,10 @@ def text(run: Loaded) -> str:
 
 def _head(run: Loaded) -> list[str]:
     d = run.document
-    where = f"carried by {run.commit.label} ({run.commit.short})" if run.commit else "no commit has it yet"
+    where = "no commit has it yet"
+    if run.commit:
+        named = run.commit.label != run.commit.short
+        where = f"carried by {run.commit.label} ({run.commit.short})" if named else f"carried by {run.commit.short}"
     total = sum(d.tally.values())
     ended = f"{d.tally.get('done', 0)} of {count(total, 'operation')} done in {seconds(d.seconds)}"
     by = f" by {shown(d.operator)}" if d.operator else ""

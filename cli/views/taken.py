@@ -33,7 +33,7 @@ def next_step(taken: Taken, *, files_only: bool = False) -> str:
     option = "--files-only " if files_only else ""
     planned = " --planned" if files_only else ""
     back = f"pico checkout HEAD {option}-- {' '.join(taken.names)}"
-    return f"Keep it: `pico commit{planned} -m ...`. Go back with `{back}`."
+    return f"Keep it: `pico commit{planned}`. Go back with `{back}`."
 
 
 def data(what: Taken | str, *, commit: str | None) -> dict[str, Any]:

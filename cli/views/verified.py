@@ -47,9 +47,7 @@ def _said(standing: Standing) -> list[str]:
     when = f" {standing.at[:16].replace('T', ' ')} UTC" if standing.at else ""
     if standing.run is None:
         return [what]
-    where = (
-        f"carried by {standing.carried[:7]}" if standing.carried else "that no commit has yet: `pico commit` takes it"
-    )
+    where = f"carried by {standing.carried[:7]}" if standing.carried else "no commit has it yet: `pico commit` takes it"
     return [what, f"The run ended{when}, {where}; `pico runs show {standing.run}`."]
 
 

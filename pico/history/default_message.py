@@ -9,7 +9,7 @@ from pico.model.diff import Change
 
 WIDTH = 72
 """Columns of the first line, as git's own tools show them."""
-_ASIDE = re.compile(r" \([^()]*\)")
+_STEPS = re.compile(r" \(d[xy] [^()]*\)")
 
 
 def default_message(changes: Sequence[Change], files: Sequence[str] = ()) -> str:
@@ -28,7 +28,7 @@ def default_message(changes: Sequence[Change], files: Sequence[str] = ()) -> str
 
 def _subject(changes: Sequence[Change]) -> str:
     """Return as many changes as fit into a line, and how many more there are."""
-    items = [_plain(f"{_address(c)} {_ASIDE.sub('', _said(c))}") for c in changes]
+    items = [_plain(f"{_address(c)} {_STEPS.sub('', _said(c))}") for c in changes]
     for shown in range(len(items), 0, -1):
         more = len(items) - shown
         line = "; ".join(items[:shown]) + (f"; and {more} more" if more else "")
@@ -69,7 +69,8 @@ def _ends(change: Change) -> str:
     if change.tunable != "pose" or change.before is None:
         return ""
     before, after = _place(change.before), _place(change.after)
-    return f", from {before}" if isinstance(change.after, str) else f", from {before} to {after}"
+    between_poses = isinstance(change.before, dict) and isinstance(change.after, dict)
+    return f", from {before} to {after}" if between_poses else f", from {before}"
 
 
 def _place(place: object) -> str:

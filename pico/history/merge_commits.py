@@ -86,7 +86,7 @@ def _refuse_unfit(folder: LabFolder) -> None:
 def refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, Commit]) -> list[Diagnostic]:
     """Return what stands in the way of a merge of `revision`: each value that both sides changed, with both commits."""
     ours, theirs = (f"{name} ({side.short})" for name, side in zip((labels.ours, labels.theirs), sides, strict=True))
-    hint = f"`git merge {revision}` writes both between markers; edit, `git add`, `git commit`"
+    hint = f"`git merge {revision}` writes both between markers; edit, `git add`, `pico commit`"
     found = [
         error(
             "merge-conflict",

@@ -39,7 +39,7 @@ def require_resolved(root: Path, own: Path) -> Underway:
     if files:
         named = ", ".join(files[:5]) + (f" and {len(files) - 5} more" if len(files) > 5 else "")
         back = f"; or `git {found} --abort`" if found else ""
-        hint = f"say in each what is to hold, `git add` it, then {ended}{back}"
+        hint = f"keep the values that you want in each, `git add` it, then {ended}{back}"
         raise PicoError(error("merge-conflict", f"{begun}, with conflicts in {named}", hint=hint))
     if found == "rebase":
         text = "a rebase is under way: it commits by itself what it has put on top"

@@ -61,7 +61,7 @@ def conflict(source: Source) -> Diagnostic | None:
     found = _CONFLICT.search(source.content)
     if found is None:
         return None
-    hint = "say what is to hold, take the three marked lines out, then `git add` the file and `pico commit`"
+    hint = "keep the values that you want, take the marker lines out, then `git add` the file and `pico commit`"
     return error("merge-conflict", "a merge left a conflict here", hint=hint, source=source.range(*found.span(1)))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from pico.expressions import ExpressionError, Language, UnknownValue
@@ -36,7 +37,7 @@ def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expecta
 
 def shown(text: str, values: dict[str, object]) -> str:
     """Return the values that an expression speaks of: `p2.angle is 30, p2.pose.x is 520`."""
-    spoken = [n for n in sorted(values) if "." in n and n in text]
+    spoken = [n for n in sorted(values) if "." in n and re.search(rf"(?<![\w.]){re.escape(n)}(?![\w.])", text)]
     return ", ".join(f"{n} is {_value(values[n])}" for n in spoken)
 
 

@@ -203,7 +203,7 @@ def test_a_plan_that_was_committed_is_verified_once_it_was_applied(here: Path, p
     assert pico("apply", "--auto-approve").code == 0
     proven = pico("verify", "HEAD")
     assert "is verified" in proven.out
-    assert "that no commit has yet: `pico commit` takes it" in proven.out
+    assert "no commit has it yet: `pico commit` takes it" in proven.out
     assert pico("commit", "-m", "it works").code == 0
     assert "is verified" in pico("verify", "HEAD~1").out
     assert "that no commit has" not in pico("runs", "list").out
