@@ -31,7 +31,7 @@ SETUP, _ = load_files({"lab.yaml": LAB.encode(), "s.yaml": EMPTY}).require()
 
 @dataclass
 class Written:
-    """A manifest as pieces of text between values: `pieces` are text, or the part and field whose value stands there."""
+    """A manifest as pieces of text between values: `pieces` are text, or the part and field whose value is there."""
 
     pieces: list[str | tuple[str, str]] = field(default_factory=list)
     ends: str = "\n"
