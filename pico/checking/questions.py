@@ -81,7 +81,9 @@ def feasible(plan: Plan) -> Check:
     if plan.errored:
         text = first(plan.diagnostics)
         return Check(question="feasible", verdict="failed", text=text, diagnostics=plan.diagnostics)
-    text = f"{len(plan.operations)} operations, {plan.makespan:.1f} s" if plan.operations else "nothing moves"
+    number = len(plan.operations)
+    noun = "operation" if number == 1 else "operations"
+    text = f"{number} {noun}, {plan.makespan:.1f} s" if number else "nothing moves"
     return Check(question="feasible", verdict="passed", text=text, diagnostics=plan.diagnostics)
 
 

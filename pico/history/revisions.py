@@ -63,7 +63,7 @@ def _on_one_remote(handle: Any, name: str) -> str | None:
 
 def _unknown(handle: Any, revision: str) -> Diagnostic:
     if handle.head_is_unborn:
-        hint = 'nothing is committed yet: `pico commit -m "first state"`'
+        hint = 'nothing is committed yet: `pico apply`, then `pico commit -m "first state"`'
         return error("revision", f"there is no revision `{revision}`", hint=hint)
     alike = _beginning_with(handle, revision)
     if len(alike) > 1:

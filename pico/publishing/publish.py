@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from pico.diagnostics import Diagnostic, warning
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.folder import LabFolder
 from pico.model.record import record
 from pico.publishing import crate
@@ -43,6 +43,8 @@ def publish(
     With the runs that its commit added or that led to its state, or with those of its `runs` that are named. The same
     commit gives the same bytes. Raises PicoError, also where an artifact of a run is not here.
     """
+    if out:
+        _require_outside(folder, out)
     store = Store(folder.history().common / "pico" / "cas")
     found = gather(folder, store, revision, runs, pictures=pictures)
     path = out or beside / f"{found.setup.lab.name}-{found.commit.short}.zip"
@@ -57,6 +59,13 @@ def publish(
         files=files,
         diagnostics=tuple(_notes(found)),
     )
+
+
+def _require_outside(folder: LabFolder, out: Path) -> None:
+    """Raise PicoError for a folder in the lab: the manifests in it would be read as manifests of this lab."""
+    if out.suffix.lower() != ".zip" and out.resolve().is_relative_to(folder.root.resolve()):
+        hint = f"write beside it: `--out ../{out.name}`; or a file: `--out {out.name}.zip`"
+        raise PicoError(error("usage", f"{out} is in the lab, and its manifests would be read as the lab's", hint=hint))
 
 
 def _described(found: Revision) -> tuple[File, ...]:

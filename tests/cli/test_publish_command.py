@@ -292,3 +292,10 @@ def test_a_script_publishes_too(lab: Path, tmp_path: Path) -> None:
         assert bench.data.status().absent == ()
     assert made.evidence == "kinematic"
     assert entities(tmp_path / "crate")["./"]["identifier"] == made.commit
+
+
+def test_a_folder_in_the_lab_is_refused_for_its_manifests_would_be_read(lab: Path, pico: Pico) -> None:
+    answer = pico("publish", "--pictures", "none", "--out", "crate")
+    assert answer.code == 1 and "is in the lab" in answer.err
+    assert not (lab / "crate").exists() and pico("validate").code == 0
+    assert pico("publish", "--pictures", "none", "--out", "../crate").code == 0
