@@ -9,7 +9,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.files import MAX_BYTES, MAX_LEVELS
 
-MAX_ENTRIES = 1_000_000
+MAX_ENTRIES = 300_000
 """Files and folders of a revision. A tree of a few kilobytes can hold ten thousand million of them."""
 
 
