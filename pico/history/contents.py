@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from pico.history.folder import LabFolder
 
 
+_BESIDE = (".gitattributes", ".gitignore")
+"""What `pico init` writes beside the manifests: the first commit of a lab takes it along, so that clones have it."""
+
+
 @record
 class Contents:
     """What a commit takes: `paths` from the top of the repository, and the state that it then holds.
@@ -39,22 +43,25 @@ def contents(folder: LabFolder, named: Named | None = None) -> Contents:
     repository = folder.history()
     inside = repository.relative(folder.root)
     lead = f"{inside}/" if inside else ""
-    paths = repository.changed(folder.root, lambda p: is_manifest(p) or is_note(p.removeprefix(lead)))
-    if named is None:
-        return Contents(paths=paths, state=folder.state)
+    own = {lead + name for name in _BESIDE} if named is None else set()
+    paths = repository.changed(folder.root, lambda p: is_manifest(p) or is_note(p.removeprefix(lead)) or p in own)
     head = repository.head().commit
+    if named is None:
+        if own.intersection(paths) and head and repository.files(head, folder.root):
+            paths = tuple(p for p in paths if p not in own)
+        return Contents(paths=paths, state=folder.state)
     files = repository.files(head, folder.root) if head else {}
     texts = {path: _text(folder, path.removeprefix(lead)) for path in paths}
-    own = [p for p, text in texts.items() if _holds(named, p.removeprefix(lead), text, files)]
+    holding = [p for p, text in texts.items() if _holds(named, p.removeprefix(lead), text, files)]
     held: set[str] = set()
-    for path in (p.removeprefix(lead) for p in own if is_manifest(p)):
+    for path in (p.removeprefix(lead) for p in holding if is_manifest(p)):
         held |= components_of(files.pop(path, b""))
         text = texts[lead + path]
         if text is not None:
             files[path] = text
             held |= components_of(text)
     state = load_files({f"the commit:{path}": data for path, data in files.items()}, setup=folder.setup).require()[1]
-    return Contents(paths=tuple(own), state=state, components=frozenset(held))
+    return Contents(paths=tuple(holding), state=state, components=frozenset(held))
 
 
 def nothing(named: Named | None) -> Diagnostic:

@@ -97,7 +97,7 @@ class Stash:
             raise PicoError(
                 error("stash", "nothing is shelved", hint="`pico stash` shelves the edits of the manifests")
             )
-        hint = f"0 is the last, {len(shelves) - 1} the first; `pico stash list` shows them"
+        hint = "`pico stash list` shows them: 0 is the last"
         raise PicoError(error("stash", f"there are no shelved edits `{name}`", hint=hint))
 
     def _changes(self, commit: str) -> tuple[Change, ...]:

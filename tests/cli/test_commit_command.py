@@ -253,3 +253,15 @@ def test_a_hook_that_refuses_leaves_what_was_captured_as_an_edit(built: Path, pi
     assert pico("commit", "-m", "x").code == 0
     assert git("status", "--porcelain") == ""
     assert len(trailer("Pico-Run")) == 1
+
+
+def test_the_first_commit_of_a_new_lab_takes_along_what_git_has_to_know(
+    tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert pico("init", "mine").code == 0
+    monkeypatch.chdir(tmp_path / "mine")
+    assert pico("commit", "--planned", "-m", "first state").code == 0
+    assert {".gitattributes", ".gitignore"} <= set(git("ls-files").split())
+    (tmp_path / "mine" / ".gitignore").write_text("own\n")
+    assert pico("commit", "--planned").code == 1  # a later edit of it is for git alone
