@@ -1,0 +1,66 @@
+"""Kills a command of the real `pico` at a random instant, and looks at what it left."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+PICO = "import sys; from pico_cli.main import main; sys.exit(main())"
+
+
+def git(folder: Path, *words: str, ends: tuple[int, ...] = (0,)) -> str:
+    done = subprocess.run(["git", *words], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode in ends, done.stdout + done.stderr
+    return done.stdout.strip()
+
+
+def killed(folder: Path, words: tuple[str, ...], seconds: float) -> bool:
+    """Run `pico WORDS`, kill it with all that it started after so long; return whether it was killed."""
+    command = [sys.executable, "-c", PICO, *words]
+    running = subprocess.Popen(
+        command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    try:
+        running.wait(seconds)
+        return False
+    except subprocess.TimeoutExpired:
+        os.killpg(running.pid, signal.SIGKILL)
+        running.wait()
+        return True
+
+
+def duration(folder: Path, words: tuple[str, ...]) -> float:
+    """Return how long a command takes when nobody kills it [s]."""
+    began = time.monotonic()
+    assert not killed(folder, words, 120.0)
+    return time.monotonic() - began
+
+
+def instants(count: int, longest: float, seed: int) -> list[float]:
+    """Return when to kill: at random within equal parts of the command's time, its imports (a third) left out."""
+    draw = random.Random(seed)
+    return [longest * (1 + 2 * (i + draw.random()) / count) / 3 for i in range(count)]
+
+
+def require_whole(folder: Path, allowed: set[str]) -> str:
+    """Assert that a repository is sound, HEAD one of the `allowed` commits, and nothing staged that takes HEAD back.
+
+    Returns HEAD.
+    """
+    git(folder, "fsck", "--strict", "--no-dangling")
+    head = git(folder, "rev-parse", "HEAD")
+    assert head in allowed or allowed & set(git(folder, "rev-list", "--parents", "-n1", head).split()[1:]), head
+    merging = (folder / ".git/MERGE_HEAD").exists()
+    staged = git(folder, "write-tree", ends=(0, 128))
+    trees = {git(folder, "rev-parse", f"{c}^{{tree}}") for c in allowed | {head}}
+    now = git(folder, "rev-parse", "HEAD^{tree}")
+    assert merging or staged in trees, "what is staged is neither the old state nor the new one"
+    parents = git(folder, "rev-list", "--parents", "-n1", head).split()[1:]
+    reversal = {git(folder, "rev-parse", f"{p}^{{tree}}") for p in parents if head not in allowed} - {now}
+    assert merging or staged not in reversal, "the reversal of HEAD is staged"
+    return head
