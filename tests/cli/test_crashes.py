@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from crashing import duration, git, instants, killed, require_whole
+from killed_commands import duration, git, instants, killed, require_whole
 
 CHECKOUT = ("checkout", "e2", "--auto-approve")
 FILES = ("checkout", "e2", "--files-only")
