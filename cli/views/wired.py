@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 SET = (
-    "git merges manifests by PICO here from now on, and its diff says what moved "
+    "from now on git merges manifests through PICO here, and `git diff` says what moved "
     "(set once in .git/config; `pico git uninstall` takes it out)"
 )
 
@@ -13,7 +13,7 @@ SET = (
 def text(*, installed: bool) -> str:
     """Return one line."""
     if installed:
-        return "git merges manifests by PICO in this repository, and its diff says what moved."
+        return "git merges manifests through PICO in this repository, and `git diff` says what moved."
     return "git merges and shows manifests line by line in this repository; `pico git install` sets PICO again."
 
 

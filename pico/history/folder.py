@@ -384,6 +384,6 @@ def _patch(name: str, before: bytes, after: bytes) -> str:
 def _edited(paths: tuple[str, ...]) -> Diagnostic:
     return error(
         "edited",
-        f"{', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''} differ from the last commit",
+        f"edits that are not committed: {', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''}",
         hint='`pico commit -m "why"` keeps the edits, `pico stash` shelves them, `git restore .` drops them',
     )

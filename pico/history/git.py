@@ -199,7 +199,8 @@ def refusal(words: str, *, doing: str, hook: str | None = None) -> PicoError:
     """Return the error that says in git's `words` why it did not do what was asked, and what to do about it."""
     for pattern, code, hint in _KNOWN:
         if re.search(pattern, words, re.IGNORECASE):
-            return PicoError(error(code, f"git did not {doing}", detail=words, hint=hint))
+            said = words.splitlines()[-1] if code == "identity" else words  # before that, git says what the hint says
+            return PicoError(error(code, f"git did not {doing}", detail=said, hint=hint))
     if hook:
         return PicoError(error("git-hook", f"git did not {doing}: its {hook} hook refused", detail=words))
     return PicoError(error("git", f"git did not {doing}", detail=words))

@@ -78,7 +78,7 @@ def _refuse_unfit(folder: LabFolder) -> None:
     listed = git.run(root, ["status", "--porcelain", "-z", "--untracked-files=no"], doing="list what was edited")
     if listed:
         paths = [entry[3:] for entry in listed.split("\0") if len(entry) > 3]
-        text = f"{', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''} differ from the last commit"
+        text = f"edits that are not committed: {', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''}"
         hint = '`pico commit -m "why"` keeps the edits, `git stash` shelves them, `git restore .` drops them'
         raise PicoError(error("edited", text, hint=hint))
 

@@ -62,5 +62,5 @@ def test_the_driver_is_taken_out_set_and_checked(shel: Path, pico: Pico) -> None
 def test_the_first_command_in_a_clone_sets_the_driver_and_says_so_once(shel: Path, pico: Pico) -> None:
     git("clone", "-q", ".", "../clone")
     first, second = pico("-C", "../clone", "status"), pico("-C", "../clone", "status")
-    assert "git merges manifests by PICO" in first.err and second.err == ""
+    assert "git merges manifests through PICO" in first.err and second.err == ""
     assert "pico.history.driver" in git("-C", "../clone", "config", "merge.pico.driver")
