@@ -18,7 +18,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.contents import contents, nothing
-from pico.history.notes import Note, note_path, notes, require_part, with_note
+from pico.history.notes import Note, note_path, notes, read_note, require_part, with_note
 from pico.history.run_files import run_trailers, write_once
 from pico.history.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
 from pico.history.underway import require_resolved
@@ -280,8 +280,7 @@ class LabFolder:
     def notes(self, part: str) -> tuple[Note, ...]:
         """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
         require_part(self.setup, part)
-        path = self.root / note_path(part)
-        return notes({note_path(part): path.read_bytes()} if path.is_file() else {}, part)
+        return notes({note_path(part): read_note(self.root, part)}, part)
 
     def note(self, part: str, text: str) -> Note:
         """Note something on a part; its author and day are those that git would give a commit. Raises PicoError."""
@@ -289,7 +288,7 @@ class LabFolder:
         author, day = git.author(self.root)
         with self.writing("pico note"):
             path = self.root / note_path(part)
-            before = path.read_bytes() if path.is_file() else b""
+            before = read_note(self.root, part)
             write_file(path, with_note(before, day, author, text), self.root / ".pico")
         return self.notes(part)[-1]
 

@@ -12,7 +12,7 @@ from pico.history import git
 from pico.history.commit import Commit
 from pico.history.commit_diffs import CommitDiffs
 from pico.history.folder import Entry, LabFolder
-from pico.history.notes import Note, note_path, notes
+from pico.history.notes import Note, note_path, notes, read_note
 from pico.history.ranges import for_rev_list
 from pico.history.runs import runs_added
 from pico.history.scope import Scope, unknown_parts
@@ -71,8 +71,7 @@ class Log:
         """Return what people noted on the components that were asked for, as the working tree has it."""
         found = {}
         for part in self.asked.scope.parts:
-            path = self.folder.root / note_path(part)
-            if path.is_file() and (said := notes({note_path(part): path.read_bytes()}, part)):
+            if said := notes({note_path(part): read_note(self.folder.root, part)}, part):
                 found[part] = said
         return found
 

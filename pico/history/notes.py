@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.manifest.files import MAX_BYTES
 from pico.model.lab import Setup
 from pico.model.record import record
 
@@ -47,6 +48,19 @@ def notes(files: Mapping[str, bytes], part: str) -> tuple[Note, ...]:
     text = files.get(note_path(part), b"").decode("utf-8", errors="replace")
     lines = (line.strip() for line in text.splitlines())
     return tuple(sorted((_read(line) for line in lines if line and not line.startswith("#")), key=lambda n: n.day))
+
+
+def read_note(root: Path, part: str) -> bytes:
+    """Return the file of notes on a part of the lab in `root`, empty where there is none; a link is none, for what it
+    points at is nobody's note. Raises PicoError where it can't be read."""
+    path = root / note_path(part)
+    if path.is_symlink() or path.parent.is_symlink() or not path.is_file():
+        return b""
+    with path.open("rb") as file:
+        data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise PicoError(error("too-large", f"{path} is larger than 2 MB", hint="keep the last years of it"))
+    return data
 
 
 def with_note(before: bytes, day: str, author: str, text: str) -> bytes:

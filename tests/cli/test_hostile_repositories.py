@@ -329,3 +329,14 @@ def test_the_rules_are_those_of_the_bench_as_it_is_now(shel: Path, pico: Pico) -
     answer = pico("plan", "e2")
     assert "the bench is closed" in answer.out + answer.err
     assert pico("apply", "e2", "--auto-approve").code == 7
+
+
+def test_a_note_that_is_a_link_is_nobody_s_note(shel: Path, tmp_path: Path, pico: Pico) -> None:
+    secret = tmp_path / "secret"
+    secret.write_text("the key\n")
+    (shel / "notes").mkdir()
+    (shel / "notes/p2.md").symlink_to(secret)
+    said = pico("log", "--", "p2").out + pico("blame", "p2").out + pico("show", "HEAD:p2").out
+    assert pico("note", "p2", "scratched").code == 0
+    assert "the key" not in said + (shel / "notes/p2.md").read_text()
+    assert secret.read_text() == "the key\n"
