@@ -23,7 +23,7 @@ WRITERS = {
     "revert": ("revert", "HEAD"),
     "cherry-pick": ("cherry-pick", "e2"),
     "stash": ("stash",),
-    "bisect": ("bisect", "start", "e1-4", "e1-1", "--expect", "p2.x > 0", "--auto-approve"),
+    "bisect": ("bisect", "run", "e1", "e1~2", "--expect", "p2.pose.yaw < 10", "--auto-approve"),
 }
 
 
