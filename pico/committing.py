@@ -8,15 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
+from datetime import datetime
 from typing import Literal
 
 from pico import recording
-from pico.diagnostics import PicoError
-from pico.evidence import changed_by, evidence, stands
+from pico.diagnostics import PicoError, error
+from pico.evidence import changed_by, evidence, never_here, stands
 from pico.history.contents import Contents, contents, nothing
 from pico.history.default_message import default_message
 from pico.history.folder import LabFolder
-from pico.history.trailers import EVIDENCE, LAB, require_meta, values
+from pico.history.trailers import EVIDENCE, LAB, STATE, require_meta, values
 from pico.history.underway import message_of, require_resolved
 from pico.model.address import Named, read_addresses
 from pico.model.diff import Change, diff_states
@@ -92,11 +93,32 @@ def draft(folder: LabFolder, seen: Observation, asked: Asked) -> str:
 
 
 def _refuse(folder: LabFolder, seen: Observation, asked: Asked, named: Named | None) -> None:
-    """Raise PicoError where what is to be committed holds edits that were never applied, and nobody said who wins."""
+    """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins."""
     if asked.mode != "strict":
         return
     components = contents(folder, named).components if named else None
     refuse_unapplied(folder.setup, folder.committed(), folder.state, seen, components)
+    never = sorted(
+        component if tunable == "pose" else f"{component}.{tunable}"
+        for component, tunable in never_here(folder.setup, folder.root, seen, folder.state, stood=_stood(folder))
+        if components is None or component in components
+    )
+    if never:
+        names = ", ".join(never[:6]) + (" and others" if len(never) > 6 else "")
+        hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the bench is left out"
+        text = f"the bench never stood as the last commit says: {names}"
+        raise PicoError(error("unapplied", text, hint=hint))
+
+
+def _stood(folder: LabFolder) -> datetime | None:
+    """Return when the bench stood as HEAD says, by what HEAD itself tells and could not have copied."""
+    head, committed = folder.history().head().commit, folder.committed()
+    if head is None or committed is None:
+        return None
+    commit = folder.history().resolve(head)
+    evidence, digest = values(commit.message, EVIDENCE), values(commit.message, STATE)
+    realized = evidence and evidence[-1] != "planned" and digest and digest[-1] == committed.digest()
+    return commit.time if realized else None
 
 
 def _changes(folder: LabFolder, state: LabState) -> tuple[Change, ...]:

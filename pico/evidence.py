@@ -11,11 +11,12 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterable
 from contextlib import closing
+from datetime import datetime
 from pathlib import Path
 
 from pico.attachment import bench_folder
 from pico.journal import Journal
-from pico.model.diff import value_distance
+from pico.model.diff import diff_observed, value_distance
 from pico.model.drift import drift_of
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, slot_at
@@ -26,6 +27,8 @@ from pico.model.state import LabState, place_of
 
 Tunables = Collection[tuple[str, str]]
 """Tunables by component and name; `pose` for where it stands."""
+DELIBERATE = ("single", "recipe", "optimizer", "teleoperation")
+"""Causes of runs that lead to no state of a manifest: what they leave on the bench is there to be captured."""
 
 
 def stands(setup: Setup, seen: Observation, state: LabState) -> bool:
@@ -48,6 +51,41 @@ def evidence(
         return before if before in STRENGTH and before != "planned" else observed
     brought = _brought(setup, bench_folder(root) / "journal.sqlite", state, known)
     return min((brought.get(one) or observed for one in known), key=lambda e: STRENGTH.get(e, 0))
+
+
+def never_here(
+    setup: Setup, root: Path, seen: Observation, state: LabState, *, stood: datetime | None = None
+) -> set[tuple[str, str]]:
+    """Return the tunables in which the bench differs from a state that it never had here, as far as anybody knows.
+
+    It had it where the last operation on the tunable led there, or came before it `stood` so when somebody committed
+    it, or where it is at home and no operation took it away; then a hand has changed it since. What a single operation
+    changed is as somebody wanted it. Raises PicoError where the journal can't be read.
+    """
+    off = {(c.component, c.tunable) for c in diff_observed(setup, seen, state) if not c.tolerated}
+    path = root / ".pico" / "journal.sqlite"
+    known = _last_said(setup, path, state, off, stood) if off and path.exists() else {}
+    return {one for one in off if not known.get(one, _at_home(setup, state, one))}
+
+
+def _last_said(
+    setup: Setup, path: Path, state: LabState, tunables: Tunables, stood: datetime | None
+) -> dict[tuple[str, str], bool]:
+    """Return of tunables on which operations succeeded whether the last one is no reason to doubt a state."""
+    found: dict[tuple[str, str], bool] = {}
+    with closing(Journal(path)) as journal:
+        for success in journal.successes({component for component, _ in tunables}):
+            one = (success.operation.component, _tunable(success.operation))
+            if one in tunables and one not in found:
+                causes = {about.get("cause", {}).get("kind") for about in journal.about(success.run)[0]}
+                before = stood is not None and datetime.fromisoformat(success.at).replace(microsecond=0) <= stood
+                found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success.after)
+    return found
+
+
+def _at_home(setup: Setup, state: LabState, one: tuple[str, str]) -> bool:
+    component, tunable = one
+    return tunable == "pose" and place_of(setup, state, component)[0] == setup.lab.inventory[component].home
 
 
 def _brought(setup: Setup, path: Path, state: LabState, tunables: Tunables) -> dict[tuple[str, str], str | None]:

@@ -65,7 +65,7 @@ WHERE s.phase = 1 AND json_extract(i.data, '$.robot') = ? AND json_extract(i.dat
   AND json_extract(i.data, '$.arguments.from.held') IS NULL ORDER BY s.seq DESC LIMIT 1
 """
 _SUCCESSES = """
-SELECT e.component, e.run, i.data, e.data FROM records AS e JOIN records AS i ON i.key = e.key AND i.phase = 0
+SELECT e.component, e.run, i.data, e.data, e.at FROM records AS e JOIN records AS i ON i.key = e.key AND i.phase = 0
 WHERE e.kind = 'done' OR e.kind = 'resolved' AND json_extract(e.data, '$.outcome') = 'done' ORDER BY e.seq DESC
 """
 
@@ -113,11 +113,12 @@ class Unsettled:
 
 @record
 class Success:
-    """An operation that succeeded in a run, and its component as observed `after` it, where anybody looked."""
+    """An operation that succeeded in a run, when, and its component as observed `after` it, where anybody looked."""
 
     run: str
     operation: Operation
     after: ObservedComponent | None
+    at: str
 
 
 def utc_now() -> str:
@@ -313,10 +314,10 @@ class Journal:
     def successes(self, components: Collection[str]) -> Iterator[Success]:
         """Yield the operations on some components that succeeded, the last one first."""
         with self._guarded():
-            for name, run, intent, end in self._db.execute(_SUCCESSES):
+            for name, run, intent, end, at in self._db.execute(_SUCCESSES):
                 if name in components:
                     operation, after = operation_from_json(json.loads(intent)), json.loads(end).get("after")
-                    yield Success(run=run, operation=operation, after=observed_from_json(after))
+                    yield Success(run=run, operation=operation, after=observed_from_json(after), at=at)
 
     def unfinished(self) -> tuple[JournalRecord, ...]:
         """Return the `started` records without an end: what was under way when a process was killed."""

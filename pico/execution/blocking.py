@@ -39,12 +39,14 @@ class LoopThread:
 
     def wait(self, work: Coroutine[Any, Any, T]) -> T:
         """Run a coroutine and return its result, or raise what it raises; Ctrl-C ends the waiting at once."""
-        future = self.submit(work)
+        future: Future[T] | None = None
         try:
+            future = self.submit(work)
             return future.result()
         except KeyboardInterrupt:
-            self.left_busy = not future.done()
-            future.cancel()
+            self.left_busy = future is None or not future.done()
+            if future is not None:
+                future.cancel()
             raise
 
     def close(self) -> None:

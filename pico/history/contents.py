@@ -46,11 +46,10 @@ def contents(folder: LabFolder, named: Named | None = None) -> Contents:
     own = {lead + name for name in _BESIDE} if named is None else set()
     paths = repository.changed(folder.root, lambda p: is_manifest(p) or is_note(p.removeprefix(lead)) or p in own)
     head = repository.head().commit
+    known = head is not None and repository.holds(head, folder.root)
+    files = repository.files(head, folder.root) if head and known and (named or own.intersection(paths)) else {}
     if named is None:
-        if own.intersection(paths) and head and repository.files(head, folder.root):
-            paths = tuple(p for p in paths if p not in own)
-        return Contents(paths=paths, state=folder.state)
-    files = repository.files(head, folder.root) if head else {}
+        return Contents(paths=tuple(p for p in paths if not (files and p in own)), state=folder.state)
     texts = {path: _text(folder, path.removeprefix(lead)) for path in paths}
     holding = [p for p, text in texts.items() if _holds(named, p.removeprefix(lead), text, files)]
     held: set[str] = set()

@@ -156,6 +156,11 @@ class Repository:
             ]
         return found
 
+    def holds(self, revision: str, folder: str | Path) -> bool:
+        """Return whether a revision has the folder; raises PicoError for one that there is not."""
+        inside = self.relative(folder)
+        return not inside or folder_id(find(self._git, self.root, revision), inside) is not None
+
     def relative(self, folder: str | Path) -> str:
         """Return `folder` (absolute, or relative to the root) as a path in a commit; empty for the root.
 

@@ -45,6 +45,30 @@ def test_without_a_message_it_says_what_moved(built: Path, pico: Pico) -> None:
     assert git("show", "--numstat", "--format=", "HEAD", "--", "state").split()[:2] == ["3", "3"]
 
 
+def test_what_was_never_applied_is_not_undone_by_a_commit(built: Path, pico: Pico) -> None:
+    for change in (("cherry-pick", "E2-1"), ("revert", "C3")):
+        assert pico(*change).code == 0
+        assert pico("note", "p1", "x").code == 0
+        refused = pico("commit", "-m", "just a note")
+        assert refused.code == 1 and "the bench never stood as the last commit says: " in refused.err
+        assert ("lx_100" if "E2-1" in change else "p2") in refused.err
+        assert pico("commit", "-m", "just a note", "--planned").code == 0
+        assert "state/table.yaml" not in git("show", "--name-only", "--format=", "HEAD")
+    git("checkout", "-q", "e2")
+    assert "error[unapplied]" in pico("commit", "-m", "x").err
+    assert pico("apply", "--auto-approve").code == 0
+    assert pico("commit", "-m", "e2 as it is").code == 0
+
+
+def test_what_a_hand_does_again_and_again_is_captured_each_time(built: Path, pico: Pico) -> None:
+    for x in (525, 530, 535):
+        assert pico("sim", "nudge", "p2", "--dx", "5").code == 0
+        assert pico("commit").code == 0
+        assert f"x: {x}" in TABLE.read_text()
+    assert pico("set", "p1", "angle=7").code == 0
+    assert pico("commit", "-m", "by hand and by word").code == 0
+
+
 def test_many_changes_fit_the_first_line_and_are_all_in_the_body(built: Path, pico: Pico) -> None:
     parts = ("p1", "p2", "lx_100", "lx_125", "ly_150", "ly_200")
     for number, part in enumerate(parts):
@@ -226,7 +250,7 @@ def test_it_ends_a_merge_whose_conflicts_are_resolved(built: Path, pico: Pico) -
     assert trailer("Pico-Evidence") == ["planned"]
     (built / ".git" / "MERGE_HEAD").write_text(git("rev-parse", "other"))  # a git that was killed just then
     assert pico("note", "p2", "x").code == 0
-    assert pico("commit", "-m", "a note").code == 0
+    assert pico("commit", "-m", "a note", "--planned").code == 0
     assert len(git("show", "-s", "--format=%P").split()) == 1
 
 

@@ -210,7 +210,7 @@ def test_a_repository_among_the_files_is_not_taken_for_the_lab_s(
     git(shel, "init", "-q", "--bare", str(bare))
     for name, value in (("core.fsmonitor", trap), ("core.worktree", shel), ("core.bare", "false")):
         git(shel, "config", "--file", str(bare / "config"), name, str(value))
-    for words in (("status",), ("log",), ("check",), ("commit", "-m", "x")):
+    for words in (("status",), ("log",), ("check",), ("commit", "-m", "x", "--capture")):
         answer = pico("-C", str(bare), *words)
         assert answer.code == 0 or "bare repository" in answer.err, answer.err
     assert not (tmp_path / "sprung").exists()

@@ -25,7 +25,7 @@ def lab(shel: Path, pico: Pico) -> Path:
     git("add", "LICENSE")
     git("commit", "-q", "-m", "a license")
     assert pico("set", "p1", "angle=12").code == 0
-    assert pico("commit", "-m", "p1 a little").code == 0
+    assert pico("commit", "-m", "p1 a little", "--capture").code == 0
     return shel
 
 

@@ -95,6 +95,15 @@ def test_ctrl_c_halts_then_stops_and_ends_with_a_tally(
     assert "Interrupted: 1 of 2 operations done, 1 not started · 9.8 s simulated" in out
 
 
+@pytest.fixture
+def hears_ctrl_c() -> Iterator[None]:
+    """Let Ctrl-C count, though whatever started the tests may have had it ignored, as a shell does for `command &`."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("hears_ctrl_c")
 def test_ctrl_c_while_it_plans_does_not_wait_for_the_plan(
     shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -112,6 +121,7 @@ def test_ctrl_c_while_it_plans_does_not_wait_for_the_plan(
     enough.set()
 
 
+@pytest.mark.usefixtures("hears_ctrl_c")
 def test_ctrl_c_in_a_script_halts_the_run_before_the_script_hears_of_it(
     shel: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

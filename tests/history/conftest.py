@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-Git = Callable[..., str]
+from giving import Git
 
 
 @pytest.fixture(autouse=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import pytest
-from conftest import Git
+from giving import Git
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

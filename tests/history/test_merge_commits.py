@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import Git  # the one of this folder
+from giving import Git
 
 from pico.diagnostics import ExitCode, PicoError
 from pico.history.example import make_example

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pygit2
 import pytest
-from conftest import Git  # the one of this folder
+from giving import Git
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from merging_cases import Case, Leaf, case
