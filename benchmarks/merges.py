@@ -30,7 +30,7 @@ from pico.diagnostics import ExitCode, PicoError  # noqa: E402
 from pico.history.attributes import GITATTRIBUTES, command, install  # noqa: E402
 from pico.history.example import make_example  # noqa: E402
 from pico.history.folder import LabFolder  # noqa: E402
-from pico.history.merge import merge  # noqa: E402
+from pico.history.merge.manifests import merge  # noqa: E402
 from pico.history.repository import Repository  # noqa: E402
 
 AUTHOR, TIME = ("A Physicist", "physicist@localhost"), datetime(2026, 1, 5, tzinfo=UTC)

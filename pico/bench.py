@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pico.bisecting import Bisection
     from pico.data.lab import LabData
     from pico.history.carry import Carried
-    from pico.history.merge_commits import MergeMade
+    from pico.history.merge.commits import MergeMade
     from pico.history.stash import Stash
     from pico.history.taken import Taken
     from pico.imports import Imported

@@ -14,11 +14,11 @@ from typing import Literal
 from pico import recording
 from pico.diagnostics import PicoError, error
 from pico.evidence import changed_by, evidence, never_here, stands
-from pico.history.contents import Contents, contents, nothing
-from pico.history.default_message import default_message
 from pico.history.folder import LabFolder
-from pico.history.trailers import EVIDENCE, LAB, STATE, require_meta, values
-from pico.history.underway import message_of, require_resolved
+from pico.history.writing.contents import Contents, contents, nothing
+from pico.history.writing.message import default_message
+from pico.history.writing.trailers import EVIDENCE, LAB, STATE, require_meta, values
+from pico.history.writing.underway import message_of, require_resolved
 from pico.model.address import Named, read_addresses
 from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state

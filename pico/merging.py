@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pico.diagnostics import Diagnostic
 from pico.history.folder import LabFolder
-from pico.history.merge_commits import MergeMade, merge_revision
+from pico.history.merge.commits import MergeMade, merge_revision
 from pico.manifest.load import Manifests
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedValue

@@ -13,7 +13,7 @@ from ..arguments import Fidelity, Yes
 from ..session import Session, write
 
 if TYPE_CHECKING:
-    from pico.history.bisect_git import Verdict
+    from pico.history.bisect.kept import Verdict
 
 Bad = Annotated[str, typer.Argument(metavar="BAD", help="A revision that is bad.")]
 Good = Annotated[str, typer.Argument(metavar="GOOD", help="An earlier one that is good.")]

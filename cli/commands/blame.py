@@ -28,7 +28,7 @@ def blame(
     and no run had changed it; planned, where a commit says that an edit was never realized. A component is known by its
     name: moving it to another file changes nothing, nor do comments, nor writing a value in another unit.
     """
-    from pico.history.blamed import blame as blamed
+    from pico.history.blame.blamed import blame as blamed
     from pico.manifest.load import find_lab
 
     session = Session.of(context)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from pico.history.blame_how import How
-from pico.history.blamed import Blamed, BlamedLeaf, Turn
+from pico.history.blame.blamed import Blamed, BlamedLeaf, Turn
+from pico.history.blame.how import How
 from pico.history.notes import Note
 from pico.model.record import as_json
 

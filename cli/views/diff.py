@@ -12,7 +12,7 @@ from pico.model.record import as_json
 from .style import columns, count, listed, paint, place
 
 if TYPE_CHECKING:
-    from pico.history.compare import StateDiff
+    from pico.history.diff.states import StateDiff
 
 
 _STEPS = re.compile(r" \(d[xy] [^()]*\)")

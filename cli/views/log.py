@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.history.commit import Commit
 from pico.history.folder import Entry
 from pico.history.graph import Row, lanes
-from pico.history.trailers import meta, without_trailers
+from pico.history.writing.trailers import meta, without_trailers
 from pico.model.record import as_json
 from pico.model.run import RunDocument
 

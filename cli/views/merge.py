@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.history.merge_commits import MergeMade
+from pico.history.merge.commits import MergeMade
 from pico.model.record import as_json
 
 from .diff import lines

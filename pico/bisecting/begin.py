@@ -10,7 +10,7 @@ from pico.bisecting.judging import require_expression
 from pico.bisecting.records import Task, Tried
 from pico.bisecting.search import Bisection, Builder
 from pico.diagnostics import PicoError, error
-from pico.history.bisect_git import GitBisect, require_order
+from pico.history.bisect.kept import GitBisect, require_order
 from pico.model.record import as_json
 from pico.model.state import Expectation
 

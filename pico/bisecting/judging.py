@@ -9,7 +9,7 @@ from typing import Any
 from pico.bisecting.records import Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.expressions import ExpressionError, Language
-from pico.history.bisect_git import Verdict
+from pico.history.bisect.kept import Verdict
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan

@@ -11,8 +11,8 @@ from pico.bisecting.configurations import Configurations, Lineage, alike
 from pico.bisecting.judging import decisive, impossible, not_as_called, require_known, verdict
 from pico.bisecting.records import End, Outcome, Proposal, Task, Tried
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.history.bisect import Choice
-from pico.history.bisect_git import Ends, GitBisect, Verdict
+from pico.history.bisect.choice import Choice
+from pico.history.bisect.kept import Ends, GitBisect, Verdict
 from pico.history.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.observation import Observation

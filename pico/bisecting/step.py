@@ -9,7 +9,7 @@ from pico.bisecting.judging import impossible, require_expression, require_known
 from pico.bisecting.search import Builder
 from pico.diagnostics import PicoError
 from pico.history import git
-from pico.history.bisect_git import HEAD, GitBisect, Verdict
+from pico.history.bisect.kept import HEAD, GitBisect, Verdict
 from pico.history.folder import LabFolder
 from pico.model.plan import Plan
 from pico.model.record import record

@@ -89,7 +89,7 @@ def _what(repository: Repository | None, edited: bool, merging: str | None) -> s
 def _candidate(repository: Repository | None, root: Path, merging: str | None) -> Candidate:
     if merging is None or repository is None:
         return in_folder(root)
-    from pico.history.merged import merged_files
+    from pico.history.merge.preview import merged_files
 
     return in_memory(root, merged_files(repository, root, merging))
 

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
-from pico.history.merge_fallback import merge_lines
-from pico.history.wrappers import diff_command, text_command
+from pico.history.diff.wrappers import diff_command, text_command
+from pico.history.merge.fallback import merge_lines
 
 CLEAN, CONFLICT, FAILED = 40, 41, 42
 """What the driver ends with; nothing else ends with these by accident."""
@@ -35,7 +35,7 @@ _BESIDE = (
 )
 _NAME = "PICO: manifests merge value by value"
 _SECTION = re.compile(rb'^\[merge "pico"\]\s*$', re.MULTILINE)
-_PYTHON = re.compile(rb'^\s*driver = "?(.+?) -P -m pico\.history\.driver ', re.MULTILINE)
+_PYTHON = re.compile(rb'^\s*driver = "?(.+?) -P -m pico\.history\.merge\.driver ', re.MULTILINE)
 _OFF = re.compile(rb"^\[pico\][ \t]*\n(?:[ \t]+.*\n)*?[ \t]*mergedriver = false[ \t]*$", re.MULTILINE)
 _COMPONENT_LINE = "^ {0,2}([A-Za-z][A-Za-z0-9_/]*):"
 """What names a hunk: the last key above it at the depth of components, as written or as `diff.pico.textconv` has it."""
@@ -63,7 +63,7 @@ def command() -> str:
 
 def _rest() -> str:
     return (
-        "-P -m pico.history.driver %A %A.pico %O %B %L %P %S %X %Y; s=$?; "
+        "-P -m pico.history.merge.driver %A %A.pico %O %B %L %P %S %X %Y; s=$?; "
         f"test $s -eq {CLEAN} && mv -f %A.pico %A && exit 0; "
         f"test $s -eq {CONFLICT} && mv -f %A.pico %A && exit 1; "
         f"rm -f %A.pico; {merge_lines()}"
@@ -166,7 +166,7 @@ def _beside(folder: Path) -> list[Diagnostic]:
 
 def _runs() -> bool:
     """Whether the driver starts: without files to merge it ends in its own way."""
-    asked = [sys.executable, "-P", "-m", "pico.history.driver"]
+    asked = [sys.executable, "-P", "-m", "pico.history.merge.driver"]
     try:
         return b"pico:" in subprocess.run(asked, capture_output=True, check=False, timeout=60).stderr
     except (OSError, subprocess.SubprocessError):

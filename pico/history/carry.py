@@ -22,11 +22,11 @@ from pico.history.carry_words import (
 )  # fmt: skip
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
-from pico.history.merge_commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
-from pico.history.merge_trees import blobs, manifest_tree, opened, unite_trees
-from pico.history.trailers import with_trailers
-from pico.history.underway import underway
-from pico.history.write_files import write_files
+from pico.history.merge.commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
+from pico.history.merge.trees import blobs, manifest_tree, opened, unite_trees
+from pico.history.writing.files import write_files
+from pico.history.writing.trailers import with_trailers
+from pico.history.writing.underway import underway
 from pico.manifest.load import Manifests
 from pico.model.diff import Change
 from pico.model.record import record

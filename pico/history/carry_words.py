@@ -9,10 +9,10 @@ from typing import Any
 from pico.diagnostics import Diagnostic, error, warning
 from pico.history.commit import Commit
 from pico.history.last_change import last_change, value_at
-from pico.history.merge_leaves import Conflict
-from pico.history.merge_markers import Labels
-from pico.history.merge_trees import Union
-from pico.history.trailers import trailers, without_trailers
+from pico.history.merge.leaves import Conflict
+from pico.history.merge.markers import Labels
+from pico.history.merge.trees import Union
+from pico.history.writing.trailers import trailers, without_trailers
 
 _DELTA = re.compile(r" \((?:[+-][0-9.e+-]+|unchanged)\)$")
 

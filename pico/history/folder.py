@@ -17,13 +17,13 @@ from pico.attachment import own_folder
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
 from pico.history.commit import Commit, Head
-from pico.history.contents import contents, nothing
 from pico.history.notes import Note, note_path, notes, read_note, require_part, with_note
-from pico.history.run_files import run_trailers, write_once
-from pico.history.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
-from pico.history.underway import require_resolved
-from pico.history.write_files import write_file
-from pico.history.write_lock import write_lock
+from pico.history.writing.contents import contents, nothing
+from pico.history.writing.files import write_file
+from pico.history.writing.lock import write_lock
+from pico.history.writing.run_files import run_trailers, write_once
+from pico.history.writing.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
+from pico.history.writing.underway import require_resolved
 from pico.manifest.edit import capture
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files, load_folder

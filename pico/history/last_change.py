@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.history.merge_leaves import Path, canonical
+from pico.history.merge.leaves import Path, canonical
 from pico.manifest.files import decode
 from pico.manifest.tree import Document, Map, Node, parse
 

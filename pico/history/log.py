@@ -10,7 +10,7 @@ from itertools import chain, islice
 from pico.diagnostics import PicoError
 from pico.history import git
 from pico.history.commit import Commit
-from pico.history.commit_diffs import CommitDiffs
+from pico.history.diff.commits import CommitDiffs
 from pico.history.folder import Entry, LabFolder
 from pico.history.notes import Note, note_path, notes, read_note
 from pico.history.ranges import for_rev_list

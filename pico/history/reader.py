@@ -15,8 +15,8 @@ from pico.model.plan import Plan, plan_from_json
 from pico.model.state import LabState
 
 if TYPE_CHECKING:
-    from pico.history.blamed import Blamed
-    from pico.history.compare import StateDiff
+    from pico.history.blame.blamed import Blamed
+    from pico.history.diff.states import StateDiff
     from pico.history.log import Log
     from pico.history.shown import Shown
 
@@ -56,7 +56,7 @@ class Reader:
 
         `names`: of these components and files alone, paths relative to `at` (the lab). Raises PicoError.
         """
-        from pico.history.compare import compare
+        from pico.history.diff.states import compare
         from pico.history.scope import read_scope
 
         scope = read_scope(self.folder, names, at or self.root, past=True)
@@ -87,8 +87,8 @@ class Reader:
         return Log(self.folder, asked)
 
     def blame(self, *what: str, at: str | None = None, history: bool = False) -> Blamed:
-        """Return who last changed these components and tunables, all for none; see `pico.history.blamed`."""
-        from pico.history.blamed import blame
+        """Return who last changed these components and tunables, all for none; see `pico.history.blame.blamed`."""
+        from pico.history.blame.blamed import blame
 
         return blame(self.root, what, at=at, history=history)
 

@@ -13,11 +13,11 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
-from pico.history.index_lock import GitFolders, recover
-from pico.history.landing import Landing, land
 from pico.history.revisions import BRANCHES, TAGS, find, names_at
 from pico.history.trees import collect, folder_id, is_manifest
-from pico.history.write_lock import write_lock
+from pico.history.writing.index_lock import GitFolders, recover
+from pico.history.writing.landing import Landing, land
+from pico.history.writing.lock import write_lock
 
 MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.
@@ -242,10 +242,10 @@ class Repository:
     ) -> Commit:
         """Commit `paths` and nothing else that is staged, and return the commit; hooks run, signing as configured.
 
-        Killed at any instant, the repository is as before or has the commit (`pico.history.landing`). `author`: whose
-        change it is, and when it was made, where that is not now by whoever commits. Files in `ignored` count though
-        .gitignore may name them. `whole`: all that is staged, as a merge needs it. Raises PicoError with git's words:
-        no identity, a hook that refuses, a lock, nothing to commit.
+        Killed at any instant, the repository is as before or has the commit (`pico.history.writing.landing`). `author`:
+        whose change it is, and when it was made, where that is not now by whoever commits. Files in `ignored` count
+        though .gitignore may name them. `whole`: all that is staged, as a merge needs it. Raises PicoError with git's
+        words: no identity, a hook that refuses, a lock, nothing to commit.
         """
         if not message.strip():
             raise PicoError(error("message", "a commit needs a message", hint='say why: `pico commit -m "..."`'))

@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
-from pico.history.blame_cache import Cache
+from pico.history.blame.cache import Cache
 from pico.history.commit import Commit
 from pico.history.repository import Repository
 from pico.model.run import RunDocument

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history import trailers
-from pico.history.blame_cache import Cache
+from pico.history.blame.cache import Cache
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
 from pico.history.runs import CACHE, CarriedRun, files_at, places_in_history, read_carried, runs_added
+from pico.history.writing import trailers
 from pico.model.run import STRENGTH, RunDocument
 from pico.model.standing import Standing, Verdict
 from pico.trace.run import intact

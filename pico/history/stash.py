@@ -9,8 +9,8 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
 from pico.history.attributes import command
 from pico.history.folder import LabFolder
-from pico.history.merge_markers import Labels
-from pico.history.merge_trees import manifest_tree, opened, unite_trees
+from pico.history.merge.markers import Labels
+from pico.history.merge.trees import manifest_tree, opened, unite_trees
 from pico.model.diff import Change
 from pico.model.record import record
 

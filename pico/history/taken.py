@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError, error
 from pico.history.folder import LabFolder
-from pico.history.write_files import write_files
+from pico.history.writing.files import write_files
 from pico.manifest.changes import Change as Entry
 from pico.manifest.edit import set_values
 from pico.manifest.files import read_folder, shown_path

@@ -63,4 +63,4 @@ def test_the_first_command_in_a_clone_sets_the_driver_and_says_so_once(shel: Pat
     git("clone", "-q", ".", "../clone")
     first, second = pico("-C", "../clone", "status"), pico("-C", "../clone", "status")
     assert "git merges manifests through PICO" in first.err and second.err == ""
-    assert "pico.history.driver" in git("-C", "../clone", "config", "merge.pico.driver")
+    assert "pico.history.merge.driver" in git("-C", "../clone", "config", "merge.pico.driver")

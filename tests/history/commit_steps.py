@@ -7,7 +7,9 @@ import signal
 from collections.abc import Callable
 from pathlib import Path
 
-from pico.history import git, index_lock, landing, write_files
+from pico.history import git
+from pico.history.writing import files as write_files
+from pico.history.writing import index_lock, landing
 
 WATCHED: tuple[tuple[object, str], ...] = (
     (git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (landing, "_copy"), (write_files, "write_file"),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import yaml
 
-from pico.history.merge_markers import view
+from pico.history.merge.markers import view
 
 VALUES = ("angle", "exposure", "tip", "tilt")
 COMMENTS = ("# beam walks here", "# glued", "# 2 a.m.", "# x: 3, not a value", "# ± 0.1 mm")

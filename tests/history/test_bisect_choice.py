@@ -11,7 +11,7 @@ from giving import Git
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pico.history.bisect import Choice, Suspects, choices, halfway
+from pico.history.bisect.choice import Choice, Suspects, choices, halfway
 
 SECONDS = st.floats(0, 100, allow_nan=False)
 

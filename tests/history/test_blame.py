@@ -18,14 +18,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
-from pico.history import blame_cache
-from pico.history.blame import Blame, Step, walk
-from pico.history.blame_answer import answer, dumps, loads
-from pico.history.blame_flat import flatten, parsed
-from pico.history.blame_leaves import shown
-from pico.history.blame_lines import read_lines
-from pico.history.blame_walk import CACHE, Walker, packaged_units
-from pico.history.blamed import Blamed, blame
+from pico.history.blame import cache as blame_cache
+from pico.history.blame.answer import answer, dumps, loads
+from pico.history.blame.blamed import Blamed, blame
+from pico.history.blame.flat import flatten, parsed
+from pico.history.blame.follow import Blame, Step, walk
+from pico.history.blame.leaves import shown
+from pico.history.blame.lines import read_lines
+from pico.history.blame.walk import CACHE, Walker, packaged_units
 from pico.history.example import example_names, make_example
 from pico.history.folder import LabFolder
 from pico.history.repository import Repository
@@ -473,7 +473,7 @@ def test_calls_at_the_same_time_do_not_break_one_another(git: Git, lab: Path) ->
     for number in range(8):
         put(lab, A.replace("12", str(number)))
         commit(git, f"turned to {number}")
-    code = "import sys; from pathlib import Path; from pico.history.blamed import blame; "
+    code = "import sys; from pathlib import Path; from pico.history.blame.blamed import blame; "
     code += "print([leaf.last.summary for leaf in blame(Path(sys.argv[1]), ['a.angle'], at=sys.argv[2]).leaves])"
 
     def ask(number: int) -> str:
@@ -502,7 +502,7 @@ def test_only_what_is_new_is_read(git: Git, lab: Path, monkeypatch: pytest.Monke
         commit(git, f"turned to {number}")
     blame(lab)
     read: list[bytes] = []
-    monkeypatch.setattr("pico.history.blame_walk.flatten", lambda data: read.append(data) or flatten(data))
+    monkeypatch.setattr("pico.history.blame.walk.flatten", lambda data: read.append(data) or flatten(data))
     blame(lab)
     assert read == []
     put(lab, B.replace("s2", "s3"), "b.yaml")

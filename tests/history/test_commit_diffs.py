@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pico.history.commit_diffs import CommitDiffs
+from pico.history.diff.commits import CommitDiffs
 from pico.history.example import make_example
 from pico.history.folder import LabFolder
 

@@ -14,9 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pico.history.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
-from pico.history.diff_driver import FAILED, drive
-from pico.history.file_diff import diff_files
-from pico.history.wrappers import ALONE, SUMMARY
+from pico.history.diff.driver import FAILED, drive
+from pico.history.diff.manifests import diff_files
+from pico.history.diff.wrappers import ALONE, SUMMARY
 
 LAB = """apiVersion: pico/v1
 kind: Lab
@@ -429,6 +429,6 @@ def test_lines_are_short_and_move_no_cursor(tmp_path: Path) -> None:
 
 
 def test_the_driver_loads_nothing_heavy() -> None:
-    program = "import sys, pico.history.diff_driver; print(*sys.modules)"
+    program = "import sys, pico.history.diff.driver; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert not {"pygit2", "numpy", "typer", "rich", "pint", "pydantic"} & set(done.stdout.split())

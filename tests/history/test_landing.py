@@ -13,7 +13,7 @@ from commit_steps import forked, kill_at
 
 from pico.diagnostics import PicoError
 from pico.history.repository import Repository
-from pico.history.write_lock import write_lock
+from pico.history.writing.lock import write_lock
 
 Git = Callable[..., str]
 FILE = "state/table.yaml"
@@ -101,7 +101,7 @@ def test_killed_inside_git_its_locks_are_known_and_cleared(repo: Path, git: Git,
 
 
 def test_a_ref_lock_of_somebody_else_is_left(repo: Path, git: Git, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pico.history.landing._SAFE", ("-c", "core.filesRefLockTimeout=10"))
+    monkeypatch.setattr("pico.history.writing.landing._SAFE", ("-c", "core.filesRefLockTimeout=10"))
     hook(repo, "pre-commit", "kill -9 0")
     write(repo, "x: 7\n")
     assert not forked(lambda: opened(repo).commit([FILE], "killed"))
@@ -117,7 +117,7 @@ def test_a_ref_lock_of_somebody_else_is_left(repo: Path, git: Git, monkeypatch: 
 def test_while_a_git_of_a_killed_commit_lives_nobody_takes_its_lock(
     repo: Path, git: Git, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("pico.history.index_lock.WAIT", 0.05)
+    monkeypatch.setattr("pico.history.writing.index_lock.WAIT", 0.05)
     go = repo / ".git" / "go"
     os.mkfifo(go)
     hook(repo, "pre-commit", f"kill -9 $(cat '{repo}/.git/parent'); cat '{go}' > /dev/null")
@@ -132,7 +132,7 @@ def test_while_a_git_of_a_killed_commit_lives_nobody_takes_its_lock(
         opened(repo).commit([FILE], "again")
     assert caught.value.diagnostics[0].code == "git-locked"
     go.write_text("go\n")
-    monkeypatch.setattr("pico.history.index_lock.WAIT", 10.0)
+    monkeypatch.setattr("pico.history.writing.index_lock.WAIT", 10.0)
     repository = opened(repo)
     with repository.writing("a look"):
         assert git("log", "-1", "--format=%s").strip() == "the process dies, its git goes on"

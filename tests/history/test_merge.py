@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from merging_cases import Case, Leaf, case, faults
 from merging_cases import state_of as state
 
-from pico.history.merge import Merged, merge
-from pico.history.merge_markers import Labels, view
+from pico.history.merge.manifests import Merged, merge
+from pico.history.merge.markers import Labels, view
 
 BASE = """apiVersion: pico/v1
 kind: LabState

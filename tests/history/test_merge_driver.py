@@ -11,9 +11,9 @@ import pytest
 import yaml
 
 from pico.history.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
-from pico.history.driver import CLEAN, CONFLICT, drive
-from pico.history.merge_fallback import merge_lines
-from pico.history.merge_groups import groups_near, groups_of
+from pico.history.merge.driver import CLEAN, CONFLICT, drive
+from pico.history.merge.fallback import merge_lines
+from pico.history.merge.groups import groups_near, groups_of
 
 BASE = """apiVersion: pico/v1
 kind: LabState
@@ -218,7 +218,7 @@ def test_a_steering_pair_split_by_a_merge_warns_or_conflicts(tmp_path: Path, pol
 
 
 def test_the_driver_loads_nothing_heavy() -> None:
-    program = "import sys, pico.history.driver; print(*sys.modules)"
+    program = "import sys, pico.history.merge.driver; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, env=os.environ)
     assert not {"pygit2", "numpy", "typer", "rich", "pint"} & set(done.stdout.split())
 

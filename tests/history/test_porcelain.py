@@ -63,7 +63,7 @@ def test_a_hook_that_refuses_is_named_with_its_words(repository: Repository) -> 
 
 
 def test_a_lock_of_somebody_else_is_named_and_left(repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pico.history.index_lock.WAIT", 0.05)
+    monkeypatch.setattr("pico.history.writing.index_lock.WAIT", 0.05)
     lock = repository.root / ".git" / "index.lock"
     lock.touch()
     edit(repository)

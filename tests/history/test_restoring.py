@@ -20,8 +20,8 @@ from pico.history.carry import Carried
 from pico.history.example import make_example
 from pico.history.folder import LabFolder
 from pico.history.last_change import last_change
-from pico.history.merge_markers import Labels
-from pico.history.merge_trees import Union, opened, unite_trees
+from pico.history.merge.markers import Labels
+from pico.history.merge.trees import Union, opened, unite_trees
 from pico.merging import merge
 from pico.restoring import cherry_pick, revert, take
 

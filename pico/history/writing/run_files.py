@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import PicoError, error
-from pico.history.trailers import PLAN, RUN, Trailers
-from pico.history.write_files import write_file
+from pico.history.writing.files import write_file
+from pico.history.writing.trailers import PLAN, RUN, Trailers
 
 RUNS = "runs"
 

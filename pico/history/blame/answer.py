@@ -6,9 +6,9 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from pico.history.blame import Address, Blame, Node, Units
-from pico.history.blame_how import RunBrief, brief_from
-from pico.history.blame_leaves import POSE, Leaf, canonical
+from pico.history.blame.follow import Address, Blame, Node, Units
+from pico.history.blame.how import RunBrief, brief_from
+from pico.history.blame.leaves import POSE, Leaf, canonical
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
-from pico.history.blame import Address, Node
-from pico.history.blame_answer import Answer, Row, Unread
-from pico.history.blame_edits import with_edits
-from pico.history.blame_how import How, how
-from pico.history.blame_leaves import POSE, Leaf, canonical, shown
-from pico.history.blame_walk import Walker
+from pico.history.blame.answer import Answer, Row, Unread
+from pico.history.blame.edits import with_edits
+from pico.history.blame.follow import Address, Node
+from pico.history.blame.how import How, how
+from pico.history.blame.leaves import POSE, Leaf, canonical, shown
+from pico.history.blame.walk import Walker
 from pico.history.commit import Commit
 from pico.history.notes import Note, note_path, notes
 from pico.history.repository import Repository

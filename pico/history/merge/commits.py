@@ -10,9 +10,9 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder
-from pico.history.merge_markers import Labels
-from pico.history.merge_trees import Union, contents, opened, unite_commits
-from pico.history.trailers import EVIDENCE, LAB, STATE, with_trailers
+from pico.history.merge.markers import Labels
+from pico.history.merge.trees import Union, contents, opened, unite_commits
+from pico.history.writing.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
 from pico.model.record import record

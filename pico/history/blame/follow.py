@@ -10,8 +10,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from pico.history.blame_flat import Flat
-from pico.history.blame_leaves import POSE, Leaf, canonical
+from pico.history.blame.flat import Flat
+from pico.history.blame.leaves import POSE, Leaf, canonical
 
 Address = tuple[str, str]
 """Component and tunable."""

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from pico.history.merge_leaves import Groups
+from pico.history.merge.leaves import Groups
 from pico.manifest.files import decode_all, read_folder
 from pico.manifest.tree import Document, List, Map, Node, Scalar, parse, plain
 from pico.resources import catalog_dir

@@ -92,7 +92,7 @@ class CommitDiffs:
 
     def components_of(self, commit: str, path: str) -> frozenset[str]:
         """Return the components that the manifests at `path` (a file or a folder, relative to the lab) hold."""
-        from pico.history.surroundings import components_in
+        from pico.history.diff.surroundings import components_in
 
         names = [n for p, n in self.files(commit).items() if p == path or p.startswith(f"{path}/") or path in ("", ".")]
         return frozenset().union(*(components_in(self.repository.blob(name)) for name in names))

@@ -6,7 +6,7 @@ Both scripts stand in git's local configuration as a whole. Whatever fails in th
 from __future__ import annotations
 
 SUMMARY, ALONE = 40, 41
-"""What the summary of `pico.history.diff_driver` ends with: lines follow, or are not wanted. Nothing else ends so."""
+"""What the summary of `pico.history.diff.driver` ends with: lines follow, or are not wanted. Nothing else ends so."""
 
 # Git calls it with 7 arguments: path, then file, id and mode of the old and of the new side; with 9 where the path
 # changed, and with 1 where it is unmerged. It tells a driver neither its own options nor how a pager is fed, so they
@@ -36,7 +36,7 @@ esac
 done
 said=$(git config pico.diff)
 if test "$said" != lines && grep -qs 'apiVersion.*pico/' -- "$2" "$5"; then
-said=$(PYTHON -P -m pico.history.diff_driver "$color" "$said" "$@" 2>/dev/null)
+said=$(PYTHON -P -m pico.history.diff.driver "$color" "$said" "$@" 2>/dev/null)
 case $? in
 SUMMARY) printf '%s\n\n' "$said" ;;
 ALONE) printf '%s\n' "$said"; exit 0 ;;

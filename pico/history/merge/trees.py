@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pico.history.merge import Merged, merge
-from pico.history.merge_groups import groups_of
-from pico.history.merge_leaves import Conflict, Coupled
-from pico.history.merge_markers import Labels
+from pico.history.merge.groups import groups_of
+from pico.history.merge.leaves import Conflict, Coupled
+from pico.history.merge.manifests import Merged, merge
+from pico.history.merge.markers import Labels
 from pico.history.trees import entries, is_manifest
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pico.history.merge_leaves import canonical, leaves, shown
-from pico.history.surroundings import Surroundings, at, text
+from pico.history.diff.surroundings import Surroundings, at, text
+from pico.history.merge.leaves import canonical, leaves, shown
 from pico.manifest.files import decode
 from pico.manifest.kinds import kind_of
 from pico.manifest.tree import Document, List, Map, Node, Scalar, parse, plain

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
-from pico.history.merge_markers import Labels
+from pico.history.merge.markers import Labels
 
 _NAMES = ("ours", "base", "theirs")
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from pico.history.merge_groups import lab_around
+from pico.history.merge.groups import lab_around
 from pico.manifest.files import decode, read_folder
 from pico.manifest.tree import Document, Map, Node, Scalar, parse
 from pico.resources import catalog_dir

@@ -1,4 +1,5 @@
-"""What git runs to merge one manifest: `python -P -m pico.history.driver OURS OUT BASE THEIRS SIZE PATH [NAMES...]`.
+"""What git runs to merge one manifest:
+`python -P -m pico.history.merge.driver OURS OUT BASE THEIRS SIZE PATH [NAMES...]`.
 
 The wrapper in git's configuration (`pico.history.attributes`) takes its result only if it ends with CLEAN or CONFLICT,
 codes that nothing else ends with by accident; on anything else git's own merge of lines takes its place.
@@ -13,9 +14,9 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError
 from pico.history.attributes import CLEAN, CONFLICT, FAILED
-from pico.history.merge import Merged, merge
-from pico.history.merge_groups import groups_near
-from pico.history.merge_markers import Labels
+from pico.history.merge.groups import groups_near
+from pico.history.merge.manifests import Merged, merge
+from pico.history.merge.markers import Labels
 
 
 def drive(arguments: Sequence[str]) -> tuple[int, str]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
-from pico.history.merge_commits import label_of, refusals
-from pico.history.merge_markers import Labels
-from pico.history.merge_trees import Union, contents, opened, unite_commits
+from pico.history.merge.commits import label_of, refusals
+from pico.history.merge.markers import Labels
+from pico.history.merge.trees import Union, contents, opened, unite_commits
 from pico.history.repository import Repository
 
 

@@ -10,7 +10,7 @@ import re
 from functools import lru_cache
 from typing import Any
 
-from pico.history.blame_leaves import POSE, Leaf, leaf_of, leaves_of, place_of, pose_of
+from pico.history.blame.leaves import POSE, Leaf, leaf_of, leaves_of, place_of, pose_of
 from pico.manifest.kinds import API
 from pico.manifest.scalars import resolve
 from pico.manifest.source import Source

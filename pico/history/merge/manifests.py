@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from pico.diagnostics import PicoError
-from pico.history.merge_layout import merge_layout
-from pico.history.merge_leaves import Conflict, Coupled, Groups, Outcome, Path, canonical, leaves, merge_leaves
-from pico.history.merge_markers import OPEN, Labels, has_token, token, view, written
-from pico.history.merge_text import merge_lines
+from pico.history.merge.layout import merge_layout
+from pico.history.merge.leaves import Conflict, Coupled, Groups, Outcome, Path, canonical, leaves, merge_leaves
+from pico.history.merge.lines import merge_lines
+from pico.history.merge.markers import OPEN, Labels, has_token, token, view, written
 from pico.manifest.files import decode
 from pico.manifest.kinds import kind_of
 from pico.manifest.layout import comments

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError
 from pico.history import git
-from pico.history.index_lock import GitFolders, index_lock
+from pico.history.writing.index_lock import GitFolders, index_lock
 
 _SAFE = ("-c", "core.fsync=committed,loose-object,index,reference", "-c", "core.filesRefLockTimeout=5000")
 """Objects, index and refs are on the disk before what refers to them; refs that others hold are waited for."""

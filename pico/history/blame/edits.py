@@ -6,10 +6,10 @@ import hashlib
 from dataclasses import replace
 from pathlib import Path
 
-from pico.history.blame import Blame
-from pico.history.blame_answer import Answer, Unread, answer
-from pico.history.blame_flat import Flat, flatten
-from pico.history.blame_walk import Walker, packaged_units
+from pico.history.blame.answer import Answer, Unread, answer
+from pico.history.blame.flat import Flat, flatten
+from pico.history.blame.follow import Blame
+from pico.history.blame.walk import Walker, packaged_units
 from pico.manifest.files import read_folder, shown_path
 
 

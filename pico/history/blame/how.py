@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal
 
-from pico.history.blame import Address
+from pico.history.blame.follow import Address
 from pico.history.commit import Commit
-from pico.history.trailers import EVIDENCE, LAB, values
+from pico.history.writing.trailers import EVIDENCE, LAB, values
 from pico.model.record import record
 from pico.model.run import RunDocument
 

@@ -12,12 +12,12 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.history.blame import Blame, Delta, Step, walk
-from pico.history.blame_answer import Answer, Unread, answer, dumps, loads
-from pico.history.blame_cache import VERSION, Cache
-from pico.history.blame_flat import Flat, flatten
-from pico.history.blame_flat import loads as flat_from
-from pico.history.blame_how import RunBrief, brief_of
+from pico.history.blame.answer import Answer, Unread, answer, dumps, loads
+from pico.history.blame.cache import VERSION, Cache
+from pico.history.blame.flat import Flat, flatten
+from pico.history.blame.flat import loads as flat_from
+from pico.history.blame.follow import Blame, Delta, Step, walk
+from pico.history.blame.how import RunBrief, brief_of
 from pico.history.repository import Repository
 from pico.history.trees import is_manifest
 from pico.manifest.files import MAX_BYTES

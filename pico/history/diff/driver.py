@@ -1,7 +1,7 @@
-"""What git's diff says of one manifest before its lines: `python -P -m pico.history.diff_driver COLOR MODE PATH ...`.
+"""What git's diff says of one manifest before its lines: `python -P -m pico.history.diff.driver COLOR MODE PATH ...`.
 
-The wrapper in git's configuration (`pico.history.wrappers`) shows its lines only if it ends with SUMMARY or ALONE; the
-ordinary diff comes from git in any case, unless `git config pico.diff summary` asks for these lines alone.
+The wrapper in git's configuration (`pico.history.diff.wrappers`) shows its lines only if it ends with SUMMARY or ALONE;
+the ordinary diff comes from git in any case, unless `git config pico.diff summary` asks for these lines alone.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from pico.diagnostics import PicoError
-from pico.history.file_diff import FileDiff, diff_files
-from pico.history.wrappers import ALONE, SUMMARY
+from pico.history.diff.manifests import FileDiff, diff_files
+from pico.history.diff.wrappers import ALONE, SUMMARY
 from pico.manifest.files import MAX_BYTES
 from pico.model.diff import Change
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from pico.history.merge_leaves import Conflict, Path
-from pico.history.merge_markers import CLOSE, MIDDLE, OPEN
+from pico.history.merge.leaves import Conflict, Path
+from pico.history.merge.markers import CLOSE, MIDDLE, OPEN
 from pico.manifest.fmt import lines, stripped
 from pico.manifest.layout import Entry, Layout
 from pico.manifest.tree import Document

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from pico.history.merge_leaves import Conflict
+from pico.history.merge.leaves import Conflict
 
 Side = Literal["ours", "theirs"]
 _LINE = re.compile(r"[^\n]*\n|[^\n]+")

@@ -6,8 +6,8 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from pico.history.blame_leaves import Leaf, leaves_of, place_of
-from pico.history.blame_lines import read_lines
+from pico.history.blame.leaves import Leaf, leaves_of, place_of
+from pico.history.blame.lines import read_lines
 from pico.manifest.files import decode
 from pico.manifest.kinds import kind_of
 from pico.manifest.tree import Document, Map, Scalar, parse, plain
