@@ -153,9 +153,9 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
         from pico.diagnostics import did_you_mean
 
         unknown = message.split("'")[1] if "'" in message else next((w for w in words if not w.startswith("-")), "")
-        message = f"pico has no command `{unknown}`"
-        near = did_you_mean(unknown, COMMANDS)
-        hint = near if near.startswith("did") else "`pico --help` lists the commands"
+        message = f"{path} has no command `{unknown}`"
+        near = did_you_mean(unknown, COMMANDS if path == "pico" else context.command.commands)
+        hint = near if near.startswith("did") else f"`{path} --help` lists the commands"
     return error("usage", message[:1].lower() + message[1:], hint=hint)
 
 

@@ -377,11 +377,16 @@ class Bench(Reader):
         return self._thread.wait(self._bench.render_ruler(measured, out=out))
 
 
-def new_lab(folder: Path, example: str | None = None) -> None:
-    """Make a lab in `folder`: a skeleton to edit, or an example with its history; raises PicoError."""
-    from pico.history.example import init_empty, make_example
+def new_lab(folder: Path, example: str | None = None) -> tuple[Diagnostic, ...]:
+    """Make a lab in `folder`: a skeleton to edit, or an example with its history; raises PicoError.
+
+    Returns what is worth knowing: an example is a repository of its own, also inside another one.
+    """
+    from pico.history.example import init_empty, make_example, nested
 
     if example is None:
         init_empty(folder)
-    else:
-        make_example(example, folder)
+        return ()
+    around = nested(folder)
+    make_example(example, folder)
+    return around

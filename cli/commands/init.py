@@ -23,7 +23,9 @@ def init(
     from pico.bench import new_lab
 
     session = Session.of(context)
-    new_lab(session.folder / folder, example)
+    notes = new_lab(session.folder / folder, example)
     session.wire(session.folder / folder)
     session.show(view, session.folder / folder, example, shown=folder)
+    if not session.json:
+        session.report(notes)
     return 0

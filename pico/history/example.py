@@ -6,7 +6,7 @@ import re
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.history.attributes import GITATTRIBUTES
 from pico.history.replay import replay
 from pico.history.repository import Repository
@@ -49,6 +49,17 @@ def make_example(name: str, folder: Path) -> Repository:
         refs |= {f"refs/tags/{step.tag}": ids[step.tag], f"refs/heads/{step.branch}": ids[step.tag]}
     repository.write_refs(refs, head=history["head"])
     return repository
+
+
+def nested(folder: Path) -> tuple[Diagnostic, ...]:
+    """Return a warning where a new repository in `folder` would lie inside another one, which does not ignore it."""
+    above = next((p for p in folder.absolute().parents if p.is_dir()), None)
+    around = Repository.discover(above) if above else None
+    if around is None or around.ignores(folder):
+        return ()
+    text = f"{folder} is a repository of its own inside {around.root}, which would keep a link to it and not its files"
+    hint = "to keep the lab in that one: `pico init DIR` without --example; or `rm -rf DIR/.git`, history and all"
+    return (warning("nested", text, hint=hint.replace("DIR", str(folder))),)
 
 
 def init_empty(folder: Path) -> Repository:

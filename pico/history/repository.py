@@ -161,6 +161,10 @@ class Repository:
         inside = self.relative(folder)
         return not inside or folder_id(find(self._git, self.root, revision), inside) is not None
 
+    def ignores(self, folder: str | Path) -> bool:
+        """Return whether .gitignore and the like leave a folder out."""
+        return bool(self._git.path_is_ignored(f"{self.relative(folder)}/"))
+
     def relative(self, folder: str | Path) -> str:
         """Return `folder` (absolute, or relative to the root) as a path in a commit; empty for the root.
 

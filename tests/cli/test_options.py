@@ -266,3 +266,11 @@ def test_the_page_about_json_has_every_schema_that_is_printed() -> None:
     for view in (root / "cli").rglob("*.py"):
         for schema in re.findall(r'"(pico\.[a-z-]+/v1)"', view.read_text()):
             assert f"`{schema}`" in page, schema
+
+
+def test_an_unknown_command_of_a_group_is_looked_for_in_the_group(pico: Pico) -> None:
+    answer = pico("runs", "sho")
+    assert answer.code == 1
+    assert (
+        "`" not in answer.out and "pico runs has no command `sho`" in answer.err and "did you mean `show`" in answer.err
+    )

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from pico.bench import new_lab
 from pico.diagnostics import PicoError
 from pico.history.example import example_names, init_empty, make_example
 from pico.history.graph import lanes
@@ -185,3 +186,12 @@ def test_an_empty_lab_joins_the_repository_it_lies_in_and_overwrites_nothing(rep
     with pytest.raises(PicoError, match="exists already"):
         init_empty(repo)
     assert (repo / "lab.yaml").read_text() == before
+
+
+def test_an_example_inside_another_repository_is_told_to_be_one_of_its_own(tmp_path: Path) -> None:
+    assert not new_lab(tmp_path / "outer", "minimal")
+    (warned,) = new_lab(tmp_path / "outer" / "labs" / "inner", "minimal")
+    assert warned.severity == "warning" and str(tmp_path / "outer") in warned.summary
+    (tmp_path / "outer" / ".gitignore").write_text("scratch/\n")
+    assert not new_lab(tmp_path / "outer" / "scratch" / "inner", "minimal")
+    assert not new_lab(tmp_path / "outer" / "own")
