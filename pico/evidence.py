@@ -59,13 +59,13 @@ def never_here(
     """Return the tunables in which the bench differs from a state that it never had here, as far as anybody knows.
 
     It had it where the last operation on the tunable led there, or came before it `stood` so when somebody committed
-    it, or where it is at home and no operation took it away; then a hand has changed it since. What a single operation
-    changed is as somebody wanted it. Raises PicoError where the journal can't be read.
+    it; where no operation ever changed it, if it stood so then, or is at home. Then a hand has changed it since. What a
+    single operation changed is as somebody wanted it. Raises PicoError where the journal can't be read.
     """
     off = {(c.component, c.tunable) for c in diff_observed(setup, seen, state) if not c.tolerated}
     path = root / ".pico" / "journal.sqlite"
     known = _last_said(setup, path, state, off, stood) if off and path.exists() else {}
-    return {one for one in off if not known.get(one, _at_home(setup, state, one))}
+    return {one for one in off if not known.get(one, stood is not None or _at_home(setup, state, one))}
 
 
 def _last_said(

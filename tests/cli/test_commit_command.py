@@ -69,6 +69,14 @@ def test_what_a_hand_does_again_and_again_is_captured_each_time(built: Path, pic
     assert pico("commit", "-m", "by hand and by word").code == 0
 
 
+def test_a_bench_that_only_hands_move_is_captured_after_its_first_commit(shel: Path, pico: Pico) -> None:
+    assert pico("sim", "nudge", "ly_200", "--dy", "100").code == 0
+    assert "error[unapplied]" in pico("commit").err
+    assert pico("commit", "--capture").code == 0
+    assert pico("sim", "nudge", "ly_200", "--dy", "20").code == 0
+    assert pico("commit").code == 0
+
+
 def test_many_changes_fit_the_first_line_and_are_all_in_the_body(built: Path, pico: Pico) -> None:
     parts = ("p1", "p2", "lx_100", "lx_125", "ly_150", "ly_200")
     for number, part in enumerate(parts):
