@@ -323,8 +323,8 @@ def main() -> None:
     merges = sum(len(p) > 1 for p in history.parents)
     print(f"{len(ids)} commits ({merges} merges), {options.components} components in {options.files} files")
     late = cold > COLD or warm - start > WARM
-    print(f"start-up {start:.2f} s · cold {cold:.2f} s (bar {COLD:g}) · warm {warm:.2f} s,", end=" ")
-    print(f"{warm - start:.2f} beside start-up (bar {WARM:g}) · next {more:.2f} s · cache {size:.1f} MB")
+    print(f"start-up {start:.2f} s · cold {cold:.2f} s (limit {COLD:g}) · warm {warm:.2f} s,", end=" ")
+    print(f"{warm - start:.2f} beside start-up (limit {WARM:g}) · next {more:.2f} s · cache {size:.1f} MB")
     print(f"{len(found)} of {len(history.versions[-1].truth)} answers wrong", *found[:10], sep="\n  ")
     sys.exit(1 if found or late else 0)
 

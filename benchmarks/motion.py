@@ -140,7 +140,7 @@ def times(count: int, seed: int) -> str:
 
 
 def main() -> int:
-    """Print the figures; the exit code is 1 where a check fails or the median is over the bar."""
+    """Print the figures; the exit code is 1 where a check fails or the median is over its limit."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--moves", type=int, default=200)
     parser.add_argument("--parts", type=int, default=20)

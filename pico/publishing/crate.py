@@ -158,8 +158,8 @@ def _software(name: str, version: str) -> Entity:
     if name in ("pico", "python"):
         where = {"url": "https://www.python.org/"} if name == "python" else {}
         return {"@id": f"#{_slug(name)}-{_slug(version)}", **entity, **where}
-    url = f"https://pypi.org/project/{quote(name)}/{quote(version)}/"
-    return {"@id": url, **entity, "url": url}
+    package = f"pkg:pypi/{quote(name)}@{quote(version)}"  # a package URL (purl), which names no host
+    return {"@id": package, **entity, "identifier": package}
 
 
 def _license(revision: Revision) -> Iterator[Entity]:
