@@ -200,8 +200,9 @@ def unclean(folder: Path) -> Iterator[str]:
     """Yield what lies about that should not."""
     if said := ask(folder, "status", "--porcelain").strip():
         yield f"git status says {said}"
-    kernel = ("write.lock", "bench.lock")  # the kernel's locks: files that stay
-    dirty = [p for p in (folder / ".git").rglob("*.lock") if p.name not in kernel]
+    # the kernel's locks: files that stay; and that of git's own housekeeping, which git then leaves out
+    known = ("write.lock", "bench.lock", "maintenance.lock")
+    dirty = [p for p in (folder / ".git").rglob("*.lock") if p.name not in known]
     dirty += [p for p in folder.rglob("*.tmp") if ".git" not in p.parts]
     yield from (f"{p.relative_to(folder)} is left" for p in dirty)
     checked = subprocess.run(["git", "fsck", "--strict", "--no-dangling"], cwd=folder, capture_output=True, check=False)
