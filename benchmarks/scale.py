@@ -145,7 +145,7 @@ def write_lab(folder: Path, found: Arrangement, gripper: Gripper) -> None:
         f"robots: {{arm1: {{model: gantry, mount: {{x: 0, y: 0}}, gripper: {fingers}}}}}\nslots:",
         *(f"  rack/s{i}: {{x: {x}, y: {y}}}" for i, (x, y) in enumerate(rack)),
         "inventory:",
-        *(f"  {n}:\n    type: {k.name}\n    marker: {i}\n    home: rack/s{i}"
+        *(f"  {n}:\n    type: {k.name}\n    home: rack/s{i}"
           for i, (n, k) in enumerate(found.kinds.items())),
     ]  # fmt: skip
     (folder / "lab.yaml").write_text("\n".join(lab) + "\n")

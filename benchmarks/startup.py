@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 TOFU = {"--version": (0.08, 92), 100: (0.21, 119), 1000: (1.23, 188), 5000: (7.9, 509)}
-BARS = {"--version": (0.12, None), "--help": (0.12, None), 100: (0.6, None), 1000: (1.2, 150), 5000: (4.0, 350)}
+BARS = {"--version": (0.12, None), "--help": (0.12, None), 100: (0.45, 120), 1000: (0.6, 120), 5000: (1.5, 120)}
 PITCH = 100
 FILE = 25
 
@@ -36,7 +36,7 @@ def write_lab(folder: Path, count: int) -> None:
         "robots: {arm1: {model: gantry, mount: {x: 0, y: 0}}}\nslots:",
         *(f"  grid/s{i}: {{x: {x}, y: {y}}}" for i, (x, y) in enumerate(places)),
         "inventory:",
-        *(f"  c{i:05}:\n    type: linear_polarizer\n    marker: {i}\n    home: grid/s{i}" for i in range(count)),
+        *(f"  c{i:05}:\n    type: linear_polarizer\n    home: grid/s{i}" for i in range(count)),
     ]
     (folder / "lab.yaml").write_text("\n".join(lab) + "\n")
     (folder / "state").mkdir()

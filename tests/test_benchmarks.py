@@ -1,0 +1,68 @@
+"""A benchmark that nobody runs rots: each runs here at its smallest size. What they measure is not judged."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+BENCHMARKS = ROOT / "benchmarks"
+SWAP = {"n": 2, "density": 0.3, "radius": 70.0, "start": [[300, 300], [700, 300]], "goal": [[700, 300], [300, 300]],
+        "min_staging": 1}  # fmt: skip
+
+SMALLEST = {
+    "bisecting": "--commits 8 --seeds 1 --pairs 1",
+    "blame": "--commits 12 --components 10 --files 2 --merges --runs",
+    "calibration": "--only odd --scenes 1",
+    "carrying": "--components 30 --commits 5 --repeat 1",
+    "commits": "--processes 2 --each 1 --kills 2 --capture 30",
+    "crash_points": "--crashes 300",
+    "data": "--commits 20 --objects 3 --size 0.1 --kills 2",
+    "eyes": "--scenes 1 --renderer raycast",
+    "identical": "",
+    "kills": "--kills 50 --applies 1",
+    "locks": "--trials 1",
+    "makespan": "--labs shel",
+    "merges": "--cases 20 --git 2 --failing 2 --impossible 2",
+    "motion": "--moves 4 --parts 6",
+    "pick_and_place": "--moves 1 --sight exact",
+    "planning_fuzz": "--cases 5 --most 8",
+    "planted_bugs": "--seeds 500 --only start",
+    "runs": "--faults 2 --interrupts 2 --pairs 1 --journal 20 --scheduler 1",
+    "scale": "--components 40 --moves 6 --check",
+    "scan": "--looks 1 --lab labs/minimal",
+    "size": "",
+    "staging": "INSTANCES --tables 1",
+    "startup": "--sizes 10 --repeat 1",
+    "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
+    "twin_speed": "--moves 1",
+}
+ELSEWHERE = {"identical": "tests/planning/test_identical.py"}
+"""Those that have a slow test of their own."""
+TIMED = {"carrying", "scale", "startup"}
+"""Those that end with 1 where something took too long, which another machine's load decides."""
+
+
+def test_every_benchmark_has_a_smallest_size() -> None:
+    commands = {p.stem for p in BENCHMARKS.glob("*.py") if '__name__ == "__main__"' in p.read_text()}
+    assert commands == SMALLEST.keys()
+    assert all((ROOT / path).exists() for path in ELSEWHERE.values())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(SMALLEST.keys() - ELSEWHERE.keys()))
+def test_a_benchmark_runs(name: str, tmp_path: Path) -> None:
+    (tmp_path / "instances.json").write_text(json.dumps({"instances": [SWAP]}))
+    words = SMALLEST[name].replace("INSTANCES", str(tmp_path / "instances.json")).split()
+    done = subprocess.run(
+        [sys.executable, f"benchmarks/{name}.py", *words],
+        cwd=ROOT, env=os.environ | {"TMPDIR": str(tmp_path)}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    late = name in TIMED and "Traceback" not in done.stderr
+    assert done.returncode == 0 or late, done.stdout + done.stderr
+    assert done.stdout.strip()
