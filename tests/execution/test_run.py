@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import AsyncGenerator, Awaitable, Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -95,6 +95,30 @@ def test_a_move_within_tolerance_does_not_make_a_plan_stale_and_the_part_ends_at
     result, _ = asyncio.run(execute(bench, planned))
     assert result.outcome == "done"
     assert asyncio.run(bench.observe()).components["p2"].pose == Pose(520, 420, 0)
+
+
+def test_a_part_that_was_turned_in_its_slot_since_is_not_picked_as_planned(bench: SimBackend) -> None:
+    """In its slot it still is right, whatever its yaw; but the jaws would close along another side of it."""
+    planned = asyncio.run(plan_to(bench, changed(C3, {"p2": {"pose": Pose(520, 420, 30)}})))
+    disturb(bench, lambda w: nudge(SETUP, w, "p2", dyaw=8.0))
+    found = refusal(bench, planned)
+    assert found.exit_code == ExitCode.STALE
+    assert "p2 was moved by 0 mm and 8° from" in str(found)
+
+
+def test_what_the_backend_says_of_another_run_is_not_told_of_this_one(bench: SimBackend) -> None:
+    planned, real = asyncio.run(plan_to(bench, C3)), bench.events
+
+    async def both() -> AsyncGenerator[Event, None]:
+        async for event in real():
+            yield replace(event, run="another", time=1e6)
+            yield event
+
+    bench.events = both  # type: ignore[method-assign]
+    result, events = asyncio.run(execute(bench, planned))
+    assert {event.run for event in events} == {"r1"}
+    assert [event.seq for event in events] == list(range(1, len(events) + 1))
+    assert result.outcome == "done" and result.seconds < 1000
 
 
 def while_running(

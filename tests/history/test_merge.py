@@ -120,6 +120,22 @@ def test_a_comment_on_what_the_other_side_took_out_survives() -> None:
     assert found.clean and b"# drifts" in found.data and ("m1", "tilt") not in state(found.data.decode())
 
 
+def test_comments_in_a_list_that_both_sides_changed_are_a_conflict_and_never_lost() -> None:
+    base = BASE + "expect:\n  - that: m1.tip > 0\n  - that: m1.tilt > 0  # since May\n"
+    ours, theirs = base.replace("# since May", "# by ours"), base.replace("# since May", "# by theirs")
+    found = merged(ours, theirs, base)
+    assert not found.clean and b"# by ours" in found.data and b"# by theirs" in found.data
+
+
+@pytest.mark.parametrize(("ours", "theirs"), [("true", "1"), ("false", "0"), ("1", '"1"')])
+def test_what_only_looks_the_same_to_python_is_a_conflict(ours: str, theirs: str) -> None:
+    found = merged(
+        *(BASE.replace("emission: true", f"emission: {value}") for value in (ours, theirs)),
+        BASE.replace("emission: true", "emission: null"),
+    )
+    assert not found.clean and [c.address for c in found.conflicts] == ["laser.emission"]
+
+
 GROUPS = {"m1": (("tip", "tilt"),)}
 
 

@@ -130,6 +130,20 @@ def test_a_foot_makes_it_stand_and_a_head_beside_it_makes_it_topple():
     assert blocked.by == pytest.approx(24)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_center_of_mass_keeps_three_millimetres_from_the_edge(side):
+    """A foot that holds all of the mass, `off` mm beside the middle of a base of 60 mm."""
+
+    def standing(off):
+        foot = Body(name="foot", shape="box", size=(20, 20, 10), at=(side * off, 0, 5))
+        return pillar(footprint=Footprint(box=(60, 60)), bodies=(foot,), mass=2.0)
+
+    assert check_stability("foot", standing(26.9)) is None
+    blocked = refused(check_stability("foot", standing(27.5)))
+    assert "its center of mass is only 2.5 mm from the edge of what it stands on" in blocked.text
+    assert blocked.by == pytest.approx(0.5) and blocked.help.startswith("3 mm are needed")
+
+
 def test_a_light_part_that_is_held_high_is_pushed_over():
     light = pillar(footprint=Footprint(box=(40, 40)), mass=0.04)
     blocked = refused(check_stability("card", light))

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pico.manifest.load import load_folder
+from pico.model.catalog import Grasp
 from pico.model.lab import Box2, KeepOut, Mount, Robot, Slot
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
@@ -58,6 +59,17 @@ def test_a_part_must_fit_between_the_jaws():
     blocked = refused(MOTION.reach("arm1", "wide", Pose(520, 420), 0))
     assert (blocked.kind, blocked.by) == ("width", pytest.approx(16))
     assert "80 mm wide" in blocked.text and "opens 84 mm" in blocked.text
+
+
+def test_what_stands_above_the_grasp_must_fit_under_the_palm():
+    """From the tool center point to the palm are 72 mm."""
+    for height, by in ((172.0, None), (172.5, 0.5), (200.0, 28.0)):
+        setup = bench()
+        geometry = replace(PART, height=height, bodies=(), grasp=Grasp(height=100, width=34))
+        catalog = {**setup.catalog, "part": replace(setup.catalog["part"], geometry=geometry)}
+        found = ArmMotion(replace(setup, catalog=catalog)).reach("arm1", "a", Pose(520, 420, 30), 0)
+        assert (found and found.by) == (by if by is None else pytest.approx(by))
+        assert found is None or "fingers have room for 72 mm" in found.text
 
 
 @given(st.floats(40, 1160), st.floats(40, 860), st.floats(-180, 180))

@@ -77,6 +77,39 @@ def test_independent_moves_do_not_wait_for_one_another() -> None:
     assert [o.after for o in planned(setup, seen, wanted).operations if o.primitive == "move"] == [(), ()]
 
 
+def test_the_arm_parks_when_all_that_it_moves_has_been_moved() -> None:
+    setup = bench({"a": "block", "b": "block"})
+    seen, wanted = see(setup, {"a": (200, 300), "b": (500, 300)}), want({"a": (300, 300), "b": (600, 300)})
+    *moved, park = planned(setup, seen, wanted).operations
+    assert park.primitive == "park" and set(park.after) == {o.id for o in moved}
+
+
+def test_a_chain_of_moves_is_waited_for_by_its_last() -> None:
+    setup = bench({"a": "block", "b": "block"})
+    seen, wanted = see(setup, {"a": (300, 300), "b": (500, 300)}), want({"a": (500, 300), "b": (700, 300)})
+    _, second, park = planned(setup, seen, wanted).operations
+    assert park.primitive == "park" and park.after == (second.id,)
+
+
+def test_who_leaves_by_less_than_the_margin_must_leave_before_the_other_arrives() -> None:
+    for margin, waits in ((2.0, True), (0.5, False)):
+        setup = bench({"a": part("one_way"), "b": part("one_way")}, margins=Margins(body=margin, fingers=0))
+        seen, wanted = see(setup, {"a": (300, 100), "b": (300, 361)}), want({"a": (300, 300), "b": (500, 361)})
+        made = planned(setup, seen, wanted)
+        first, second, _ = made.operations
+        assert (first.component == "b" and second.after == (first.id,)) is waits, margin
+        assert check(setup, seen, wanted, made) == []
+
+
+def test_a_part_is_not_put_down_meanwhile_where_it_covers_another_slot() -> None:
+    for apart, staged in ((30, False), (100, True)):
+        slots = {"s1": Slot(x=60, y=60), "s2": Slot(x=60 + apart, y=60)}
+        setup = bench({"a": "block", "b": "block"}, slots)
+        seen, wanted = see(setup, {"a": (300, 300), "b": (500, 300)}), want({"a": (500, 300), "b": (300, 300)})
+        made = planned(setup, seen, wanted)
+        assert (made.staging.count == 1, made.errored) == (staged, not staged)
+
+
 def test_turning_in_place_is_one_move() -> None:
     setup = bench({"a": "block"})
     made = planned(setup, see(setup, {"a": (300, 300)}), want({"a": (300, 300, 30)}))

@@ -6,6 +6,7 @@ from planning_benches import bench, part, planned, see, want
 
 from pico.diagnostics import Position, SourceRange
 from pico.model.lab import Box2, KeepOut, Margins, Slot
+from pico.model.plan import Plan
 
 
 def test_an_overlap_names_both_the_depth_and_the_nearest_free_place() -> None:
@@ -42,6 +43,38 @@ def test_two_goals_that_overlap_are_told_once() -> None:
     made = planned(setup, seen, want({"a": (505, 420), "b": (520, 420)}))
     assert len(made.diagnostics) == 1
     assert "b is to stand at (520, 420)" in made.diagnostics[0].detail
+
+
+def test_goals_that_keep_less_than_the_margin_are_told_by_how_much() -> None:
+    setup = bench({"a": "block", "b": "block"}, margins=Margins(body=4, fingers=0))
+    seen = see(setup, {"a": (200, 420), "b": (300, 420)})
+    (found,) = planned(setup, seen, want({"a": (437, 420), "b": (500, 420)})).diagnostics
+    assert found.summary == (
+        "a cannot stand at (437, 420, 0°): it would come within 3 mm of b, and 4 mm must stay free"
+    )
+    assert found.detail == "b is to stand at (500, 420); the bases need 64 mm between centers along x"
+
+
+def keeping_out(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Plan:
+    """A block goes to (500, 300), its jaws closing along x: its fingers are 15 to 39 mm from there, as low as 90 mm."""
+    zone = KeepOut(area=Box2(x=x, y=y), z=z)
+    setup = bench({"a": part("one_way")}, keep_out={"lamp": zone})
+    return planned(setup, see(setup, {"a": (200, 300)}), want({"a": (500, 300)}))
+
+
+def test_fingers_keep_out_of_a_zone_that_the_part_itself_leaves_free() -> None:
+    beside = ((532.0, 560.0), (290.0, 310.0))
+    (found,) = keeping_out(*beside, (100, 300)).diagnostics
+    assert (found.severity, found.code) == ("error", "blocked")
+    assert not keeping_out((540.0, 560.0), (290.0, 310.0), (100, 300)).errored
+    assert not keeping_out(*beside, (0, 80)).errored  # it ends below the fingers
+
+
+def test_a_zone_above_a_part_is_not_in_its_way() -> None:
+    between_the_fingers = ((490.0, 510.0), (315.0, 328.0))
+    assert not keeping_out(*between_the_fingers, (150, 300)).errored
+    (found,) = keeping_out(*between_the_fingers, (130, 300)).diagnostics
+    assert "it would reach into keep-out lamp" in found.summary
 
 
 def test_nobody_is_told_to_move_what_is_bolted() -> None:

@@ -50,6 +50,11 @@ def shutter(to: str, id: str, after: tuple[str, ...] = ()) -> Operation:
     return Operation(id=id, primitive="set", component="laser", arguments=arguments, reason=WHY, after=after)
 
 
+def emission(to: bool, id: str = "e") -> Operation:
+    arguments: dict[str, Any] = {"tunable": "emission", "from": None, "to": to}
+    return Operation(id=id, primitive="set", component="laser", arguments=arguments, reason=WHY)
+
+
 def plan(setup: Setup, *operations: Operation) -> Plan:
     return Plan(
         lab=LabRef(name="shel", digest=setup.digest()), backend="sim", fidelity="kinematic", base=Base(),
@@ -125,7 +130,9 @@ def test_a_zone_that_a_goal_would_stand_in_is_named() -> None:
     from pico.model.lab import Box2, KeepOut
 
     setup = shel(PolicyRule(name="r", that="operations.all(o, components[o.component].keep_out == ['vent'])"))
-    zones = {"vent": KeepOut(area=Box2(x=(500, 540), y=(400, 440))), "far": KeepOut(area=Box2(x=(0, 9), y=(0, 9)))}
+    there = Box2(x=(500, 540), y=(400, 440))
+    zones = {"vent": KeepOut(area=there), "far": KeepOut(area=Box2(x=(0, 9), y=(0, 9)))}
+    zones |= {"lamp": KeepOut(area=there, z=(300, 400))}
     setup = replace(setup, lab=replace(setup.lab, keep_out=zones))
     assert judged(setup, plan(setup, move()), seen(setup)).policy[0]["holds"]
 
@@ -141,6 +148,10 @@ def test_a_zone_that_a_goal_would_stand_in_is_named() -> None:
     ((shutter("closed", "c"), move(after=("c",)), shutter("open", "o", ("c",))), {}, ["laser"]),
     ((shutter("open", "o"), shutter("closed", "c", ("o",)), move(after=("c",))), {}, []),
     ((move(), shutter("open", "o")), {"shutter": ObservedValue(value="closed")}, ["laser"]),
+    ((move(), emission(True)), {"emission": ObservedValue(value=False)}, ["laser"]),
+    ((emission(False), move(after=("e",))), {"emission": ObservedValue(value=False)}, []),
+    ((emission(False), move(after=("e",))), {}, ["laser"]),
+    ((move(),), {"emission": ObservedValue(value=False, status="commanded")}, ["laser"]),
 ])  # fmt: skip
 def test_a_beam_is_closed_only_where_the_order_of_the_plan_says_so(
     operations: tuple[Operation, ...], values: dict[str, ObservedValue], opened: list[str]
