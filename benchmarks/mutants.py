@@ -1,0 +1,344 @@
+"""Whether the tests bite: plants one mutant at a time in a copy of the tree, and runs the fast tests that execute it.
+
+    python benchmarks/mutants.py --seed 1 --count 200 --map map.json
+    python benchmarks/mutants.py --seed 1 --count 4 --rooms policy --tests tests/policy
+    python benchmarks/mutants.py --by-hand
+
+A seed draws the mutants from all that `mutating.py` can make of the rooms, each as likely as any other. First the tests
+are run once to see which lines each of them executes (minutes; `--map` keeps that in a file, and only tests that have
+changed since are run again). Then each mutant meets those that execute its line, the cheapest first and those of its
+own room before others, up to so many CPU seconds, until one fails. `--by-hand` plants the mutants of
+`mutants_by_hand.py` instead, and runs the tests that each names.
+
+Prints the survivors as differences, and a table by room; a mutant that can't be told from the original counts as a
+survivor. The exit code is 1 where more than 15 % survive, or one of those made by hand.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import hashlib
+import json
+import os
+import queue
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from mutants_by_hand import BY_HAND
+from mutating import Mutant, is_python, mutants, planted
+
+ROOT = Path(__file__).resolve().parent.parent
+ROOMS = {
+    "planning": ("planning", "staging"),
+    "execution": ("execution",),
+    "policy": ("policy",),
+    "merge": ("merge", "merging.py"),
+    "motion": ("motion",),
+    "vision": ("vision",),
+}
+"""The rooms, and the names of the folders and files under `pico/` that are theirs."""
+NEAR = {"merge": ("history",)}
+"""Test folders of a room that have another name."""
+BAR = 0.15
+PROCESSES = 2
+SECONDS = 40.0
+
+Tests = dict[str, dict[str, Any]]
+"""For each test, by pytest's name, its CPU `seconds` and the `lines` that it executes, by file."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of a mutant: killed, survived or timed out; `by` which test, of how many."""
+
+    mutant: Mutant
+    outcome: str
+    by: str
+    tests: int
+
+
+def room_of(file: str) -> str | None:
+    """Return the room that a file of `pico/` belongs to."""
+    parts = Path(file).parts[1:]
+    return next((room for room, names in ROOMS.items() if any(name in parts for name in names)), None)
+
+
+def sources(rooms: Iterable[str]) -> dict[str, str]:
+    """Return the text of each module of some rooms."""
+    files = (file.relative_to(ROOT).as_posix() for file in sorted((ROOT / "pico").rglob("*.py")))
+    return {file: (ROOT / file).read_text() for file in files if room_of(file) in rooms}
+
+
+def drawn(texts: dict[str, str], seed: int, count: int) -> list[Mutant]:
+    """Return so many mutants of some modules, the same for the same seed and text."""
+    every = [mutant for file, text in texts.items() for mutant in mutants(file, text)]
+    random.Random(seed).shuffle(every)
+    good = (mutant for mutant in every if is_python(mutant.apply(texts[mutant.file])))
+    return [mutant for mutant, _ in zip(good, range(count), strict=False)]
+
+
+class Workers:
+    """Processes with the tests loaded, each in a copy of the tree of its own."""
+
+    def __init__(self, folder: Path, tests: Sequence[str]) -> None:
+        self.all = [self._started(folder / str(n), tests) for n in range(PROCESSES)]
+        self.names: list[str] = [json.loads(_line(worker))["tests"] for worker in self.all].pop()
+
+    @staticmethod
+    def _started(folder: Path, tests: Sequence[str]) -> subprocess.Popen[str]:
+        copy = folder / "tree"
+        listed = subprocess.run(
+            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+            cwd=ROOT, capture_output=True, text=True, check=True,
+        ).stdout  # fmt: skip
+        for name in filter(None, listed.split("\0")):
+            if (ROOT / name).is_file():
+                (copy / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(ROOT / name, copy / name)
+        env = os.environ | {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "CI": "1"}
+        env |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(folder)}
+        command = [sys.executable, str(Path(__file__).with_name("mutant_worker.py")), *tests]
+        return subprocess.Popen(
+            command, cwd=copy, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )  # fmt: skip
+
+    def answers(self, jobs: Sequence[dict[str, Any]]) -> Iterator[tuple[int, dict[str, Any]]]:
+        """Yield the answer to each job with its number, as they come."""
+        waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
+        done: queue.SimpleQueue[tuple[int, dict[str, Any]] | Exception] = queue.SimpleQueue()
+        for number in range(len(jobs)):
+            waiting.put(number)
+
+        def work(worker: subprocess.Popen[str]) -> None:
+            assert worker.stdin
+            try:
+                while True:
+                    number = waiting.get_nowait()
+                    worker.stdin.write(json.dumps(jobs[number]) + "\n")
+                    worker.stdin.flush()
+                    done.put((number, json.loads(_line(worker))))
+            except queue.Empty:
+                return
+            except Exception as exc:
+                done.put(exc)
+
+        for worker in self.all:
+            threading.Thread(target=work, args=(worker,), daemon=True).start()
+        for _ in jobs:
+            answer = done.get()
+            if isinstance(answer, Exception):
+                raise answer
+            yield answer
+
+    def end(self) -> None:
+        for worker in self.all:
+            assert worker.stdin
+            worker.stdin.close()
+            worker.wait()
+
+
+def _line(worker: subprocess.Popen[str]) -> str:
+    assert worker.stdout
+    line = worker.stdout.readline()
+    while line and not line.startswith("{"):
+        line = worker.stdout.readline()
+    if not line:
+        raise SystemExit("a worker ended; run its tests by hand in the tree as it is")
+    return line
+
+
+@contextmanager
+def running(tests: Sequence[str]) -> Iterator[Workers]:
+    """Have workers for some test files or folders."""
+    with tempfile.TemporaryDirectory() as folder:
+        workers = Workers(Path(folder), tests)
+        try:
+            yield workers
+        finally:
+            workers.end()
+
+
+def mapped(workers: Workers, texts: dict[str, str], kept: Path | None) -> Tests:
+    """Return what each test executes of some modules, from the file where it was kept as far as it still holds."""
+    known = json.loads(kept.read_text()) if kept and kept.exists() else {}
+    now = {file: _digest(ROOT / file) for file in sorted({name.partition("::")[0] for name in workers.names})}
+    files = sorted(texts)
+    fresh = {f: k for f, k in known.items() if now.get(f) == k["digest"] and set(files) <= set(k["modules"])}
+    jobs = [{"file": file, "files": files} for file in now if file not in fresh]
+    jobs.sort(key=lambda job: -(ROOT / str(job["file"])).stat().st_size)
+    modules = {file: hashlib.sha256(text.encode()).hexdigest() for file, text in texts.items()}
+    for n, (number, answer) in enumerate(workers.answers(jobs), 1):
+        file = str(jobs[number]["file"])
+        fresh[file] = {"digest": now[file], "modules": modules, "tests": answer["tests"]}
+        print(f"\r{n} of {len(jobs)} test files mapped", end="", file=sys.stderr, flush=True)
+    if kept:
+        kept.write_text(json.dumps(fresh))
+    return {
+        name: {**test, "changed": {m for m, digest in modules.items() if entry["modules"].get(m) != digest}}
+        for entry in fresh.values()
+        for name, test in entry["tests"].items()
+    }
+
+
+def _digest(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+class Matching:
+    """Which tests execute a line. Where a module has changed since it was mapped, a test executes all or none of it."""
+
+    def __init__(self, tests: Tests, texts: dict[str, str]) -> None:
+        self.tests, self.texts = tests, texts
+        self.at: defaultdict[tuple[str, int], set[str]] = defaultdict(set)
+        self.of: defaultdict[str, set[str]] = defaultdict(set)
+        for name, test in tests.items():
+            for file, lines in test["lines"].items():
+                if file in test["changed"]:
+                    self.of[file].add(name)
+                for line in lines:
+                    self.at[file, line].add(name)
+
+    def __call__(self, mutant: Mutant, budget: float) -> tuple[list[str], float]:
+        """Return the tests that a mutant meets, in order, and their CPU seconds."""
+        found = self._of_function(mutant) if mutant.function else self._of_name(mutant.name)
+        room = room_of(mutant.file) or ""
+        near = tuple(f"tests/{name}/" for name in (*ROOMS[room], *NEAR.get(room, ())))
+
+        def cost(name: str) -> tuple[float, str]:
+            return (0.02 + float(self.tests[name]["seconds"])) * (1 if name.startswith(near) else 3), name
+
+        chosen, seconds = [], 0.0
+        for name in sorted(found, key=cost):
+            seconds += 0.02 + self.tests[name]["seconds"]
+            if seconds > budget and chosen:
+                break
+            chosen.append(name)
+        return chosen, seconds
+
+    def _of_function(self, mutant: Mutant) -> set[str]:
+        lines = range(mutant.first, mutant.line + 1)
+        return self.of[mutant.file].union(*(self.at[mutant.file, line] for line in lines))
+
+    def _of_name(self, name: str) -> set[str]:
+        word = re.compile(rf"\b{re.escape(name)}\b")
+        found: set[str] = set()
+        for file, text in self.texts.items():
+            for number, line in enumerate(text.splitlines(), 1):
+                if name and word.search(line):
+                    found |= self.at[file, number] | self.of[file]
+        return found
+
+
+def judged(workers: Workers, made: Sequence[Mutant], tests: Sequence[tuple[list[str], float]]) -> list[Verdict]:
+    """Return what became of each mutant that some tests met."""
+    verdicts: dict[int, Verdict] = {}
+    met = [n for n, (names, _) in enumerate(tests) if names]
+    jobs = [{"mutant": asdict(made[n]), "tests": tests[n][0], "seconds": tests[n][1]} for n in met]
+    for done, (number, answer) in enumerate(workers.answers(jobs), 1):
+        n = met[number]
+        verdicts[n] = Verdict(made[n], answer["outcome"], answer.get("by", ""), len(tests[n][0]))
+        print(f"\r{done} of {len(jobs)} mutants judged", end="", file=sys.stderr, flush=True)
+    return [verdicts.get(n) or Verdict(mutant, "survived", "", 0) for n, mutant in enumerate(made)]
+
+
+def table(verdicts: Sequence[Verdict]) -> str:
+    """Return a line a room: made, killed, survived, timed out."""
+    columns = ("made", "killed", "survived", "timed out")
+    counts = Counter((room_of(v.mutant.file), what) for v in verdicts for what in ("made", v.outcome))
+    rooms = [room for room in ROOMS if counts[room, "made"]]
+    rows = [(room, *(counts[room, column] for column in columns)) for room in rooms]
+    rows.append(("all", *(sum(row[n] for row in rows) for n in range(1, 5))))
+    lines = [f"{'room':<10}" + "".join(f"{c:>11}" for c in columns) + f"{'survive':>9}"]
+    for name, *numbers in rows:
+        lines.append(f"{name:<10}" + "".join(f"{n:>11}" for n in numbers) + f"{numbers[2] / (numbers[0] or 1):>8.1%}")
+    return "\n".join(lines)
+
+
+def shown(verdict: Verdict, text: str) -> str:
+    """Return a survivor as a difference."""
+    mutant = verdict.mutant
+    lines = difflib.unified_diff(text.splitlines(), mutant.apply(text).splitlines(), n=0, lineterm="")
+    changed = "\n".join(line for line in list(lines)[2:] if not line.startswith("@@"))
+    met = f"{verdict.tests} tests" if verdict.tests else "no test executes it"
+    return f"{mutant.file}:{mutant.line} ({mutant.kind}; {verdict.outcome}, {met})\n{changed}"
+
+
+def sampled(given: argparse.Namespace) -> list[Verdict]:
+    """Judge a sample of mutants."""
+    texts = sources(given.rooms)
+    made = drawn(texts, given.seed, given.count)
+    with running(given.tests) as workers:
+        matching = Matching(mapped(workers, texts, given.map), texts)
+        return judged(workers, made, [matching(mutant, given.seconds) for mutant in made])
+
+
+def by_hand(only: str) -> list[Verdict]:
+    """Judge the mutants made by hand, each by the tests that it names."""
+    texts = sources(ROOMS) | {
+        f.relative_to(ROOT).as_posix(): f.read_text() for f in sorted((ROOT / "pico").rglob("*.py"))
+    }
+    chosen = [one for one in BY_HAND if only in one.means]
+    made = []
+    for one in chosen:
+        where = [file for file, text in texts.items() if one.right in text]
+        if len(where) != 1 or texts[where[0]].count(one.right) != 1:
+            raise SystemExit(f"`{one.right}` stands in {', '.join(where) or 'no file'}, not once: {one.means}")
+        made.append(planted(where[0], texts[where[0]], one.right, one.wrong))
+    files = {name: _test_file(name) for name in sorted({one.tests for one in chosen})}
+    with running(sorted(files.values())) as workers:
+        tests = [[name for name in workers.names if name.startswith(f"{files[one.tests]}::")] for one in chosen]
+        as_it_is = judged(workers, [replace(m, wrong=m.right) for m in made], [(names, SECONDS) for names in tests])
+        if failed := [v.by for v in as_it_is if v.outcome != "survived"]:
+            raise SystemExit(f"without any mutant these do not pass: {', '.join(failed)}")
+        return judged(workers, made, [(names, SECONDS) for names in tests])
+
+
+def _test_file(name: str) -> str:
+    found = sorted((ROOT / "tests").rglob(name))
+    if len(found) != 1:
+        raise SystemExit(f"there are {len(found)} test files {name}")
+    return found[0].relative_to(ROOT).as_posix()
+
+
+def main() -> int:
+    """Make mutants, judge them and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--rooms", nargs="+", choices=sorted(ROOMS), default=list(ROOMS))
+    parser.add_argument("--tests", nargs="+", default=["tests"], help="test files and folders to choose from")
+    parser.add_argument("--map", type=Path, help="a file that keeps which test executes what")
+    parser.add_argument(
+        "--seconds", type=float, default=SECONDS, help="CPU seconds of tests that a mutant meets at most"
+    )
+    parser.add_argument("--by-hand", action="store_true", help="the mutants made by hand")
+    parser.add_argument("--only", default="", help="of those made by hand, those that mean this")
+    given = parser.parse_args()
+    verdicts = by_hand(given.only) if given.by_hand else sampled(given)
+    print(file=sys.stderr)
+    for verdict in verdicts:
+        if verdict.outcome != "killed":
+            print(shown(verdict, (ROOT / verdict.mutant.file).read_text()), end="\n\n")
+    if given.by_hand:
+        for one, verdict in zip([one for one in BY_HAND if given.only in one.means], verdicts, strict=True):
+            print(f"{verdict.outcome:<10} {one.means}: {verdict.by.rpartition('::')[2]}")
+    else:
+        print(table(verdicts))
+    survived = sum(v.outcome == "survived" for v in verdicts)
+    return 1 if survived > (0 if given.by_hand else BAR * len(verdicts)) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

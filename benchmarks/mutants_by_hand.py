@@ -1,0 +1,75 @@
+"""Mutants made by hand, each a thing that somebody might get wrong and that would hurt: see `mutants.py --by-hand`."""
+
+# ruff: noqa: E501 (a line of the product is quoted whole)
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class ByHand:
+    """What it means, text that stands once under `pico/`, what becomes of it, and the test file that kills it."""
+
+    means: str
+    right: str
+    wrong: str
+    tests: str
+
+
+BY_HAND: tuple[ByHand, ...] = (
+    ByHand("a laser that the plan turns on counts as dark",
+        'return _read(seen, laser, "emission") is False and not lit', 'return _read(seen, laser, "emission") is False', "test_rules.py"),
+    ByHand("a part turned in its place since is picked as planned",
+        'if away > tolerance.position or turned > tolerance.yaw:\n            text = f"the plan is stale', 'if away > tolerance.position:\n            text = f"the plan is stale', "test_run.py"),
+    ByHand("the simulated hand picks what was turned in its place",
+        "    if away > tolerance.position or turned > tolerance.yaw:\n        text = f\"{name} stands", "    if away > tolerance.position:\n        text = f\"{name} stands", "test_sim_backend.py"),
+    ByHand("an arm may park while its move still runs",
+        "after=tuple(str(k) for k in own if k not in waited),", "after=(),", "test_plans.py"),
+    ByHand("no margin between the goals of two parts",
+        "grid.conflicts(goal_shape(mover, mover.places[goal]), margin)", "grid.conflicts(goal_shape(mover, mover.places[goal]), 0.0)", "test_refusals.py"),
+    ByHand("no margin between a part that arrives and what stands there",
+        "mover.places[place].slot, lab.margins.body", "mover.places[place].slot, 0.0", "test_plans.py"),
+    ByHand("a staged part covers another slot",
+        "return any(other != slot for other in self._mouths.conflicts(shape, 0.0))", "return False", "test_plans.py"),
+    ByHand("the fingers reach into a keep-out",
+        'if any(reaches(k, lowest, float("inf")) and conflict(zone, outline(k)) for k in lab.keep_out.values()):', "if False:", "test_refusals.py"),
+    ByHand("the fingers avoid a keep-out that ends below them",
+        'if any(reaches(k, lowest, float("inf")) and conflict(zone, outline(k)) for k in lab.keep_out.values()):',
+        "if any(conflict(zone, outline(k)) for k in lab.keep_out.values()):", "test_refusals.py"),
+    ByHand("a keep-out has no heights",
+        "return keep_out.z[0] <= highest and keep_out.z[1] >= lowest", "return True", "test_tables.py"),
+    ByHand("a goal is refused for a keep-out above the part",
+        "return [z for z in zones if reaches(keep_out[z], 0.0, height) and conflict(shape, outline(keep_out[z]))]",
+        "return [z for z in zones if conflict(shape, outline(keep_out[z]))]", "test_refusals.py"),
+    ByHand("a place is excluded for a keep-out above the part",
+        "if any(reaches(k, 0.0, mover.geometry.height) and conflict(shape, outline(k)) for k in lab.keep_out.values()):",
+        "if any(conflict(shape, outline(k)) for k in lab.keep_out.values()):", "test_refusals.py"),
+    ByHand("a rule is told of a keep-out above the part",
+        "zones = {k: z for k, z in setup.lab.keep_out.items() if reaches(z, 0.0, geometry.height)}", "zones = setup.lab.keep_out", "test_rules.py"),
+    ByHand("the arm refuses a place for a keep-out above the part",
+        "if gap < 0 and tabletop.reaches(zone, 0.0, geometry.height):", "if gap < 0:", "test_reach.py"),
+    ByHand("the error of the calibration is left out of the uncertainty",
+        "position=math.hypot(noise.position, accuracy.position)", "position=noise.position", "test_poses.py"),
+    ByHand("the error of the calibration is left out of the uncertainty of the yaw",
+        "yaw=math.hypot(noise.yaw, accuracy.yaw)", "yaw=noise.yaw", "test_poses.py"),
+    ByHand("a rigid fit may mirror",
+        "np.diag([1.0, 1.0, np.linalg.det(u @ vt)])", "np.diag([1.0, 1.0, 1.0])", "test_rigid.py"),
+    ByHand("what the lens bends is bent the other way",
+        "view.marker.corners - (fitted - corners)", "view.marker.corners + (fitted - corners)", "test_poses.py"),
+    ByHand("a part may stand with its mass over its edge",
+        "if edge < EDGE:", "if edge < 0:", "test_blocked.py"),
+    ByHand("the edge that a part must keep is twice as wide",
+        "EDGE = 3.0", "EDGE = 6.0", "test_blocked.py"),
+    ByHand("nothing is too tall for the room above the fingers",
+        "if above > room:", "if above > 2 * room:", "test_reach.py"),
+    ByHand("the jaws need no time to settle",
+        "return abs(opening - width) / JAW_SPEED + JAW_SETTLE", "return abs(opening - width) / JAW_SPEED", "test_timing.py"),
+    ByHand("a merge may lose comments",
+        "return all(held[comment] >= times for comment, times in plan.remarks.items())", "return True", "test_merge.py"),
+    ByHand("a comment that one side added is lost in a merge entry by entry",
+        "return [*blank, *kept, *shared, *(line for block in sorted(added) for line in block)]", "return [*blank, *kept, *shared]", "test_merge.py"),
+    ByHand("true equals 1 in a merge",
+        "value = node.value\n        number = isinstance(value, int | float) and not isinstance(value, bool)", "value = node.value\n        number = isinstance(value, int | float)", "test_merge.py"),
+    ByHand("events of another run are told as those of this one",
+        "if event.run == self._run:", "if event.run is not None:", "test_run.py"),
+)  # fmt: skip
