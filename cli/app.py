@@ -14,7 +14,8 @@ import typer
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
 from .commands import register
-from .session import Session, write
+from .output import write
+from .session import Session
 from .summary import COMMANDS, MOVERS
 
 LOCK_TIMEOUT = "--lock-timeout"
@@ -117,7 +118,7 @@ def run(words: list[str]) -> int:
         if isinstance(exc, KeyboardInterrupt) and sys.stderr.isatty():
             write(sys.stderr, "")  # the terminal shows ^C where the cursor was
         if session.debug:
-            traceback.print_exc()
+            write(sys.stderr, traceback.format_exc(), end="")
         session.report(found)
     return int(code or 0)
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
-from .running import Screen, interrupts
+from .output import write
+from .running import Screen, watched
 from .session import Session
 from .views import bisect as view
 from .views.run import Progress
@@ -76,9 +78,7 @@ def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
         return 0.0, ExitCode.DONE
     run = bench.run(plan)
     screen = Quiet(session, Progress(plan))
-    with interrupts(run):
-        for event in run:
-            screen.show(event)
+    watched(run, screen.show)
     screen.clear()
     report = run.report
     if report.outcome == "done" and not report.remaining and not report.absent:
@@ -100,9 +100,7 @@ class Quiet(Screen):
 
     def clear(self) -> None:
         if self.terminal:
-            import sys
-
-            sys.stdout.write("\r\x1b[K")
+            write(sys.stdout, "", end="", over=True)
 
 
 def _over(session: Session, bench: Bench, search: Bisection) -> int:

@@ -10,15 +10,21 @@ from collections.abc import Sequence
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code (design: `pico.diagnostics.ExitCode`)."""
     words = list(sys.argv[1:] if argv is None else argv)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by who started it
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a terminal that can't show ✓ shows ? instead of failing
     at_once = _at_once(words)
     if at_once is None:
         try:
-            from .app import run
+            from .ending import ended_by_signals
 
-            return run(words)
+            with ended_by_signals():
+                from .app import run
+
+                return run(words)
         except KeyboardInterrupt:  # while it loaded, or while it said that it was interrupted
             return 130
     try:

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
+from .ending import Ended
 from .session import Session
 
 
@@ -47,6 +48,9 @@ def _wait(pager: subprocess.Popen[bytes]) -> None:
         try:
             pager.wait()
             return
+        except Ended:
+            pager.terminate()
+            raise
         except KeyboardInterrupt:
             continue
 

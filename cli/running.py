@@ -5,16 +5,15 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
-from .session import Session, write
+from .output import write
+from .session import Session
 from .views import report as report_view
 from .views.run import Progress
 
@@ -23,11 +22,6 @@ if TYPE_CHECKING:
     from pico.execution.blocking import Run
     from pico.model.event import Event
     from pico.model.plan import Plan
-
-STOPPING = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"
-AT_ONCE = "Stopping at once: arms brake, shutters close, grippers hold what they hold"
-DEADLINE = 10.0
-"""Seconds after SIGTERM in which a run may come to its safe end."""
 
 
 class Screen:
@@ -50,7 +44,7 @@ class Screen:
 
     def stay(self, line: str) -> None:
         if self.terminal:
-            sys.stdout.write("\r\x1b[K")
+            write(sys.stdout, "", end="", over=True)
         self.session.say(line)
 
 
@@ -68,15 +62,18 @@ def execute(
         recording = Recording()
     run = bench.run(plan, **{**options, **({"recording": recording} if recording else {})})
     screen = Screen(session, Progress(plan))
-    events = []
-    with interrupts(run):
-        for event in run:
-            screen.show(event)
-            events += [event] if record else []
+    events: list[Event] = []
+
+    def show(event: Event) -> None:
+        screen.show(event)
+        if record:
+            events.append(event)
+
+    came = watched(run, show)
     session.show(report_view, run.report, after=_after(plan) if after is None else after)
     if not session.json:
         session.report(run.report.diagnostics)
-    if record and recording and recording.snapshots:
+    if record and recording and recording.snapshots and set(came) <= {signal.SIGINT}:  # else nobody waits for it
         from .filming import film
 
         film(session, bench, plan, recording, events, record)
@@ -94,34 +91,15 @@ def _after(plan: Plan) -> str:
     return f"The manifest is as it was; {keep}. Go back with `pico undo`."
 
 
-@contextmanager
-def interrupts(run: Run) -> Iterator[None]:
-    """While a run goes on, let Ctrl-C and SIGTERM end it in order: nothing is raised, the events come to their end.
+def watched(run: Run, show: Callable[[Event], None]) -> tuple[int, ...]:
+    """Show a run until it is over, and say what a signal leads to; return the signals that ended it."""
+    from pico.execution.attending import attend
 
-    After SIGTERM nobody can press again: what has not ended within DEADLINE stops at once.
-    """
-    presses = 0
+    return attend(run, show, lambda text: _say(f"\n{text}\n"))
 
-    def pressed(*_: object) -> None:
-        nonlocal presses
-        presses += 1
-        first = presses == 1
-        os.write(2, f"\n{STOPPING if first else AT_ONCE}\n".encode())  # print is not safe here
-        run.halt() if first else run.stop()
 
-    def terminated(*_: object) -> None:
-        pressed()
-        late = threading.Timer(DEADLINE, run.stop)
-        late.daemon = True
-        late.start()
-
-    before = {signal.SIGINT: signal.signal(signal.SIGINT, pressed), signal.SIGTERM: signal.getsignal(signal.SIGTERM)}
-    signal.signal(signal.SIGTERM, terminated)
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+def _say(text: str) -> None:
+    os.write(2, text.encode())  # print is not safe in the handler of a signal
 
 
 def question(plan: Plan) -> str:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TextIO
+from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
-from .views.style import inert, inert_json, plain
+from .output import write
+from .views.style import inert_json
 from .waiting import waiting
 
 if TYPE_CHECKING:
@@ -100,38 +100,10 @@ class Session:
 
     def confirm(self, question: str) -> bool:
         """Ask, and return whether the answer is yes. Nobody there to answer is a no."""
-        sys.stdout.write(f"{question} [y/N] ")
-        sys.stdout.flush()
+        write(sys.stdout, f"{question} [y/N] ", end="")
         try:
             answer = input()
-        except EOFError:
+        except (EOFError, OSError):  # the end of what was piped in, or of the terminal
             answer = ""
             write(sys.stdout, "")
         return answer.strip().lower() in ("y", "yes")
-
-
-def colored(stream: TextIO) -> bool:
-    """Return whether color helps: on a terminal or in its pager, unless NO_COLOR (no-color.org) or TERM=dumb say no."""
-    shown = stream.isatty() or (stream is sys.stdout and "GIT_PAGER_IN_USE" in os.environ)
-    return shown and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-
-
-def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False) -> bool:
-    """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly.
-
-    What would steer a terminal is written out (`views.style.inert`). `over`: over the line where the cursor is.
-    Return whether somebody may still read.
-    """
-    safe = inert(text if colored(stream) else plain(text))
-    try:
-        stream.write(f"\r{safe}\x1b[K{end}" if over else f"{safe}{end}")
-        stream.flush()
-    except BrokenPipeError:
-        silence(stream)
-        return False
-    return True
-
-
-def silence(stream: TextIO) -> None:
-    """Send what is written to `stream` from now on nowhere."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

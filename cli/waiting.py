@@ -8,6 +8,8 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from .output import write
+
 PATIENCE = 1.0
 """Seconds that nobody minds."""
 _BEAT = 0.2
@@ -38,16 +40,14 @@ class Waiting:
         self._over.set()
         self._thread.join()
         if self._shown:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
+            write(sys.stderr, "", end="", over=True)
 
     def _tick(self) -> None:
         while not self._over.wait(_BEAT):
             elapsed = time.monotonic() - self._begun
             if elapsed >= PATIENCE:
                 self._shown = True
-                sys.stderr.write(f"\r{self.line(elapsed)}\x1b[K")
-                sys.stderr.flush()
+                write(sys.stderr, self.line(elapsed), end="", over=True)
 
 
 @contextmanager

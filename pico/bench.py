@@ -5,13 +5,14 @@
 
 from __future__ import annotations
 
-from collections import deque
+import signal
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.async_bench import AsyncBench, CommitMode
 from pico.diagnostics import Diagnostic
+from pico.execution.attending import attend
 from pico.execution.blocking import LoopThread, Run
 from pico.history.reader import Reader
 from pico.model.diff import Change
@@ -181,7 +182,7 @@ class Bench(Reader):
         return compare_runs(self.setup, self.recorded_run(a), self.recorded_run(b))
 
     def run(self, plan: Plan, **options: Any) -> Run:
-        """Start a plan and return its run: iterate over it for its events. `options`: see `AsyncBench.run`."""
+        """Return the run of a plan: iterate over it for its events. `options`: see `AsyncBench.run`."""
         return Run(self._bench.run(plan, **options), self._thread)
 
     def resume_plan(self) -> tuple[Plan, str]:
@@ -229,15 +230,13 @@ class Bench(Reader):
     def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it.
 
-        KeyboardInterrupt halts the run at a safe waypoint before it goes on to the caller.
+        In the main thread Ctrl-C, SIGTERM and SIGHUP halt the run at a safe waypoint (see `attending.interrupts`)
+        before they do what they would have done.
         """
         run = self.run(what if isinstance(what, Plan) else self.plan(what))
-        try:
-            deque(run, maxlen=0)
-        except KeyboardInterrupt:
-            run.halt()
-            deque(run, maxlen=0)
-            raise
+        came = attend(run)
+        if came:
+            signal.raise_signal(came[0])
         return run.report
 
     def status(self) -> Status:

@@ -10,7 +10,8 @@ import typer
 from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Fidelity, Yes
-from ..session import Session, write
+from ..output import write
+from ..session import Session
 
 if TYPE_CHECKING:
     from pico.history.bisect.kept import Verdict

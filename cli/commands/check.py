@@ -12,7 +12,8 @@ import typer
 from pico.diagnostics import PicoError, error
 
 from ..arguments import Fidelity
-from ..session import Session, write
+from ..output import write
+from ..session import Session
 from ..views import check as view
 from ..waiting import waiting
 

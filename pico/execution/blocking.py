@@ -6,7 +6,8 @@ import asyncio
 import queue
 import threading
 from collections.abc import Coroutine, Iterator
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
+from contextlib import suppress
 from typing import Any, TypeVar
 
 from pico.execution.watched import AsyncRun
@@ -15,6 +16,9 @@ from pico.model.plan import Plan
 from pico.model.report import RunReport
 
 T = TypeVar("T")
+
+HEED = 0.2
+"""Seconds after which a signal is heard that the system gave to another thread than the main one, which hears it."""
 
 
 class LoopThread:
@@ -42,6 +46,8 @@ class LoopThread:
         future: Future[T] | None = None
         try:
             future = self.submit(work)
+            while not wait([future], HEED).done:
+                pass
             return future.result()
         except KeyboardInterrupt:
             self.left_busy = future is None or not future.done()
@@ -57,16 +63,16 @@ class LoopThread:
 
 
 class Run:
-    """A plan under way: an iterator over its events; `report` once it is `over`.
+    """A plan to be run: an iterator over its events, which begins with the first; `report` once it is `over`.
 
-    An exception in the caller between two events does not end the run: go on iterating, or `halt` it first.
+    An exception in the caller between two events does not end the run: go on iterating, or `halt` it first;
+    `attending.attend` does.
     """
 
     def __init__(self, run: AsyncRun, thread: LoopThread) -> None:
         self._run, self._thread = run, thread
         self._queue: queue.SimpleQueue[Event | BaseException | None] = queue.SimpleQueue()
-        self.over = False
-        thread.submit(self._pump())
+        self._begun = self.over = False
 
     @property
     def plan(self) -> Plan:
@@ -93,13 +99,21 @@ class Run:
     def __next__(self) -> Event:
         if self.over:
             raise StopIteration
-        item = self._queue.get()
+        if not self._begun:
+            self._begun = True
+            self._thread.submit(self._pump())
+        item = self._next()
         if isinstance(item, Event):
             return item
         self.over = True
         if item is not None:
             raise item
         raise StopIteration
+
+    def _next(self) -> Event | BaseException | None:
+        while True:
+            with suppress(queue.Empty):
+                return self._queue.get(timeout=HEED)
 
     def halt(self) -> None:
         """Start nothing more, and bring every robot to a safe waypoint; returns at once: go on iterating to the end."""

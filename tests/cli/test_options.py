@@ -15,7 +15,7 @@ from pico_cli.app import build
 from pico_cli.commands import GROUPS
 from pico_cli.complete import GROUPS as SUBCOMMANDS
 from pico_cli.complete import OPTIONS, SHARED, VALUES, candidates
-from pico_cli.session import write
+from pico_cli.output import write
 from pico_cli.summary import COMMANDS, help_text
 
 LEAVES = [name for name in COMMANDS if name not in GROUPS] + [f"{g} {s}" for g, ss in SUBCOMMANDS.items() for s in ss]

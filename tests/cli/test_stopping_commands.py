@@ -6,7 +6,9 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from commanding import Pico
@@ -18,8 +20,9 @@ PROGRAM = """
 import sys, time
 from pathlib import Path
 from pico.backends.sim import session
+from pico.execution import blocking
 
-tell, notes = session.Session._tell, Path(".pico")
+halt, tell, notes = blocking.Run.halt, session.Session._tell, Path(".pico")
 
 def waits(self, kind, operation, key, data):
     tell(self, kind, operation, key, data)
@@ -29,21 +32,32 @@ def waits(self, kind, operation, key, data):
         while time.monotonic() < until and not (notes / "stop.json").exists() and not (notes / "goes_on").exists():
             time.sleep(0.01)
 
-session.Session._tell = waits
+def halts(self):
+    halt(self)
+    (notes / "goes_on").write_text("")
+
+blocking.Run.halt, session.Session._tell = halts, waits
 from pico_cli.main import main
 sys.exit(main(sys.argv[1:]))
 """
 
 
-def started(folder: Path, *words: str) -> subprocess.Popen[str]:
+def started(folder: Path, *words: str, **options: Any) -> subprocess.Popen[str]:
     """Start `pico` as a process of its own, which waits with the first part in the hand until it is stopped."""
     process = subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+        [sys.executable, "-c", PROGRAM, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        **options,
+    )  # fmt: skip
+    moving(folder, lambda: process.poll() is None)
+    return process
+
+
+def moving(folder: Path, alive: Callable[[], bool]) -> None:
+    """Wait until the first part is in the hand."""
     for _ in range(6000):
         if (folder / ".pico" / "waits").exists():
-            return process
-        assert process.poll() is None, process.communicate()
+            return
+        assert alive()
         time.sleep(0.01)
     raise AssertionError("nothing moves")
 
@@ -64,18 +78,6 @@ def test_stop_needs_no_lock_and_the_run_can_be_resumed_and_undone(shel: Path, pi
     assert pico("undo", "--auto-approve").code == 0
     before = {n: p.pose for n, p in Bench.open(shel).observe().components.items()}
     assert before["lx_125"] is not None and before["lx_125"].x == 290  # at home again
-
-
-def test_sigterm_ends_a_run_as_ctrl_c_does(shel: Path, pico: Pico) -> None:
-    process = started(shel, "apply", "e1", "--auto-approve")
-    process.send_signal(signal.SIGTERM)
-    time.sleep(0.2)
-    (shel / ".pico" / "goes_on").write_text("")
-    out, err = process.communicate(timeout=120)
-    assert process.returncode == 130
-    assert "Stopping" in err and "Interrupted" in out
-    seen = Bench.open(shel).observe()
-    assert seen.robots["arm1"].holding is None
 
 
 def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path, pico: Pico) -> None:

@@ -1,0 +1,42 @@
+"""Where text goes: standard output and standard error, also once nobody reads them any more."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from typing import TextIO
+
+from .views.style import inert, plain
+
+GONE = (errno.EPIPE, errno.EIO)
+"""Writing fails so where nobody reads any more: a pipe was closed, or a terminal."""
+
+
+def colored(stream: TextIO) -> bool:
+    """Return whether color helps: on a terminal or in its pager, unless NO_COLOR (no-color.org) or TERM=dumb say no."""
+    shown = stream.isatty() or (stream is sys.stdout and "GIT_PAGER_IN_USE" in os.environ)
+    return shown and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
+def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False) -> bool:
+    """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly.
+
+    What would steer a terminal is written out (`views.style.inert`). `over`: over the line where the cursor is.
+    Return whether somebody may still read.
+    """
+    safe = inert(text if colored(stream) else plain(text))
+    try:
+        stream.write(f"\r{safe}\x1b[K{end}" if over else f"{safe}{end}")
+        stream.flush()
+    except OSError as exc:
+        if exc.errno not in GONE:
+            raise
+        silence(stream)
+        return False
+    return True
+
+
+def silence(stream: TextIO) -> None:
+    """Send what is written to `stream` from now on nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
