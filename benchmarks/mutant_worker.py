@@ -225,8 +225,8 @@ def anew(nodeids: list[str], seconds: float) -> dict[str, Any] | None:
     )
 
 
-if __name__ == "__main__":
-    sys.path.insert(0, str(COPY))
+def main() -> None:
+    """Work on the test files and folders that are named."""
     options = [
         "-q",
         "-m",

@@ -107,9 +107,13 @@ class Workers:
             if (ROOT / name).is_file():
                 (copy / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(ROOT / name, copy / name)
-        env = os.environ | {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "CI": "1"}
+        env = os.environ | {
+            "PYTHONPATH": f"{copy}{os.pathsep}{copy / 'benchmarks'}",
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "CI": "1",
+        }
         env |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(folder)}
-        command = [sys.executable, str(Path(__file__).with_name("mutant_worker.py")), *tests]
+        command = [sys.executable, "-c", "from mutant_worker import main; main()", *tests]
         return subprocess.Popen(
             command, cwd=copy, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )  # fmt: skip

@@ -30,6 +30,7 @@ SMALLEST = {
     "makespan": "--labs shel",
     "merges": "--cases 20 --git 2 --failing 2 --impossible 2",
     "motion": "--moves 4 --parts 6",
+    "mutants": "--seed 1 --count 4 --rooms policy --tests tests/policy",
     "pick_and_place": "--moves 1 --sight exact",
     "planning_fuzz": "--cases 5 --most 8",
     "planted_bugs": "--seeds 500 --only start",
