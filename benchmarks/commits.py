@@ -40,7 +40,7 @@ from pico.backends.sim.store import load_world, save_world  # noqa: E402
 from pico.bench import Bench  # noqa: E402
 from pico.history import git  # noqa: E402
 from pico.history.writing import files as write_files  # noqa: E402
-from pico.history.writing import index_lock, landing  # noqa: E402
+from pico.history.writing import index_lock, under  # noqa: E402
 from pico.model.observation import ObservedValue  # noqa: E402
 from pico.model.state import place_of  # noqa: E402
 
@@ -262,7 +262,7 @@ def commit_killed(folder: Path, words: list[str], rng: random.Random, span: floa
         os.chdir(folder)
         if way == "step":
             steps = Steps(rng.randint(1, 34), rng.random() < 0.5)
-            for owner, name in ((git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (landing, "_copy"),
+            for owner, name in ((git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (under, "copy_index"),
                                 (write_files, "write_file"), (index_lock, "_claimed")):  # fmt: skip
                 steps.watch(owner, name)
         return command(words)

@@ -52,6 +52,7 @@ class Session:
         if self.context is not None:
             self.context.call_on_close(bench.close)
         self.wire(bench.root)
+        self.tell(bench.folder.recovered)
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
@@ -63,6 +64,7 @@ class Session:
 
         reader = HistoryReader(self.folder)
         self.wire(reader.root)
+        self.tell(reader.folder.recovered)
         return reader
 
     def wire(self, folder: Path) -> None:
@@ -97,6 +99,11 @@ class Session:
             self.document(view.data(diagnostics))
         elif diagnostics:
             write(sys.stderr, view.text(diagnostics))
+
+    def tell(self, diagnostics: tuple[Diagnostic, ...]) -> None:
+        """Print what came up beside the answer, for people alone: JSON is the answer."""
+        if not self.json:
+            self.report(diagnostics)
 
     def confirm(self, question: str) -> bool:
         """Ask, and return whether the answer is yes. Nobody there to answer is a no."""

@@ -16,6 +16,7 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history import git
 from pico.history.diff.wrappers import diff_command, text_command
 from pico.history.merge.fallback import merge_lines
+from pico.history.places import places, small
 
 CLEAN, CONFLICT, FAILED = 40, 41, 42
 """What the driver ends with; nothing else ends with these by accident."""
@@ -72,12 +73,11 @@ def _rest() -> str:
 
 def wiring(folder: Path) -> Wiring | None:
     """Return how the repository around `folder` is wired, read from its files alone; None outside of one."""
-    found = _git_folder(folder)
+    found = places(folder)
     if found is None:
         return None
-    top, common = found
-    config = _read(common / "config")
-    below = [p for p in (folder.resolve(), *folder.resolve().parents) if p.is_relative_to(top)]
+    config = small(found.common / "config")
+    below = [p for p in (folder.resolve(), *folder.resolve().parents) if p.is_relative_to(found.top)]
     return Wiring(
         attributed=any(_names(b"merge=pico", p / ".gitattributes") for p in below),
         shown=any(_names(b"diff=pico", p / ".gitattributes") for p in below),
@@ -153,9 +153,9 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
 
 def _beside(folder: Path) -> list[Diagnostic]:
     """Return what is missing in the attributes of what lies beside the manifests, where there is such a thing."""
-    found = _git_folder(folder)
+    found = places(folder)
     own = folder.resolve()
-    below = [p for p in (own, *own.parents) if found and p.is_relative_to(found[0])]
+    below = [p for p in (own, *own.parents) if found and p.is_relative_to(found.top)]
     wrong = []
     for inside, attribute, line, why in _BESIDE:
         if (own / inside).is_dir() and not any(_names(attribute, p / ".gitattributes") for p in below):
@@ -182,28 +182,8 @@ def _unset(folder: Path, how: str, name: str) -> None:
             raise
 
 
-def _git_folder(folder: Path) -> tuple[Path, Path] | None:
-    """Return the top of the working tree around `folder` and the folder of its shared configuration."""
-    for top in (folder.resolve(), *folder.resolve().parents):
-        place = top / ".git"
-        if place.is_file():  # a worktree or a submodule: a file that names the folder
-            named = _read(place).decode(errors="surrogateescape").removeprefix("gitdir:").strip()
-            place = (top / named).resolve()
-        if place.is_dir():
-            shared = _read(place / "commondir").decode(errors="surrogateescape").strip()
-            return top, (place / shared).resolve() if shared else place
-    return None
-
-
 def _names(attribute: bytes, path: Path) -> bool:
-    return any(attribute in line.split(b"#")[0].split() for line in _read(path).splitlines())
-
-
-def _read(path: Path) -> bytes:
-    try:
-        return path.read_bytes() if path.stat().st_size < 1_000_000 else b""
-    except OSError:
-        return b""
+    return any(attribute in line.split(b"#")[0].split() for line in small(path).splitlines())
 
 
 def _python_exists(config: bytes) -> bool:

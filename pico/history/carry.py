@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, PicoError, error
@@ -14,19 +14,19 @@ from pico.history import git
 from pico.history.carry_words import (
     cherry_message,
     conflicts,
-    half_done,
     labels,
     mainline_needed,
     revert_message,
     rootless,
 )  # fmt: skip
 from pico.history.commit import Commit
-from pico.history.folder import LabFolder
+from pico.history.folder import LabFolder, between
 from pico.history.merge.commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
-from pico.history.merge.trees import blobs, manifest_tree, opened, unite_trees
-from pico.history.writing.files import write_files
+from pico.history.merge.trees import blobs, manifest_tree, opened, unite_trees, with_files
+from pico.history.writing.claim import Goal
+from pico.history.writing.made import Step
 from pico.history.writing.trailers import with_trailers
-from pico.history.writing.underway import underway
+from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import Manifests
 from pico.model.diff import Change
 from pico.model.record import record
@@ -57,7 +57,8 @@ class Carried:
 
 @dataclass(frozen=True)
 class _Step:
-    """One change to be carried: who made it, against which parent, and the manifests before and after it is carried."""
+    """One change to be carried: who made it, against which parent, the manifests before and after it is carried, as
+    trees, those after it as they read, and what it changes on the table."""
 
     way: Way
     commit: Commit
@@ -66,6 +67,13 @@ class _Step:
     before: str
     after: str
     diagnostics: tuple[Diagnostic, ...] = ()
+    manifests: Manifests | None = None
+    changes: tuple[Change, ...] = ()
+
+    @property
+    def moves(self) -> bool:
+        """Whether there is something to do."""
+        return self.before != self.after
 
 
 def revert(
@@ -94,25 +102,11 @@ def cherry_pick(
 def _carry(
     folder: LabFolder, revisions: Sequence[str], way: Way, check: Check, mainline: int | None, message: str | None
 ) -> list[Carried]:
-    """Compute every step in memory, then write; `message` is None where nothing is to be committed."""
+    """Compute every step in memory, then write all of them or none; `message` is None where nothing is committed."""
     with folder.writing(f"pico {way}"):
-        _refuse_unfit(folder, way)
-        done: list[Carried] = []
-        for step in _steps(folder, revisions, way, check, mainline):
-            try:
-                done.append(_write(folder, step, message))
-            except PicoError as exc:
-                raise PicoError([*exc.diagnostics, *half_done([d.name for d in done if d.commit])]) from exc
-        return done
-
-
-def _refuse_unfit(folder: LabFolder, way: Way) -> None:
-    """Raise PicoError where edits would be lost, or where git has begun something else here."""
-    begun = underway(folder.history().own)
-    if begun not in ("", "rebase"):
-        hint = f"`pico commit` ends it, `git {begun} --abort` takes it back"
-        raise PicoError(error("git-merging", f"a {begun} is under way: no {way} before it has ended", hint=hint))
-    folder.refuse_edits()
+        refuse_begun(folder.history().own, way)
+        folder.refuse_edits()
+        return _write(folder, _steps(folder, revisions, way, check, mainline), way, message)
 
 
 def _steps(folder: LabFolder, revisions: Sequence[str], way: Way, check: Check, mainline: int | None) -> list[_Step]:
@@ -162,7 +156,8 @@ def _step(
     before = manifests_in(folder, handle, onto, called.ours)
     text = f"{called.ours} and {called.theirs} unite as text, but not on the table: nothing was written"
     found = judged(manifests, lambda wanted: check(wanted, before), text)
-    return _Step(way, commit, name, parent, onto, union.tree, (*coupled_warnings(union, called), *found))
+    told = (*coupled_warnings(union, called), *found)
+    return _Step(way, commit, name, parent, onto, union.tree, told, manifests, _changes(before, manifests))
 
 
 def _parent(folder: LabFolder, commit: Commit, name: str, mainline: int | None) -> Commit | None:
@@ -173,44 +168,51 @@ def _parent(folder: LabFolder, commit: Commit, name: str, mainline: int | None) 
     return sides[(mainline or 1) - 1] if sides else None
 
 
-def _write(folder: LabFolder, step: _Step, message: str | None) -> Carried:
-    """Write what a step changes, and commit that and nothing else; where git refuses, the files are put back."""
-    done = Carried(
-        way=step.way, of=step.commit.id, name=step.name, summary=step.commit.summary, diagnostics=step.diagnostics
-    )
-    if step.before == step.after:
-        return done
-    root, scratch = folder.history().root, folder.root / ".pico"
-    handle = opened(root)
-    old, new = (blobs(handle[tree]) for tree in (step.before, step.after))
-    paths = sorted(p for p in old.keys() | new.keys() if old.get(p) != new.get(p))
-    _refuse_ignored(root, [p for p in paths if p not in old])
-    write_files(root, {p: handle[new[p]].data if p in new else None for p in paths}, scratch)
+def _write(folder: LabFolder, steps: Sequence[_Step], way: Way, message: str | None) -> list[Carried]:
+    """Write what the steps change, and commit that and nothing else, each for itself."""
+    repository, moving = folder.history(), [s for s in steps if s.moves]
+    doing = f"pico {way} {' '.join(s.name for s in moving)}"
+    made: Sequence[Commit] = ()
+    if moving and message is None:
+        repository.go(Goal(tree=_whole(folder, moving[-1])), doing=f"{doing} --no-commit")
+    elif moving:
+        wanted = [_commit(folder, step, message or "") for step in moving]
+        made = repository.advance(wanted, doing=doing, reason=f"{way}: {wanted[-1].message.partition(chr(10))[0]}")
     folder.reload()
-    changes = folder.diff("HEAD") if message is None else ()
-    made = None
-    if message is not None:
-        try:
-            made = _commit(folder, step, paths, message)
-        except PicoError:
-            write_files(root, {p: handle[old[p]].data if p in old else None for p in paths}, scratch)
-            folder.reload()
-            raise
-        changes = folder.entry(made).changes
-    return replace(done, files=tuple(paths), commit=made.id if made else None, changes=changes)
+    each = iter(made)
+    return [_done(folder, step, next(each, None) if step.moves else None) for step in steps]
 
 
-def _refuse_ignored(root: Any, paths: Sequence[str]) -> None:
-    there = [path for path in paths if (root / path).exists()]
-    if there:
-        text = f"{', '.join(there)} would be overwritten, and git does not keep it"
-        raise PicoError(error("exists", text, hint="move it away, or commit it (`git add -f`)"))
+def _done(folder: LabFolder, step: _Step, made: Commit | None) -> Carried:
+    handle = opened(folder.history().root)
+    old, new = (blobs(handle[tree]) for tree in (step.before, step.after))
+    return Carried(
+        way=step.way, of=step.commit.id, name=step.name, summary=step.commit.summary, diagnostics=step.diagnostics,
+        files=tuple(sorted(p for p in old.keys() | new.keys() if old.get(p) != new.get(p))),
+        commit=made.id if made else None, changes=folder.entry(made).changes if made else step.changes,
+    )  # fmt: skip
 
 
-def _commit(folder: LabFolder, step: _Step, paths: Sequence[str], message: str) -> Commit:
+def _changes(before: Manifests, after: Manifests) -> tuple[Change, ...]:
+    try:
+        return between(before.require(), after.require())
+    except PicoError:  # what was there before can't be read
+        return ()
+
+
+def _commit(folder: LabFolder, step: _Step, message: str) -> Step:
+    assert step.manifests is not None
     if step.way == "revert":
         text, author = revert_message(step.commit, step.parent, message), None
     else:
         text, author = cherry_message(step.commit), (step.commit.author, step.commit.time)
-    text = with_trailers(text, planned_trailers(folder.manifests))
-    return folder.history().commit(paths, text, author=author)
+    return Step(
+        _whole(folder, step), with_trailers(text, planned_trailers(step.manifests)), author=author, name=step.name
+    )
+
+
+def _whole(folder: LabFolder, step: _Step) -> str:
+    """Return the tree of HEAD with the manifests as they are after a step."""
+    handle, head = opened(folder.history().root), folder.history().resolve("HEAD")
+    tree, inside = handle[head.id].tree, folder.history().relative(folder.root)
+    return with_files(handle, tree, manifest_tree(handle, tree, inside), step.after)

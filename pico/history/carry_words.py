@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from pico.diagnostics import Diagnostic, error, warning
+from pico.diagnostics import Diagnostic, error
 from pico.history.commit import Commit
 from pico.history.last_change import last_change, value_at
 from pico.history.merge.leaves import Conflict
@@ -46,14 +46,6 @@ def rootless(name: str) -> Diagnostic:
     """Return why the first commit can't be taken back."""
     text = f"{name} is the first commit of this lab: there is no state before it to go back to"
     return error("first-commit", text, hint="`pico stow COMPONENT` takes single parts off the table")
-
-
-def half_done(names: Sequence[str]) -> list[Diagnostic]:
-    """Return which changes were committed before the one that could not be."""
-    if not names:
-        return []
-    hint = f"`git reset --keep HEAD~{len(names)}` takes {'it' if len(names) == 1 else 'them'} back"
-    return [warning("half-done", f"{', '.join(names)} {'is' if len(names) == 1 else 'are'} committed", hint=hint)]
 
 
 def mainline_needed(name: str, sides: Sequence[Commit], given: int | None) -> Diagnostic:

@@ -21,6 +21,7 @@ from pico.history.notes import Note, note_path, notes, read_note, require_part, 
 from pico.history.writing.contents import contents, nothing
 from pico.history.writing.files import write_file
 from pico.history.writing.lock import write_lock
+from pico.history.writing.recovery import anything_left
 from pico.history.writing.run_files import run_trailers, write_once
 from pico.history.writing.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
 from pico.history.writing.underway import require_resolved
@@ -84,12 +85,20 @@ class LabFolder:
         self._historic: dict[str, tuple[Setup, LabState]] = {}
         self._writing = False
         self.wrong: PicoError | None = None
+        self.recovered = self._recovered()
         try:
             self.reload()
         except PicoError as exc:
             self.wrong = exc
             if not history or not self._stand_in():
                 raise
+
+    def _recovered(self) -> tuple[Diagnostic, ...]:
+        """Bring to its end what a killed command left half written here, and return what that was."""
+        if not anything_left(self.root) or self.repository is None:
+            return ()
+        with self.repository.writing("pico recover"):
+            return self.repository.noticed
 
     def reload(self) -> None:
         """Read the manifests again, after somebody wrote them; raises PicoError where they are wrong.
@@ -221,9 +230,9 @@ class LabFolder:
 
     def refuse_edits(self) -> None:
         """Raise PicoError where the manifests hold edits that a checkout would lose."""
-        edited = self.history().changed(self.root)
-        if edited:
-            raise PicoError(_edited(edited))
+        paths = self.history().changed(self.root)
+        if paths:
+            raise PicoError(edited(paths))
 
     @contextmanager
     def writing(self, doing: str) -> Iterator[None]:
@@ -380,7 +389,8 @@ def _patch(name: str, before: bytes, after: bytes) -> str:
     return "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
 
 
-def _edited(paths: tuple[str, ...]) -> Diagnostic:
+def edited(paths: tuple[str, ...]) -> Diagnostic:
+    """Return that files are edited, and what can be done with the edits."""
     return error(
         "edited",
         f"edits that are not committed: {', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''}",

@@ -7,16 +7,20 @@ checks and network turned off (`_guards`), whatever the repository says.
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from types import MappingProxyType
 
 from pico.diagnostics import PicoError, error
+from pico.history.holders import held
 
 # git's words, the code of the diagnostic, and what to do. The first that matches counts.
 _KNOWN: tuple[tuple[str, str, str], ...] = (
@@ -27,7 +31,7 @@ _KNOWN: tuple[tuple[str, str, str], ...] = (
         "`git config --global user.email you@example.org`",
     ),
     (
-        r"Unable to create '(?P<path>[^']*\.lock)'|cannot lock ref",
+        r"Unable to create '[^']*\.lock'|cannot lock ref",
         "git-locked",
         "another git command is running here: wait for it. If none is, remove the lock file that git names",
     ),
@@ -48,6 +52,7 @@ _KNOWN: tuple[tuple[str, str, str], ...] = (
     (r"already exists", "exists", "choose another name"),
     (r"not a valid (branch|tag) name|not a valid ref", "name", "use letters, digits, `-`, `_` and `/`"),
 )
+_LOCK = re.compile(r"Unable to create '([^']*\.lock)'")
 
 
 # What git's environment says of one repository, and not of another (`git rev-parse --local-env-vars`, in part).
@@ -59,7 +64,7 @@ _LOCAL = (
 # What changes a repository, or speaks to another one: there git does what git does. All else only looks.
 _ACTS = frozenset(
     ("add", "bisect", "branch", "checkout", "commit", "config", "maintenance", "merge", "pull", "push", "read-tree",
-     "reset", "stash", "tag")
+     "reset", "stash", "tag", "commit-tree", "symbolic-ref", "update-ref")
 )  # fmt: skip
 _COMPARES = frozenset(("status", "diff", "diff-index", "diff-files"))
 """What reads the files of the working tree through the filters of a repository."""
@@ -85,7 +90,7 @@ def run(
     environment = {**_environment(root), **looking, **extra}
     try:
         done = subprocess.run(
-            ["git", *options, *arguments], cwd=root, env=environment, input=stdin.encode(), stdout=subprocess.PIPE,
+            ["git", *options, *arguments], cwd=root, env=environment, input=os.fsencode(stdin), stdout=subprocess.PIPE,
             stderr=None if shown else subprocess.PIPE, check=False, pass_fds=inherit,
         )  # fmt: skip
     except FileNotFoundError:
@@ -93,7 +98,7 @@ def run(
         raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
     if done.returncode not in ends:
         words = "\n".join(t.decode(errors="replace") for t in (done.stderr, done.stdout) if t)
-        raise refusal(words.strip(), doing=doing, hook=_installed(root, hook))
+        raise refusal(words.strip(), doing=doing, hook=_installed(root, hook), root=root)
     return done.stdout.decode(errors="surrogateescape")
 
 
@@ -195,10 +200,48 @@ def _environment(root: Path) -> dict[str, str]:
     return found
 
 
-def refusal(words: str, *, doing: str, hook: str | None = None) -> PicoError:
-    """Return the error that says in git's `words` why it did not do what was asked, and what to do about it."""
+def hook(
+    root: Path, name: str, arguments: Sequence[str], *, doing: str, extra: Mapping[str, str], inherit: Sequence[int]
+) -> bool:
+    """Run a hook of the repository as git does, and return whether there is one; raises PicoError where it refuses."""
+    path = _hook(root, name)
+    if path is None:
+        return False
+    environment = {**_environment(root), **extra}
+    words = [str(path), *arguments]
+    for command in (words, ["/bin/sh", *words]):  # one without `#!` is for the shell
+        try:
+            done = subprocess.run(
+                command, cwd=root, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT, check=False, pass_fds=inherit,
+            )  # fmt: skip
+            break
+        except OSError as exc:
+            if exc.errno != errno.ENOEXEC or command is not words:
+                raise PicoError(error("git-hook", f"can't run the {name} hook", detail=str(exc))) from exc
+    if done.returncode:
+        said = done.stdout.decode(errors="replace").strip()
+        raise PicoError(error("git-hook", f"git did not {doing}: its {name} hook refused", detail=said))
+    return True
+
+
+def notify(root: Path, name: str, *arguments: str) -> None:
+    """Run a hook that is told of something and can't refuse it."""
+    with suppress(PicoError):
+        hook(root, name, arguments, doing="", extra={}, inherit=())
+
+
+def refusal(words: str, *, doing: str, hook: str | None = None, root: Path | None = None) -> PicoError:
+    """Return the error that says in git's `words` why it did not do what was asked, and what to do about it.
+
+    A lock that is in the way in the working tree `root` is named with who has it.
+    """
     for pattern, code, hint in _KNOWN:
-        if re.search(pattern, words, re.IGNORECASE):
+        found = re.search(pattern, words, re.IGNORECASE)
+        lock = _LOCK.search(words) if found and code == "git-locked" else None
+        if lock and root and Path(lock[1]).exists():
+            return PicoError(replace(held(Path(lock[1]), root), detail=f"so git did not {doing}"))
+        if found:
             said = words.splitlines()[-1] if code == "identity" else words  # before that, git says what the hint says
             return PicoError(error(code, f"git did not {doing}", detail=said, hint=hint))
     if hook:
@@ -208,12 +251,14 @@ def refusal(words: str, *, doing: str, hook: str | None = None) -> PicoError:
 
 def _installed(root: Path, names: str | None) -> str | None:
     """Return which of the hooks in `names` the repository has, or None."""
-    found = []
-    for name in (names or "").split():
-        asked = subprocess.run(
-            ["git", "rev-parse", "--git-path", f"hooks/{name}"], cwd=root, env=_environment(root), capture_output=True,
-            text=True, check=False,
-        )  # fmt: skip
-        if asked.returncode == 0 and os.access(root / asked.stdout.strip(), os.X_OK):
-            found.append(name)
-    return " or ".join(found) or None
+    return " or ".join(name for name in (names or "").split() if _hook(root, name)) or None
+
+
+def _hook(root: Path, name: str) -> Path | None:
+    """Return the program of a hook, None where the repository has none."""
+    asked = subprocess.run(
+        ["git", "rev-parse", "--git-path", f"hooks/{name}"], cwd=root, env=_environment(root), capture_output=True,
+        text=True, check=False,
+    )  # fmt: skip
+    path = root / asked.stdout.strip()
+    return path if asked.returncode == 0 and path.is_file() and os.access(path, os.X_OK) else None

@@ -15,9 +15,13 @@ from pico.history.commit import Commit, Head
 from pico.history.graph import topological
 from pico.history.revisions import BRANCHES, TAGS, find, names_at
 from pico.history.trees import collect, folder_id, is_manifest
-from pico.history.writing.index_lock import GitFolders, recover
+from pico.history.writing.claim import GitFolders, Goal
 from pico.history.writing.landing import Landing, land
 from pico.history.writing.lock import write_lock
+from pico.history.writing.made import Step
+from pico.history.writing.passage import Start, advance, go
+from pico.history.writing.recovery import leave_word, recover
+from pico.manifest.load import bare_repository
 
 MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.
@@ -68,7 +72,7 @@ class Repository:
             raise _unreadable(Path(found), str(exc)) from exc
         tree = told[1] if told else handle.workdir
         if tree is None:
-            raise PicoError(_bare(Path(found)))
+            raise PicoError(bare_repository(Path(found)))
         if not path.resolve().is_relative_to(Path(tree).resolve()):
             hint = "look at `core.worktree` in its configuration: somebody set it"
             raise PicoError(error("git-elsewhere", f"{found} says that its files are in {tree}, not here", hint=hint))
@@ -258,15 +262,44 @@ class Repository:
         if not names and not whole:
             raise PicoError(error("nothing-to-commit", "there is nothing to commit", hint="nothing differs from HEAD"))
         with self.writing("pico commit"):
-            head, own = self.head(), self.own
-            branch = [self.common / "refs" / "heads" / head.branch] if head.branch else []
             what = Landing(
-                message=message, paths=names, ignored=forced, head=head.commit, refs=(own / "HEAD", *branch),
+                message=message, paths=names, ignored=forced, head=self.head().commit, refs=self._moving(),
                 partial=not whole, tidy=self._on("maintenance.auto"),
                 options=(f"--author={author[0]}", f"--date={author[1].isoformat()}") if author else (),
             )  # fmt: skip
             land(self._folders(), what)
         return self.resolve("HEAD")
+
+    def advance(self, steps: Sequence[Step], *, doing: str, reason: str) -> tuple[Commit, ...]:
+        """Commit trees that were computed one on the other, with files and index, and return the commits.
+
+        All of them are made, or none; killed at any instant, it is as before, or it is brought to its end by whoever
+        comes next (`pico.history.writing.passage`). Hooks run, signing as configured; what else is staged stays
+        staged. `doing`: the command; `reason`: for the reflog. Raises PicoError for files that would be lost and with
+        git's words.
+        """
+        with self.writing(doing):
+            made = advance(self._folders(), self._start(doing), steps, reason)
+        return tuple(self.resolve(commit) for commit in made)
+
+    def go(self, to: Goal, *, doing: str) -> None:
+        """Let files, index and HEAD go to a commit, or the files alone to a tree; else as `advance`."""
+        with self.writing(doing):
+            go(self._folders(), self._start(doing), to)
+
+    def _start(self, doing: str) -> Start:
+        return Start(self.resolve("HEAD").id, self._moving(), doing)
+
+    def _moving(self) -> tuple[Path, ...]:
+        """Return the files of the refs that move with HEAD."""
+        branch = self.head().branch
+        named = [self.common / "refs" / "heads" / branch] if branch else []
+        return (self.own / "HEAD", self.own / "ORIG_HEAD", *named)
+
+    def leave_word(self) -> None:
+        """Bring to its end what a killed command left here, and leave what there is to say to the next command."""
+        with write_lock(self.common / "pico" / "write.lock", "pico recover"):
+            leave_word(self._folders())
 
     @contextmanager
     def writing(self, doing: str) -> Iterator[None]:
@@ -368,12 +401,7 @@ def _refuse_embedded(found: Path, path: Path) -> None:
     configuration is then somebody else's, and names programs."""
     own = found.resolve()
     if own.name != ".git" and own in (path.resolve(), *path.resolve().parents):
-        raise PicoError(_bare(own))
-
-
-def _bare(folder: Path) -> Diagnostic:
-    hint = "clone it, and work in the clone"
-    return error("git-bare", f"{folder} is a bare repository, without files to edit", hint=hint)
+        raise PicoError(bare_repository(own))
 
 
 def _unreadable(path: Path, words: str) -> PicoError:

@@ -67,7 +67,16 @@ def find_lab(start: Path) -> Path:
     for candidate in [folder, *folder.parents] if folder.is_dir() else folder.parents:
         if (candidate / "lab.yaml").is_file() or any(_is_lab(path) for path in sorted(candidate.glob("*.yaml"))):
             return candidate
+    for candidate in (folder, *folder.parents):
+        if candidate.name != ".git" and all((candidate / name).exists() for name in ("HEAD", "objects", "refs")):
+            raise PicoError(bare_repository(candidate))
     raise PicoError(error("no-lab", f"no lab in {start} or any folder above it", hint=_NO_LAB))
+
+
+def bare_repository(folder: Path) -> Diagnostic:
+    """Return that a folder is a bare repository, and how to get files to work on."""
+    hint = f"clone it, and work in the clone: `git clone {folder} DIR`"
+    return error("git-bare", f"{folder} is a bare repository (a bare clone): history, without files to edit", hint=hint)
 
 
 def labs_below(start: Path) -> list[Path]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,35 @@ def test_a_merge_is_made_and_shown(shel: Path, pico: Pico) -> None:
     assert made.out.startswith("Merged left (") and "p1  moved 10 mm" in made.out
     assert git("show", "-s", "--format=%s").strip() == "both moved"
     assert pico("merge", "left", "--json").data["kind"] == "up-to-date"
+
+
+def test_what_a_killed_merge_left_is_told_by_the_next_command_and_the_merge_then_works(shel: Path, pico: Pico) -> None:
+    commit("left", ("x: 290", "x: 300"))
+    commit("right", ("x: 520", "x: 530"))
+    hook = Path(".git/hooks/commit-msg")
+    hook.parent.mkdir(exist_ok=True)
+    hook.write_text("#!/bin/sh\nkill -9 $PPID\n")
+    hook.chmod(0o755)
+    assert subprocess.run([sys.executable, "-m", "pico_cli.main", "merge", "left"], check=False).returncode == -9
+    hook.unlink()
+    said = pico("merge", "left")
+    assert said.code == 0 and said.out.startswith("Merged left ("), said.err
+    assert "took back what was half written by `pico merge left`, which was killed" in said.err
+    assert pico("status").err == ""
+
+
+WORDS = (
+    ["status"], ["plan"], ["log"], ["merge", "e1"], ["commit", "-m", "x"], ["revert", "HEAD"], ["cherry-pick", "e1"],
+    ["stash"], ["checkout", "e1"], ["pull"], ["push"], ["check"], ["doctor"], ["validate"], ["blame"], ["show"],
+    ["data", "status"], ["bisect", "log"], ["verify"],
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("words", WORDS, ids=" ".join)
+def test_a_bare_clone_is_called_one(shel: Path, pico: Pico, words: list[str]) -> None:
+    git("clone", "-q", "--bare", ".", "../bare.git")
+    answer = pico("-C", "../bare.git", *words)
+    assert answer.code == 1 and "bare repository (a bare clone)" in answer.err and "git clone " in answer.err
 
 
 @pytest.mark.parametrize(("mine", "code", "said"), [("x: 310", 1, "p1.pose.x"), ("x: 290", 3, "p2")])

@@ -1,25 +1,42 @@
-"""Kills a process group just before or after a step of a commit: what writes a file, runs git, or takes a lock."""
+"""Kills a process just before or after a step of what writes into a repository: it writes a file, runs git, takes a
+lock."""
 
 from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable
+import subprocess
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pico.history import git
 from pico.history.writing import files as write_files
-from pico.history.writing import index_lock, landing
+from pico.history.writing import index_lock, under
 
-WATCHED: tuple[tuple[object, str], ...] = (
-    (git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (landing, "_copy"), (write_files, "write_file"),
+Watched = Sequence[tuple[object, str]]
+WATCHED: Watched = (
+    (git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (under, "copy_index"), (write_files, "write_file"),
     (index_lock, "_claimed"),
 )  # fmt: skip
+EVERY: Watched = (
+    (subprocess, "run"), (subprocess, "Popen"), (os, "link"), (os, "replace"), (os, "rename"), (os, "unlink"),
+    (os, "mkdir"), (os, "rmdir"), (os, "write"), (os, "fsync"), (os, "open"), (under, "copy_index"),
+)  # fmt: skip
+"""Every call of git, before it, once it runs, and after it; and every write."""
 
 
-def kill_at(step: int, *, after: bool) -> None:
-    """Let this process, and all that it started, be killed at the `step`-th call of what a commit does."""
+def kill_at(
+    step: int, *, after: bool, watched: Watched = WATCHED, by: signal.Signals = signal.SIGKILL, group: bool = True
+) -> None:
+    """Let this process, and with `group` all that it started, get a signal at the `step`-th call of what is watched."""
     done = 0
+
+    def hit() -> None:
+        if group:
+            os.killpg(0, by)
+        else:
+            os.kill(os.getpid(), by)
 
     def watch(owner: object, name: str) -> None:
         real = getattr(owner, name)
@@ -29,16 +46,16 @@ def kill_at(step: int, *, after: bool) -> None:
             done += 1
             mine = done == step
             if mine and not after:
-                os.killpg(0, signal.SIGKILL)
+                hit()
             try:
                 return real(*arguments, **options)
             finally:
-                if mine:
-                    os.killpg(0, signal.SIGKILL)
+                if mine and after:
+                    hit()
 
         setattr(owner, name, counted)
 
-    for owner, name in WATCHED:
+    for owner, name in watched:
         watch(owner, name)
 
 
@@ -56,3 +73,11 @@ def forked(work: Callable[[], object]) -> bool:
             os._exit(0)
     _, status = os.waitpid(child, 0)
     return not os.WIFSIGNALED(status)
+
+
+def guards_ended(own: Path, seconds: float = 30.0) -> None:
+    """Wait until what was killed is brought to its end, `own` being git's folder of the working tree."""
+    deadline = time.monotonic() + seconds
+    while (own / "index.lock").exists():
+        assert time.monotonic() < deadline, "nobody cleared up"
+        time.sleep(0.01)

@@ -1,18 +1,20 @@
-"""Merging a branch as `pico merge` does: the result is computed, checked and only then written, by the user's `git`."""
+"""Merging a branch as `pico merge` does: the result is computed, checked and only then written."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.history import git
 from pico.history.commit import Commit
-from pico.history.folder import LabFolder
+from pico.history.folder import LabFolder, edited
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, contents, opened, unite_commits
+from pico.history.writing.claim import Goal
+from pico.history.writing.made import Step
 from pico.history.writing.trailers import EVIDENCE, LAB, STATE, with_trailers
+from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
 from pico.model.record import record
@@ -56,11 +58,15 @@ def merge_revision(folder: LabFolder, revision: str, check: Check, message: str 
     manifests = manifests_in(folder, handle, union.tree, f"{labels.ours}+{labels.theirs}")
     text = f"{labels.ours} and {labels.theirs} merge as text, but not on the table: nothing was written"
     found = (*coupled_warnings(union, labels), *judged(manifests, check, text))
+    doing = f"pico merge {revision}"
     if ahead:
-        git.run(repository.root, ["merge", "--ff-only", "--quiet", theirs.id], doing=f"go to {revision}")
+        repository.go(Goal(theirs.id, f"merge {revision}: Fast-forward"), doing=doing)
+        git.notify(repository.root, "post-merge", "0")
     else:
         text = with_trailers(message.strip() or f"Merge {revision}", planned_trailers(manifests))
-        _write(repository.root, union.tree, theirs.id, text)
+        repository.advance(
+            [Step(union.tree, text, (theirs.id,), name="the merge")], doing=doing, reason=f"merge {revision}: by PICO"
+        )
     folder.reload()
     made = repository.resolve("HEAD")
     kind: Literal["merged", "fast-forward"] = "fast-forward" if ahead else "merged"
@@ -73,14 +79,13 @@ def label_of(commit: Commit, revision: str = "") -> str:
 
 
 def _refuse_unfit(folder: LabFolder) -> None:
-    """Raise PicoError where edits would be lost, or where another merge has not come to its end."""
+    """Raise PicoError where edits would be lost, or where git has begun something else here."""
     root = folder.history().root
+    refuse_begun(folder.history().own, "merge")
     listed = git.run(root, ["status", "--porcelain", "-z", "--untracked-files=no"], doing="list what was edited")
-    if listed:
-        paths = [entry[3:] for entry in listed.split("\0") if len(entry) > 3]
-        text = f"edits that are not committed: {', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''}"
-        hint = '`pico commit -m "why"` keeps the edits, `git stash` shelves them, `git restore .` drops them'
-        raise PicoError(error("edited", text, hint=hint))
+    paths = tuple(entry[3:] for entry in listed.split("\0") if len(entry) > 3)
+    if paths:
+        raise PicoError(edited(paths))
 
 
 def refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, Commit]) -> list[Diagnostic]:
@@ -140,19 +145,3 @@ def judged(manifests: Manifests, check: Check, text: str) -> tuple[Diagnostic, .
     if any(d.severity == "error" for d in found):
         raise PicoError([*found, error("merge-impossible", text)], ExitCode.IMPOSSIBLE)
     return found
-
-
-def _write(root: Path, tree: str, theirs: str, message: str) -> None:
-    """Write the merge commit: git records whom it merges, then takes the tree, then commits with hooks and signature.
-
-    Cut short between these, what is left is a merge to be ended by `git commit` or `git merge --abort`.
-    """
-    start = ["merge", "--quiet", "--no-ff", "--no-commit", "--strategy=ours", theirs]
-    git.run(root, start, doing="begin the merge")
-    try:
-        git.run(root, ["read-tree", "-m", "-u", "HEAD", tree], doing="write the merged files")
-        hooks = "pre-commit pre-merge-commit commit-msg prepare-commit-msg"
-        git.run(root, ["commit", "--quiet", "--file=-"], doing="commit the merge", stdin=message, hook=hooks)
-    except PicoError:
-        git.run(root, ["merge", "--abort"], doing="take the merge back")
-        raise

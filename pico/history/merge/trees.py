@@ -56,6 +56,19 @@ def manifest_tree(handle: Any, tree: Any, folder: str) -> str:
     return str(index.write_tree(handle))
 
 
+def with_files(handle: Any, tree: Any, out: str, into: str) -> str:
+    """Write a tree as `tree`, without the files of the tree `out` and with those of the tree `into`; return its id."""
+    import pygit2
+
+    index = pygit2.Index()
+    index.read_tree(tree)
+    for path in blobs(handle[out]):
+        index.remove(path)
+    for path, entry in _entries(handle[into]):
+        index.add(pygit2.IndexEntry(path, entry.id, entry.filemode))
+    return str(index.write_tree(handle))
+
+
 def contents(handle: Any, tree: Any) -> dict[str, bytes]:
     """Return the manifests of a tree by path."""
     return {path: handle[blob].data for path, blob in blobs(tree).items() if is_manifest(path)}

@@ -23,6 +23,14 @@ def underway(own: Path) -> Underway:
     return next((name for name, marks in _MARKS.items() if any((own / m).exists() for m in marks)), "")
 
 
+def refuse_begun(own: Path, way: str) -> None:
+    """Raise PicoError where git has begun something that comes to its end before a `way` can begin."""
+    begun = underway(own)
+    if begun not in ("", "rebase"):
+        hint = f"`pico commit` ends it, `git {begun} --abort` takes it back"
+        raise PicoError(error("git-merging", f"a {begun} is under way: no {way} before it has ended", hint=hint))
+
+
 def require_resolved(root: Path, own: Path) -> Underway:
     """Return what a commit would end: nothing, a merge, a cherry-pick or a revert.
 
