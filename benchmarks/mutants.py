@@ -10,7 +10,7 @@ changed since are run again). Then each mutant meets those that execute its line
 own room before others, up to so many CPU seconds, until one fails. `--by-hand` plants the mutants of
 `mutants_by_hand.py` instead, and runs the tests that each names.
 
-Prints the survivors as differences, and a table by room; a mutant that can't be told from the original counts as a
+Prints the survivors as differences as they are found, and a table by room; a mutant that can't be told from the original counts as a
 survivor. The exit code is 1 where more than 15 % survive, or one of those made by hand.
 """
 
@@ -53,7 +53,7 @@ NEAR = {"merge": ("history",)}
 """Test folders of a room that have another name."""
 BAR = 0.15
 PROCESSES = 2
-SECONDS = 40.0
+SECONDS = 20.0
 
 Tests = dict[str, dict[str, Any]]
 """For each test, by pytest's name, its CPU `seconds` and the `lines` that it executes, by file."""
@@ -253,8 +253,13 @@ def judged(workers: Workers, made: Sequence[Mutant], tests: Sequence[tuple[list[
     for done, (number, answer) in enumerate(workers.answers(jobs), 1):
         n = met[number]
         verdicts[n] = Verdict(made[n], answer["outcome"], answer.get("by", ""), len(tests[n][0]))
+        if verdicts[n].outcome != "killed" and made[n].wrong != made[n].right:
+            print("\n" + shown(verdicts[n], (ROOT / made[n].file).read_text()), flush=True)
         print(f"\r{done} of {len(jobs)} mutants judged", end="", file=sys.stderr, flush=True)
-    return [verdicts.get(n) or Verdict(mutant, "survived", "", 0) for n, mutant in enumerate(made)]
+    for n in (n for n in range(len(made)) if n not in verdicts):
+        verdicts[n] = Verdict(made[n], "survived", "", 0)
+        print("\n" + shown(verdicts[n], (ROOT / made[n].file).read_text()), flush=True)
+    return [verdicts[n] for n in range(len(made))]
 
 
 def table(verdicts: Sequence[Verdict]) -> str:
@@ -332,9 +337,6 @@ def main() -> int:
     given = parser.parse_args()
     verdicts = by_hand(given.only) if given.by_hand else sampled(given)
     print(file=sys.stderr)
-    for verdict in verdicts:
-        if verdict.outcome != "killed":
-            print(shown(verdict, (ROOT / verdict.mutant.file).read_text()), end="\n\n")
     if given.by_hand:
         for one, verdict in zip([one for one in BY_HAND if given.only in one.means], verdicts, strict=True):
             print(f"{verdict.outcome:<10} {one.means}: {verdict.by.rpartition('::')[2]}")

@@ -1,25 +1,19 @@
-"""Plans of a few hand-made cases, kept as canonical JSON in tests/golden.
-
-Where a change of the planner is meant to change them, write them again and look at the difference:
-
-    PICO_UPDATE_GOLDEN=1 python -m pytest tests/planning/test_golden.py && git diff tests/golden
-"""
+"""Plans of a few hand-made cases, kept as canonical JSON in tests/golden, and of random ones as text: see `kept`."""
 
 from __future__ import annotations
 
 import json
-import os
-from pathlib import Path
 
 import pytest
 from checker import check
+from fuzzing import plan_case
+from kept import differs, kept
 from planning_benches import Places, bench, part, planned, see, want
+from random_labs import random_case
 
 from pico.model.lab import Setup
 from pico.model.plan import Plan
 from pico.model.record import canonical
-
-GOLDEN = Path(__file__).resolve().parent.parent / "golden"
 
 CASES: dict[str, tuple[Setup, Places, Places]] = {
     "swap_of_two": (
@@ -59,7 +53,24 @@ def test_the_plan_is_the_one_kept(name: str) -> None:
     seen, wanted = see(setup, start), want(goal)
     made = planned(setup, seen, wanted)
     assert check(setup, seen, wanted, made) == []
-    path = GOLDEN / f"{name}.json"
-    if os.environ.get("PICO_UPDATE_GOLDEN"):
-        path.write_text(content(made))
-    assert content(made) == path.read_text()
+    assert content(made) == kept(f"{name}.json", content(made))
+
+
+def told(made: Plan) -> list[str]:
+    """A plan as lines of text: what moves where, why and after what, what is said about it."""
+    said = [f"  {d.severity} {d.code}: {d.summary} | {d.detail} | {d.hint}" for d in made.diagnostics]
+    count = made.staging
+    done = [
+        f"  {o.id} {o.primitive} {o.component} {o.arguments.get('to')} yaw {o.arguments.get('grasp_yaw')}"
+        f" {o.start:g}+{o.seconds:g} after {','.join(o.after)}: {o.reason.kind}, {o.reason.text}"
+        for o in made.operations
+    ]
+    return [f"  staged {count.count} of at least {count.lower_bound}, {made.makespan:g} s", *said, *done]
+
+
+@pytest.mark.parametrize(("name", "seeds", "most"), [("small", range(60), 7), ("large", range(100, 110), 20)])
+def test_plans_of_random_labs_are_the_ones_kept(name: str, seeds: range, most: int) -> None:
+    lines: list[str] = []
+    for seed in seeds:
+        lines += [f"seed {seed}", *told(plan_case(random_case(seed, least=3, most=most)))]
+    assert not differs(f"random_{name}.txt", "\n".join(lines) + "\n")
