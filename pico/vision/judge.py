@@ -9,7 +9,18 @@ from dataclasses import dataclass
 from pico.model.catalog import MarkerPlate
 from pico.model.observation import Uncertainty
 from pico.vision.calibration import Accuracy
-from pico.vision.poses import Estimate, View, edge, flat_start, free, from_rays, on_plane, plane_points, triangulated
+from pico.vision.poses import (
+    Estimate,
+    View,
+    edge,
+    flat_start,
+    free,
+    from_rays,
+    meet,
+    on_plane,
+    plane_points,
+    triangulated,
+)
 from pico.vision.sighting import How, Kind
 
 UPRIGHT = 3.0
@@ -37,6 +48,8 @@ def judged(views: Sequence[View], plate: MarkerPlate, accuracy: Accuracy, in_han
 
 
 def _by_rays(views: Sequence[View], plate: MarkerPlate, accuracy: Accuracy, how: How) -> Verdict:
+    if not meet(views):
+        return Verdict(None, how, "conflict", _apart(views, plate.at[2]))
     size = edge(triangulated(views))
     true_size = abs(size / plate.size - 1) < _SIZE + _SIGMAS * size_sigma(views, accuracy) / plate.size
     estimate = from_rays(views, plate.size if true_size else size)

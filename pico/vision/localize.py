@@ -15,7 +15,7 @@ from pico.vision.calibration import Calibration
 from pico.vision.datums import check
 from pico.vision.judge import Verdict, combined, judged
 from pico.vision.markers import Markers, detect, read_marker
-from pico.vision.poses import View, edge, flat_start, from_rays, plane_points, triangulated
+from pico.vision.poses import View, edge, flat_start, from_rays, meet, plane_points, triangulated
 from pico.vision.rigid import planar
 from pico.vision.sighting import Drift, Finding, Seen, Sighting, Stranger
 
@@ -165,8 +165,9 @@ def _strangers(
 
 
 def _measured(number: int, views: Sequence[View], calibration: Calibration) -> Stranger:
-    """Return a marker of which neither size nor height are known; from one camera, both are taken to be usual."""
-    if len(views) > 1:
+    """Return a marker of which neither size nor height are known; from one camera, or where two do not see the same
+    thing, both are taken to be usual."""
+    if len(views) > 1 and meet(views):
         size = edge(triangulated(views))
         estimate = from_rays(views, size)
         sigma = combined(estimate, calibration.accuracy)

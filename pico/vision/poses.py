@@ -85,6 +85,14 @@ def triangulated(views: Sequence[View]) -> Array:
     return points
 
 
+def meet(views: Sequence[View]) -> bool:
+    """Return whether the rays behind the corners come nearest to one another in front of every camera."""
+    import numpy as np
+
+    points = triangulated(views)
+    return all(bool(np.isfinite(view.camera.project(points)).all()) for view in views)
+
+
 def edge(corners: Array) -> float:
     """Return the mean length of the edges of a square with `corners` (4, n)."""
     import numpy as np

@@ -7,7 +7,7 @@ import math
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from painted import looking, stereo
 
@@ -156,6 +156,17 @@ def test_what_does_not_stand_as_its_type_says_is_told(cameras: int, pose: np.nda
     found = judged(views("straight", pose, size=size, noise=0.01)[:cameras], PLATE, Accuracy(), in_hand=False)
     assert (found.kind, found.how) == (kind, "stereo" if cameras == 2 else "known height")
     assert (found.estimate is None) == (kind is not None)
+
+
+@given(places, places)
+@settings(max_examples=25, deadline=None)
+def test_one_number_at_two_places_is_never_one_marker(one: Pose, other: Pose) -> None:
+    """Rays that part from one another come nearest behind the cameras."""
+    assume(one.distance(other) > 20 and abs(angle_between(one.yaw, other.yaw)) > 5)
+    left, right = LENSES["straight"].values()
+    two = [view(left, upright(one, HEIGHT), noise=0.01), view(right, upright(other, HEIGHT), noise=0.01)]
+    found = judged(two, PLATE, Accuracy(), in_hand=False)
+    assert found.kind in ("conflict", "tilted", "height", "size")
 
 
 def test_two_cameras_tell_a_plate_of_another_size_and_markers_that_are_not_one() -> None:
