@@ -10,8 +10,8 @@ changed since are run again). Then each mutant meets those that execute its line
 own room before others, up to so many CPU seconds, until one fails. `--by-hand` plants the mutants of
 `mutants_by_hand.py` instead, and runs the tests that each names.
 
-Prints the survivors as differences as they are found, and a table by room; a mutant that can't be told from the original counts as a
-survivor. The exit code is 1 where more than 15 % survive, or one of those made by hand.
+Prints the survivors as differences as they are found, and a table by room; a mutant that can't be told from the
+original counts as a survivor. The exit code is 1 where more than 15 % survive, or one of those made by hand.
 """
 
 from __future__ import annotations

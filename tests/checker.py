@@ -10,6 +10,7 @@ import math
 import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from shapely import Point, Polygon
 from shapely.affinity import rotate, translate
@@ -37,6 +38,7 @@ class Base:
         return self.core.distance(other.core) - self.radius - other.radius
 
 
+@lru_cache(maxsize=10_000)
 def base(footprint: Footprint, pose: Pose) -> Base:
     """Return a footprint standing at a pose."""
     if footprint.disc is not None:
@@ -49,6 +51,7 @@ def _box_corners(a: float, b: float) -> tuple[tuple[float, float], ...]:
     return ((-a / 2, -b / 2), (a / 2, -b / 2), (a / 2, b / 2), (-a / 2, b / 2))
 
 
+@lru_cache(maxsize=10_000)
 def fingers(geometry: Geometry, gripper: Gripper, yaw: float, pose: Pose) -> tuple[list[Base], float]:
     """Return the room that the open fingers need around a part, and how low they come."""
     grasp, finger = geometry.grasp, gripper.fingers
