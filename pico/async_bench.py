@@ -113,14 +113,16 @@ class AsyncBench(Drawings):
         targets: Collection[str] = (),
         exclude: Collection[str] = (),
         manifests: Manifests | None = None,
+        expecting: bool = True,
     ) -> Plan:
         """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
 
         The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
         `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what must make way
-        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. Raises PicoError for
-        a revision that can't be read, and for a component that there is not; what is physically impossible is in the
-        plan's diagnostics.
+        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. `expecting`: whether
+        the expectations of the state count; those of single components never do. Raises PicoError for a revision that
+        can't be read, for a component that there is not, and for an expectation that makes no sense; what is physically
+        impossible is in the plan's diagnostics.
         """
         from pico.planning import plan
 
@@ -129,6 +131,10 @@ class AsyncBench(Drawings):
         manifests = self.folder.manifests_at(revision) if revision else here
         commit = self.folder.history().resolve(revision).id if revision else None
         wanted = self._goal(manifests, revision, targets)
+        if not expecting:
+            wanted = replace(wanted, expect=())
+        if wanted.expect and not (targets or exclude):
+            _require_sense("expect", manifests)
         seen = await self.observe()
         found = plan(
             self.setup,
@@ -166,6 +172,8 @@ class AsyncBench(Drawings):
             return plan
         from pico.policy.rules import judged
 
+        if plan.operations:
+            _require_sense("rules", self.folder.manifests)
         return judged(self.setup, plan, seen)
 
     def base(self, seen: Observation) -> Base:
@@ -374,6 +382,15 @@ class AsyncBench(Drawings):
         from pico.backends.sim.table import SimulatedTable
 
         return SimulatedTable(self.setup, self.root)
+
+
+def _require_sense(what: Literal["expect", "rules"], manifests: Manifests) -> None:
+    """Raise PicoError, with their places, for expectations of a state or rules of a lab that can't be told."""
+    from pico.manifest.expression_checks import check_expectations, check_rules
+
+    found = check_expectations(manifests) if what == "expect" else check_rules(manifests)
+    if found:
+        raise PicoError(found)
 
 
 def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:

@@ -115,11 +115,11 @@ class Bench(Reader):
         prefer: Preference = "fewest-moves",
         targets: Collection[str] = (),
         exclude: Collection[str] = (),
+        expecting: bool = True,
     ) -> Plan:
         """Return the plan to a revision, or to the manifest; see `AsyncBench.plan`."""
-        return self._thread.wait(
-            self._bench.plan(revision, exact=exact, prefer=prefer, targets=targets, exclude=exclude)
-        )
+        options: dict[str, Any] = {"prefer": prefer, "targets": targets, "exclude": exclude, "expecting": expecting}
+        return self._thread.wait(self._bench.plan(revision, exact=exact, **options))
 
     def plan_of(self, word: str | None, *, folder: Path = Path(), **options: Any) -> Plan:
         """Return the saved plan that `word` names, or the plan to the revision that it names."""

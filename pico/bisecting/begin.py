@@ -6,13 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pico.bisecting.judging import require_expression
 from pico.bisecting.records import Task, Tried
 from pico.bisecting.search import Bisection, Builder
 from pico.diagnostics import PicoError, error
 from pico.history.bisect.kept import GitBisect, require_order
 from pico.model.record import as_json
 from pico.model.state import Expectation
+from pico.policy.expectations import require_expressions
 
 MEASURE = 5.0
 """How long a measurement takes where nobody says [s]."""
@@ -32,14 +32,13 @@ def begin(
     """
     history = bench.folder.history()
     ends = history.resolve(bad).id, history.resolve(good).id
-    if expect is not None:
-        require_expression(bench.setup, expect)
     wanted: tuple[Expectation, ...] = (Expectation(that=expect),) if expect is not None else ()
     if from_bad and not wanted:
         wanted = bench.folder.state_at(bad).expect
         if not wanted:
             hint = "say what must hold: `--expect 'p2.pose.x < 530'`; or judge yourself: `pico bisect start`"
             raise PicoError(error("bisect", f"{bad} expects nothing", hint=hint))
+    require_expressions(bench.setup, [one.that for one in wanted])
     running = _left(bench, ends)
     if running is not None and (running.task.expect == wanted or not wanted):
         own = running.task
@@ -73,7 +72,7 @@ def under_way(bench: Builder, *, expect: str | None = None, measure: float | Non
         hint = "`git bisect run pico bisect-step --expect ...` goes on with it, `git bisect reset` ends it"
         raise PicoError(error("bisect", "git checks files out for the bisection under way", hint=hint))
     if expect is not None:
-        require_expression(bench.setup, expect)
+        require_expressions(bench.setup, [expect])
     found = _task(git)
     ends = git.ends()
     if found is None:

@@ -8,13 +8,12 @@ from typing import Any
 
 from pico.bisecting.records import Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.expressions import ExpressionError, Language
 from pico.history.bisect.kept import Verdict
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.state import Expectation, LabState
-from pico.model.vocabulary import functions_of, measured, names_of, spoken_of, values_of
+from pico.model.vocabulary import measured, spoken_of, values_of
 from pico.policy.expectations import check_expectations, shown
 
 UNSURE = frozenset({"missing", "toppled", "held", "uncertain", "hand-full"})
@@ -66,17 +65,6 @@ def decisive(setup: Setup, expect: Sequence[Expectation]) -> frozenset[str]:
     words = {word for one in expect for word in re.findall(r"[A-Za-z_]\w*\.[A-Za-z_]\w*", one.that)}
     numbers = {f"{name}.{m}" for name in names for m in measured(setup.type_of(name).measurables)}
     return frozenset() if words & numbers else frozenset(names)
-
-
-def require_expression(setup: Setup, text: str) -> None:
-    """Raise PicoError where an expression makes no sense on this bench."""
-    names = spoken_of(setup, [text])
-    try:
-        Language(names_of(setup, names), functions_of(setup)).compile(text)
-    except ExpressionError as exc:
-        hint = "it speaks of components, as `expect:` does: `p2.pose.x < 530`, `distance(p1, p2) > 100`"
-        caret = " " * exc.start + "^" * (min(exc.end, len(text)) - exc.start)
-        raise PicoError(error("expression", f"{exc}", detail=f"{text}\n{caret}", hint=hint)) from exc
 
 
 def require_known(setup: Setup, seen: Observation, plan: Plan) -> None:

@@ -36,7 +36,7 @@ class Builder(Protocol):
 
     def observe(self) -> Observation: ...
 
-    def plan(self, revision: str | None = None) -> Plan: ...
+    def plan(self, revision: str | None = None, *, expecting: bool = True) -> Plan: ...
 
 
 class Bisection:
@@ -258,7 +258,7 @@ class Bisection:
         return commit, plan
 
     def _known_plan(self, commit: str, seen: Observation) -> Plan:
-        plan = self.bench.plan(commit)
+        plan = self.bench.plan(commit, expecting=False)
         require_known(self.bench.setup, seen, plan)
         return plan
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from pico.bisecting.judging import impossible, require_expression, require_known, verdict
+from pico.bisecting.judging import impossible, require_known, verdict
 from pico.bisecting.search import Builder
 from pico.diagnostics import PicoError
 from pico.history import git
@@ -14,6 +14,7 @@ from pico.history.folder import LabFolder
 from pico.model.plan import Plan
 from pico.model.record import record
 from pico.model.state import Expectation
+from pico.policy.expectations import require_expressions
 
 
 @record
@@ -50,12 +51,12 @@ def step(bench: Builder, expect: str, bring: Callable[[Plan], float]) -> Step:
     where nobody can say how the bench stands. What can't be built, is denied or can't be told is `skip`.
     """
     commit = under_trial(bench.folder)
-    require_expression(bench.setup, expect)
+    require_expressions(bench.setup, [expect])
     try:
         bench.folder.state_at(commit)
     except PicoError as exc:
         return Step(commit=commit, verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
-    plan = bench.plan(commit)
+    plan = bench.plan(commit, expecting=False)
     require_known(bench.setup, bench.observe(), plan)
     if why := impossible(plan):
         return Step(commit=commit, verdict="skip", why=why)

@@ -31,7 +31,11 @@ def require_applicable(plan: Plan, able: Capabilities) -> None:
 
 def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
     """Raise PicoError (exit code DENIED) where a mandatory rule of the lab does not hold of `plan` on the bench as it
-    is now."""
+    is now; and where the state expects what makes no sense."""
+    if plan.target.expect and not plan.target.scope:
+        from pico.policy.expectations import require_expressions
+
+        require_expressions(setup, [one.that for one in plan.target.expect])
     if setup.lab.policy.rules:
         from pico.policy import rules
 

@@ -16,20 +16,27 @@ _SPEAK = "expectations speak of a component's pose, slot, tunables and measurabl
 _RULES = "rules speak of plan, operations, components, lasers, lab, human_present and of components: `laser.shutter`"
 
 
-def check_expressions(manifests: Manifests) -> list[Diagnostic]:
-    """Return what is wrong with the expressions of manifests that are right otherwise, each at its place."""
+def check_rules(manifests: Manifests) -> list[Diagnostic]:
+    """Return what is wrong with the rules of a lab that is right otherwise, each at its place."""
     setup = manifests.setup
-    if setup is None:
+    return [d for lab in manifests.documents.get("Lab", ()) for d in _rules(lab, setup)] if setup else []
+
+
+def check_ignored(manifests: Manifests) -> list[Diagnostic]:
+    """Return what a lab's policy ignores though it does not exist, each at its place."""
+    setup = manifests.setup
+    return [d for lab in manifests.documents.get("Lab", ()) for d in _ignored(lab, setup)] if setup else []
+
+
+def check_expectations(manifests: Manifests) -> list[Diagnostic]:
+    """Return what is wrong with the expectations of a state that is right otherwise, each at its place."""
+    setup, state = manifests.setup, manifests.state
+    if setup is None or state is None or not state.expect:
         return []
-    found: list[Diagnostic] = []
-    for document in manifests.documents.get("Lab", ()):
-        found += [*_rules(document, setup), *_ignored(document, setup)]
-    expected = [d for d in manifests.documents.get("LabState", ()) if find(d, "expect", 0)]
-    if expected:
-        language = Language(names_of(setup, setup.lab.inventory), functions_of(setup))
-        for document in expected:
-            found += _each(document, language, ("expect",), "this expectation can't be told", _SPEAK)
-    return found
+    language = Language(names_of(setup, setup.lab.inventory), functions_of(setup))
+    documents = manifests.documents.get("LabState", ())
+    what = "this expectation can't be told"
+    return [found for document in documents for found in _each(document, language, ("expect",), what, _SPEAK)]
 
 
 def _rules(document: Document, setup: Setup) -> Iterator[Diagnostic]:

@@ -3,14 +3,29 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
+from pico.diagnostics import PicoError, error
 from pico.expressions import ExpressionError, Language, UnknownValue
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.state import Expectation
 from pico.model.vocabulary import functions_of, names_of, spoken_of, values_of
+
+
+def require_expressions(setup: Setup, texts: Iterable[str]) -> None:
+    """Raise PicoError where expressions make no sense on this bench."""
+    found = []
+    for text in texts:
+        try:
+            Language(names_of(setup, spoken_of(setup, [text])), functions_of(setup)).compile(text)
+        except ExpressionError as exc:
+            hint = "it speaks of components, as `expect:` does: `p2.pose.x < 530`, `distance(p1, p2) > 100`"
+            caret = " " * exc.start + "^" * (min(exc.end, len(text)) - exc.start)
+            found.append(error("expression", f"{exc}", detail=f"{text}\n{caret}", hint=hint))
+    if found:
+        raise PicoError(found)
 
 
 def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> tuple[Expected, ...]:
