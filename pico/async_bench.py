@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.drawings import Drawings
 from pico.execution.watched import AsyncRun
 from pico.history.folder import LabFolder
@@ -279,7 +280,23 @@ class AsyncBench(Drawings):
             watch(recording.look if recording else None)
         elif recording is not None:
             raise PicoError(error("not-simulated", "only what is simulated can be recorded"))
-        return AsyncRun(self.setup, plan, self.backend, resumes=resumes, stop_on_error=stop_on_error)
+        named = partial(self.goal_now, plan)
+        return AsyncRun(self.setup, plan, self.backend, named, resumes=resumes, stop_on_error=stop_on_error)
+
+    def goal_now(self, plan: Plan) -> str:
+        """Return what a plan leads to as a person calls it, and that it is not that any more where it was edited since
+        or a name in Git leads elsewhere."""
+        target = plan.target
+        if target.revision:
+            try:
+                same = self.folder.history().resolve(target.revision).id == target.commit
+            except PicoError:
+                same = False
+            return target.name if same else f"{target.name} as it was when it was planned ({str(target.commit)[:7]})"
+        state = None if target.title else self.folder.state_now()
+        if target.title or (state and state.as_json() == dict(target.state)):
+            return target.name
+        return f"{target.name} as it was when it was planned; it was edited since"
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
@@ -356,11 +373,16 @@ class AsyncBench(Drawings):
         """Capture and commit the manifests, with the runs that led to what they say; raises PicoError.
 
         `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`:
-        the bench wins; `planned`: the manifest wins, and the commit says where it was never realized. `only`, `meta`:
-        see `pico.committing.Asked`.
+        the bench wins; `planned`: the manifest wins where all of it can stand (exit code IMPOSSIBLE else), and the
+        commit says where it was never realized. `only`, `meta`: see `pico.committing.Asked`.
         """
         from pico.committing import Asked, commit
 
+        if mode == "planned":
+            from pico.merging import overlapping
+
+            if found := overlapping(self.folder.manifests):
+                raise PicoError(found, ExitCode.IMPOSSIBLE)
         asked = Asked(message=message, mode=mode, only=only, meta=meta)
         return commit(self.folder, await self.observe(), asked, observed=self.fidelity)
 

@@ -52,7 +52,7 @@ LAYERS: dict[str, set[str]] = {
     "bisecting": {"diagnostics", "expressions", "model", "history", "motion", "policy"},
     "async_bench": {
         "diagnostics", "resources", "model", "manifest", "history", "journal", "geometry", "motion", "planning",
-        "policy", "vision", "twin", "backends", "execution", "pictures", "drawings", "recording",
+        "policy", "vision", "twin", "backends", "execution", "pictures", "drawings", "recording", "merging",
         "committing",
     },
     "bench": {

@@ -17,14 +17,16 @@ def validate(
         list[Path] | None, typer.Argument(metavar="FILE...", help="Check the labs that these files lie in.")
     ] = None,
 ) -> int:
-    """Check the manifests.
+    """Check the manifests, and that everything has room where the state wants it.
 
     All errors at once, each with its place. Asks neither the bench nor Git.
     """
     from pico.manifest.folders import check_files, check_folder
+    from pico.merging import overlapping
 
     session = Session.of(context)
-    checked = check_files(session.folder, files) if files else check_folder(session.folder)
+    where, also = session.folder, overlapping
+    checked = check_files(where, files, also) if files else check_folder(where, also)
     if not session.json:
         session.report(checked.diagnostics)
     session.show(view, checked)

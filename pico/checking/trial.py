@@ -100,7 +100,7 @@ def run(setup: Setup, world: World, plan: Plan, *, fidelity: str, lab: Path) -> 
         save_world(folder, world, durable=False)
         backend = SimBackend(own, folder, fidelity)
         try:
-            watched = Run(AsyncRun(own, plan, backend, "pico check"), thread)
+            watched = Run(AsyncRun(own, plan, backend, holder="pico check"), thread)
             for _ in watched:
                 pass
             return watched.report

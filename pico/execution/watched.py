@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 import time
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 
@@ -32,15 +32,19 @@ class AsyncRun:
         setup: Setup,
         plan: Plan,
         backend: Backend,
+        named: Callable[[], str] | None = None,
         holder: str = "pico apply",
         *,
         resumes: str | None = None,
         stop_on_error: bool = False,
     ) -> None:
-        """`resumes`: the run that goes on under its id. `stop_on_error`: the first failure lets nothing more start."""
+        """`named`: what the goal is called once the run is over. `resumes`: the run that goes on under its id.
+        `stop_on_error`: the first failure lets nothing more start.
+        """
         self.plan, self.id = plan, resumes or new_run_id()
         self._resumed, self._stop_on_error = resumes is not None, stop_on_error
         self._setup, self._backend, self._holder = setup, backend, holder
+        self._named = named or (lambda: plan.target.name)
         self._report: RunReport | None = None
         self._cancelled = False
 
@@ -76,7 +80,8 @@ class AsyncRun:
         wall = time.monotonic() - started
         seen = await self._backend.observe()
         report = run_report(self._setup, self.plan, RunResult.of(events), seen, wall=wall, evidence=evidence)
-        self._report = replace(report, diagnostics=(*report.diagnostics, *self._keep(report, seen)))
+        goal = self._named() if report.goal == self.plan.target.name else report.goal
+        self._report = replace(report, goal=goal, diagnostics=(*report.diagnostics, *self._keep(report, seen)))
 
     def _keep(self, report: RunReport, seen: Observation) -> Sequence[Diagnostic]:
         """Journal how the bench was seen afterwards; what keeps that from being written must not hide the report."""

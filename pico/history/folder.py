@@ -114,6 +114,14 @@ class LabFolder:
         self._adopt(files, self._read(files, known) if known else load_folder(self.root))
         self._benches[bench] = self.setup
 
+    def state_now(self) -> LabState | None:
+        """Return what the manifests say now of this bench, which stays as it was read; None where they are wrong."""
+        files, found = read_folder(self.root)
+        if files == self._files and not found:
+            return self.state
+        read = load_files(files, setup=self.setup)
+        return None if any(d.severity == "error" for d in (*found, *read.diagnostics)) else read.state
+
     def _read(self, files: Mapping[str, bytes], setup: Setup) -> Manifests:
         """Return manifests of which only states may have changed since the last time."""
         read = load_files(files, setup=setup)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -31,7 +31,11 @@ class Checked:
         return ExitCode.ERROR if wrong else ExitCode.DONE
 
 
-def check_folder(start: Path) -> Checked:
+Asked = Callable[[Manifests], Sequence[Diagnostic]]
+"""What else is asked of manifests in which nothing else is wrong."""
+
+
+def check_folder(start: Path, also: Asked = lambda _: ()) -> Checked:
     """Return the verdict on the lab that `start` lies in; on `start` itself where no lab is found."""
     try:
         root = find_lab(start)
@@ -42,6 +46,8 @@ def check_folder(start: Path) -> Checked:
     manifests = load_folder(root)
     lab = manifests.setup.lab if manifests.setup else None
     found = [*manifests.diagnostics, *expression_errors(manifests)]
+    if not any(d.severity == "error" for d in manifests.diagnostics):
+        found += also(manifests)
     return Checked(
         folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
         lab=lab.name if lab else "",
@@ -61,7 +67,7 @@ def expression_errors(manifests: Manifests) -> list[Diagnostic]:
     return []
 
 
-def check_files(start: Path, files: Sequence[Path]) -> Checked:
+def check_files(start: Path, files: Sequence[Path], also: Asked = lambda _: ()) -> Checked:
     """Return the verdict on the labs that `files` lie in, together: a manifest is right or wrong only among the others.
 
     Files that lie in no lab and don't claim to be PICO's are passed over; raises PicoError for those that do.
@@ -73,7 +79,7 @@ def check_files(start: Path, files: Sequence[Path]) -> Checked:
         except PicoError:
             if "apiVersion: pico/" in _read(start / path):
                 raise
-    found = [check_folder(root) for root in roots]
+    found = [check_folder(root, also) for root in roots]
     return Checked(
         folder=", ".join(c.folder for c in found),
         lab=", ".join(c.lab for c in found),

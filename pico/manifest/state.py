@@ -21,6 +21,9 @@ MOST_COMPONENTS = 200
 _POSE = (("x", "mm"), ("y", "mm"), ("yaw", "deg"))
 _KEYS = ("apiVersion", "kind", "metadata", "components", "expect")
 
+FAR = 1e5
+"""No pose is farther from the origin [mm]; one off the table is told by whoever asks what can stand there."""
+
 
 def read_states(
     documents: Iterable[Document], view: BenchView, *, whole: bool = True
@@ -192,16 +195,10 @@ class _Reader:
         if "x" not in numbers or "y" not in numbers:
             return None
         pose = Pose(numbers["x"], numbers["y"], numbers.get("yaw", 0.0))
-        self._on_table(document, name, pose)
+        if self.view.size and max(abs(pose.x), abs(pose.y)) > FAR:
+            spot = where(document, "components", name, "pose", "y" if abs(pose.x) <= FAR else "x")
+            self.found.append(off_table(name, pose.x, pose.y, self.view.size, spot))
         return pose
-
-    def _on_table(self, document: Document, name: str, pose: Pose) -> None:
-        size = self.view.size
-        if size is None or (0 <= pose.x <= size[0] and 0 <= pose.y <= size[1]):
-            return
-        axis = "y" if 0 <= pose.x <= size[0] else "x"
-        at = where(document, "components", name, "pose", axis)
-        self.found.append(off_table(name, pose.x, pose.y, size, at))
 
     def _values(self, document: Document, name: str, node: Map) -> dict[str, Value]:
         kind = self.view.kinds[name]

@@ -12,6 +12,7 @@ from manifest_samples import BYTES, GOOD, LAB, OWN_TYPE, STATE, USES_OWN, malfor
 from pico.diagnostics import PicoError
 from pico.manifest.fmt import format_text
 from pico.manifest.load import load_files, load_folder
+from pico.merging import overlapping
 
 CASES = malformed()
 JARGON = re.compile(r"\b(pydantic|Input should|Field required|dataclass|NoneType|dict|str)\b")
@@ -27,7 +28,8 @@ def test_the_samples_are_right_before_they_are_broken() -> None:
 
 @pytest.mark.parametrize("files", [files for _, files in CASES], ids=[name for name, _ in CASES])
 def test_each_gives_an_error_with_a_place_and_a_hint(files: dict[str, bytes]) -> None:
-    found = load_files(files).diagnostics
+    read = load_files(files)
+    found = read.diagnostics or overlapping(read)
     errors = [d for d in found if d.severity == "error"]
     assert errors
     for diagnostic in errors:
