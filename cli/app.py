@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import os
 import sys
 import traceback
 from collections.abc import Sequence
@@ -14,7 +15,7 @@ import typer
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
 from .commands import register
-from .output import write
+from .output import unsaid, write
 from .session import Session
 from .summary import COMMANDS, MOVERS
 
@@ -105,6 +106,7 @@ def _share(group: Any, options: list[Any], within: str = "") -> None:
 def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
     session = Session(json="--json" in words, debug="--debug" in words)
+    unsaid.clear()
     try:
         group = build(words)
         with group.make_context("pico", list(words)) as context:
@@ -120,7 +122,14 @@ def run(words: list[str]) -> int:
         if session.debug:
             write(sys.stderr, traceback.format_exc(), end="")
         session.report(found)
-    return int(code or 0)
+    if unsaid:
+        from pico.disk import unwritable
+
+        from .views import diagnostics
+
+        found = [unwritable(Path("/dev/stdout"), unsaid[0], what="the answer can't be written to standard output")]
+        write(sys.stderr, diagnostics.text(found))
+    return int(code or (ExitCode.ERROR if unsaid else 0))
 
 
 def _explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], int]:
@@ -133,10 +142,23 @@ def _explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], in
         return [error("declined", "nothing was done")], ExitCode.ERROR
     if hasattr(exc, "format_message"):  # a usage error, whichever click typer carries
         return [_usage(exc, words)], ExitCode.ERROR
-    if isinstance(exc, OSError) and exc.filename:
-        reason = (exc.strerror or str(exc)).lower()
-        return [error("file", f"{exc.filename}: {reason}")], ExitCode.ERROR
+    if (found := _refused(exc)) is not None:
+        return [found], ExitCode.ERROR
     return [_internal(exc)], ExitCode.ERROR
+
+
+def _refused(exc: BaseException) -> Diagnostic | None:
+    """Return what is said where the system refused a file, or a disk is full, fails or is read-only, as SQLite and
+    libgit2 say it, too; None for anything else."""
+    from pico.disk import number_of, unwritable
+
+    if not isinstance(exc, Exception):
+        return None
+    if isinstance(exc, OSError) and exc.filename:
+        return unwritable(Path(os.fsdecode(exc.filename)), exc, what=os.fsdecode(exc.filename), code="file")
+    if number_of(exc) is not None:
+        return error("file", " ".join(str(exc).split()), hint="`df -h` shows which disk is full or read-only")
+    return None
 
 
 def _usage(exc: Any, words: list[str]) -> Diagnostic:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
 from pico.history import git
 
 if TYPE_CHECKING:
@@ -20,8 +21,7 @@ def edited(bench: Bench, text: str) -> str:
     repository = bench.folder.history()
     editor = git.run(repository.root, ["var", "GIT_EDITOR"], doing="name an editor").strip()
     path = repository.own / "pico" / "COMMIT_EDITMSG"
-    path.parent.mkdir(exist_ok=True)
-    path.write_text(f"{text.rstrip()}\n\n{_HINT}", encoding="utf-8")
+    write_whole(path, f"{text.rstrip()}\n\n{_HINT}".encode(), folders=True, durable=False)
     said = _open(editor, path)
     if not said.strip():
         raise PicoError(error("message", "the message is empty: nothing was committed"))

@@ -29,8 +29,11 @@ def main(argv: Sequence[str] | None = None) -> int:
             return 130
     try:
         print(at_once, flush=True)
-    except BrokenPipeError:
+    except OSError as exc:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(exc, BrokenPipeError):  # into a file, on a disk that is full
+            print(f"pico: standard output: {(exc.strerror or str(exc)).lower()}", file=sys.stderr)
+            return 1
     return 0
 
 

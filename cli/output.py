@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 import sys
 from typing import TextIO
 
@@ -11,6 +12,9 @@ from .views.style import inert, plain
 
 GONE = (errno.EPIPE, errno.EIO)
 """Writing fails so where nobody reads any more: a pipe was closed, or a terminal."""
+
+unsaid: list[OSError] = []
+"""Why standard output took no more, where readers were not the matter but a disk: the command ends with an error."""
 
 
 def colored(stream: TextIO) -> bool:
@@ -30,11 +34,15 @@ def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False) -> 
         stream.write(f"\r{safe}\x1b[K{end}" if over else f"{safe}{end}")
         stream.flush()
     except OSError as exc:
-        if exc.errno not in GONE:
-            raise
+        if stream is sys.stdout and (exc.errno not in GONE or _into_file(stream)):
+            unsaid.append(exc)
         silence(stream)
         return False
     return True
+
+
+def _into_file(stream: TextIO) -> bool:
+    return stat.S_ISREG(os.fstat(stream.fileno()).st_mode)
 
 
 def silence(stream: TextIO) -> None:

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.disk import write_whole, writing
 
 FOLDER = ".pico"
 RECORD = "bench.json"
@@ -152,23 +153,16 @@ def _is_of(folder: Path, place: Place) -> bool:
 def _recording(place: Place) -> Iterator[dict[str, str]]:
     """Read the record, and write it where it was changed; nobody else does so meanwhile."""
     path = place.record
-    try:
+    with writing(path, code="folder"):
         path.parent.mkdir(parents=True, exist_ok=True)
         lock = os.open(path.with_suffix(".lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
-    except OSError as exc:
-        raise PicoError(_unwritable(path, exc)) from exc
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
         record = _read(path)
         before = dict(record)
         yield record
         if record != before:
-            fresh = path.with_suffix(".tmp")
-            try:
-                fresh.write_text(json.dumps(record, indent=2, sort_keys=True) + "\n", encoding="utf-8")
-                fresh.replace(path)
-            except OSError as exc:
-                raise PicoError(_unwritable(path, exc)) from exc
+            write_whole(path, (json.dumps(record, indent=2, sort_keys=True) + "\n").encode(), code="folder")
     finally:
         os.close(lock)
 
@@ -231,7 +225,3 @@ def _elsewhere(there: Path, *, gone: bool) -> Diagnostic:
         return error("not-attached", text, hint="`pico git attach` takes it: every part then stands at home")
     hint = f"work there (`pico -C {there} ...`), or bring the bench here: `pico git attach`; looking is always possible"
     return error("not-attached", f"this worktree only plans: the bench is attached to {there}", hint=hint)
-
-
-def _unwritable(path: Path, exc: OSError) -> Diagnostic:
-    return error("folder", f"can't write {path}: {(exc.strerror or str(exc)).lower()}")

@@ -73,7 +73,7 @@ def _last_said(
 ) -> dict[tuple[str, str], bool]:
     """Return of tunables on which operations succeeded whether the last one is no reason to doubt a state."""
     found: dict[tuple[str, str], bool] = {}
-    with closing(Journal(path)) as journal:
+    with closing(Journal(path, looking=True)) as journal:
         for success in journal.successes({component for component, _ in tunables}):
             one = (success.operation.component, _tunable(success.operation))
             if one in tunables and one not in found:
@@ -97,7 +97,7 @@ def _brought(setup: Setup, path: Path, state: LabState, tunables: Tunables) -> d
     if not path.exists():
         return found
     wanted = set(tunables)
-    with closing(Journal(path)) as journal:
+    with closing(Journal(path, looking=True)) as journal:
         for success in journal.successes({component for component, _ in wanted}):
             one = (success.operation.component, _tunable(success.operation))
             if one in wanted - found.keys():

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.disk import write_whole
 from pico.manifest.adopt import Adopted, adopt
 from pico.manifest.catalog import catalog_names, packaged_type, read_type
 from pico.manifest.files import read_folder
@@ -91,9 +91,7 @@ def take_in(bench: AsyncBench, parts: Sequence[Adopted], *, write: bool = True) 
     written = adopt(read_folder(bench.root)[0], parts)
     if write:
         for path, data in written.items():
-            fresh = Path(path).with_name(f".{Path(path).name}.{os.getpid()}.tmp")
-            fresh.write_bytes(data)
-            fresh.replace(path)
+            write_whole(Path(path), data)
         bench.folder.reload()
     return Imported(parts=tuple(parts), files=tuple(sorted(written)))
 

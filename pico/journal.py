@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.disk import refusing, unwritable
 from pico.model.observation import ObservedComponent, ObservedValue, Uncertainty
 from pico.model.operation import Operation, OperationResult, Outcome, Reason
 from pico.model.pose import Pose
@@ -137,17 +138,29 @@ def run_of(key: str) -> str:
 class Journal:
     """The journal of one bench. Every method raises PicoError where the database is locked, damaged or not writable."""
 
-    def __init__(self, path: Path, clock: Callable[[], str] = utc_now) -> None:
+    def __init__(self, path: Path, clock: Callable[[], str] = utc_now, *, looking: bool = False) -> None:
+        """Open or make it. `looking`: only to read what is there, also where the disk is full or read-only."""
         self.path = path
         self._clock = clock
         with self._guarded():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._db = sqlite3.connect(path, timeout=5.0, isolation_level=None, check_same_thread=False)
             try:
-                self._prepare()
-            except BaseException:
-                self._db.close()
-                raise
+                if not looking:
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                self._open(str(path))
+            except sqlite3.OperationalError:
+                if not looking or _is_open(path):
+                    raise
+                self._open(f"{path.absolute().as_uri()}?immutable=1")
+
+    def _open(self, name: str) -> None:
+        self._db = sqlite3.connect(
+            name, timeout=5.0, isolation_level=None, check_same_thread=False, uri=name.startswith("file:")
+        )
+        try:
+            self._prepare()
+        except BaseException:
+            self._db.close()
+            raise
 
     def _prepare(self) -> None:
         self._db.execute("PRAGMA journal_mode=WAL")
@@ -355,6 +368,12 @@ class Journal:
             raise PicoError(_trouble(self.path, exc)) from exc
 
 
+def _is_open(path: Path) -> bool:
+    """Whether a process writes a journal, or was killed while it did: not all records are in the file itself then."""
+    log = path.with_name(f"{path.name}-wal")
+    return log.is_file() and log.stat().st_size > 0
+
+
 def _late(token: int) -> Diagnostic:
     return error("lease", f"the lease {token} is not the current one: somebody took the bench since", hint="plan again")
 
@@ -372,7 +391,7 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
     if isinstance(exc, sqlite3.DatabaseError) and not isinstance(exc, sqlite3.OperationalError):
         hint = f"move it away (`mv {path} {path}.broken`); runs in Git and the simulated table do not depend on it"
         return error("journal", f"the journal {path} is damaged: {text}", hint=hint)
-    return error("journal", f"the journal {path} cannot be used: {text}")
+    return unwritable(path, refusing(path.parent) or exc, what=f"the journal {path} cannot be used", code="journal")
 
 
 def _run(row: tuple[Any, ...]) -> RunRecord:

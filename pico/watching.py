@@ -234,7 +234,7 @@ def _records(bench: AsyncBench) -> Sequence[JournalRecord]:
     if not path.exists():
         return ()
     try:
-        journal = Journal(path)
+        journal = Journal(path, looking=True)
         try:
             return journal.records()
         finally:

@@ -148,3 +148,17 @@ def test_a_database_of_a_newer_pico_is_refused(tmp_path: Path) -> None:
         db.execute("PRAGMA user_version=99")
     with pytest.raises(PicoError, match="newer PICO"):
         Journal(path)
+
+
+def test_a_journal_on_a_disk_that_takes_nothing_is_read_all_the_same(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    journal = Journal(path)
+    journal.begin_run("run-1", "sha256:1", "somebody")
+    journal.close()
+    for name in ("-wal", "-shm"):
+        path.with_name(path.name + name).mkdir()  # as on a full disk: it can't make its files
+    with pytest.raises(PicoError, match="cannot be used"):
+        Journal(path)
+    read = Journal(path, looking=True)
+    assert [run.run for run in read.runs()] == ["run-1"]
+    read.close()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 
 import typer
 
-from pico.diagnostics import PicoError, error
+from pico.disk import beside, replace_whole, writing
 
 from ..arguments import Fidelity
 from ..output import write
@@ -100,12 +100,9 @@ def _write_files(session: Session, found: Checked, report: Path | None, junit: P
 
 def _write(path: Path, text: str) -> None:
     """Write a file anew; a link that a branch put in its place is not followed."""
-    try:
+    with writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.unlink(missing_ok=True)
-        path.write_text(text, encoding="utf-8")
-    except OSError as exc:
-        raise PicoError(error("unwritable", f"cannot write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
+        replace_whole(path, (text.encode(),), beside(path))
 
 
 def _show(session: Session, found: Checked, stream: TextIO) -> None:
@@ -133,5 +130,5 @@ def _tell_github(found: Checked) -> None:
     if summary := os.environ.get("GITHUB_STEP_SUMMARY"):
         from ..views.check_markdown import report as in_markdown
 
-        with Path(summary).open("a", encoding="utf-8") as file:
+        with writing(Path(summary)), Path(summary).open("a", encoding="utf-8") as file:
             file.write(in_markdown(found))

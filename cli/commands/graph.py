@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
+from pico.disk import write_whole
 
 from ..arguments import Fidelity, Out, PlanOrRevision
 from ..session import Session
@@ -42,7 +43,7 @@ def graph(
     form = form or (_SUFFIXES.get(out.suffix, "dot") if out else None)
     if out and form:
         path = session.folder / out
-        path.write_text(FORMATS[form](plan, found) + "\n", encoding="utf-8")
+        write_whole(path, (FORMATS[form](plan, found) + "\n").encode())
         session.show(written, path, shown=out, what=f"the graph of the plan for {bench.goal_name(plan)}")
     elif form and not session.json:
         session.say(FORMATS[form](plan, found))

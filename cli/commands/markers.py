@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.disk import write_whole
 
 from ..session import Session
 from ..views import markers as view
@@ -31,6 +32,6 @@ def markers(
         raise PicoError(error("usage", f"there is no paper `{paper}`", hint=did_you_mean(paper, PAPERS)))
     setup = session.bench().setup
     path = session.folder / out
-    path.write_bytes(marker_sheets(setup, paper))
+    write_whole(path, marker_sheets(setup, paper))
     session.show(view, path, shown=out, labels=labels(setup), paper=paper)
     return 0

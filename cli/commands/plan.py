@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from pico.diagnostics import ExitCode
+from pico.disk import write_whole
 
 from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Targets
 from ..scope import scope_of
@@ -55,7 +56,7 @@ def plan(
     targets = (*(target or ()), *named)
     found = bench.plan(revision, exact=exact, prefer=prefer, targets=targets, exclude=exclude or ())
     if out and not found.errored:
-        (session.folder / out).write_text(found.to_json() + "\n")
+        write_whole(session.folder / out, (found.to_json() + "\n").encode())
     if explain:
         from .explain import show
 

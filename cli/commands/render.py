@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.disk import write_whole
 
 from ..arguments import Revision
 from ..session import Session
@@ -48,7 +49,7 @@ def render(
     path = session.folder / out
     with waiting("Drawing"):
         if out.suffix.lower() == ".svg":
-            path.write_text(bench.sheet(revision, manifest=manifest), encoding="utf-8")
+            write_whole(path, bench.sheet(revision, manifest=manifest).encode())
         else:
             seen_from = "top" if looking == "top" else "perspective"
             bench.render(revision, manifest=manifest, view=seen_from, plan=plan, size=pixels, out=path)

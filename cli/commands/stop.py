@@ -53,7 +53,7 @@ def _last_run(root: Path) -> RunRecord | None:
     from pico.attachment import bench_folder
     from pico.journal import Journal
 
-    journal = Journal(bench_folder(root) / "journal.sqlite")
+    journal = Journal(bench_folder(root) / "journal.sqlite", looking=True)
     try:
         runs = journal.runs()
         return runs[-1] if runs else None

@@ -12,7 +12,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from pico import attachment
 from pico.attachment import bench_folder, require_attached
 from pico.backends.protocol import Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.disk import write_whole, writing
 from pico.model.record import record
 
 
@@ -73,7 +74,11 @@ class BenchLock:
             raise
         self._file = file
         lease = Lease(token=self._last_token() + 1, holder=holder, since=self._clock())
-        self._write_holder(lease)
+        try:
+            self._write_holder(lease)
+        except PicoError:
+            self.release()
+            raise
         return lease
 
     @property
@@ -113,7 +118,8 @@ class BenchLock:
     def release(self) -> None:
         """Let go of the lock; nothing happens where it is not held."""
         if self._file is not None:
-            (self._folder / "holder.json").unlink(missing_ok=True)
+            with suppress(OSError):  # on a disk that became read-only it stays; it names nobody who lives
+                (self._folder / "holder.json").unlink(missing_ok=True)
             os.close(self._file)
             self._file = None
 
@@ -127,12 +133,12 @@ class BenchLock:
             self.release()
 
     def _open(self) -> int:
-        try:
+        with self._writing():
             self._folder.mkdir(parents=True, exist_ok=True)
             return os.open(self._folder / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
-        except OSError as exc:
-            text = f"the bench cannot be locked in {self._folder}: {(exc.strerror or str(exc)).lower()}"
-            raise PicoError(error("lock-file", text)) from exc
+
+    def _writing(self) -> AbstractContextManager[None]:
+        return writing(self._folder, what=f"the bench cannot be locked in {self._folder}", code="lock-file")
 
     def _last_token(self) -> int:
         """Return the highest token given out; kept in the lock's own file, which only its holder writes."""
@@ -142,12 +148,12 @@ class BenchLock:
 
     def _write_holder(self, lease: Lease) -> None:
         assert self._file is not None
-        os.pwrite(self._file, b"%-31d\n" % lease.token, 0)
-        os.fsync(self._file)
+        with self._writing():
+            os.pwrite(self._file, b"%-31d\n" % lease.token, 0)
+            os.fsync(self._file)
         who = {"token": lease.token, "user": user(), "pid": os.getpid(), "since": lease.since, "what": lease.holder}
-        fresh = self._folder / f"holder.{os.getpid()}.tmp"
-        fresh.write_text(json.dumps(who), encoding="utf-8")
-        fresh.replace(self._folder / "holder.json")
+        with suppress(PicoError):  # it is for who asks; the lock is taken
+            write_whole(self._folder / "holder.json", json.dumps(who).encode(), durable=False)
 
     def holder(self) -> Holder | None:
         """Return who has the lock, or None where nobody has it; takes it for no longer than the question needs."""

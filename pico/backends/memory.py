@@ -7,11 +7,13 @@ asks the cameras first.
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from pico.attachment import bench_folder
+from pico.diagnostics import PicoError
+from pico.disk import write_whole
 from pico.model.observation import Observation, Uncertainty
 from pico.model.pose import Pose
 from pico.model.record import as_json, record
@@ -71,12 +73,7 @@ def noted(last: Mapping[str, Seen], seen: Observation) -> dict[str, Seen]:
 
 def remember(root: Path, parts: Mapping[str, Seen]) -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
-    path = memory_path(root)
-    fresh = path.with_name(f"seen.{os.getpid()}.tmp")
     document = {"schema": SCHEMA, "parts": as_json(parts)}
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        fresh.write_text(json.dumps(document, separators=(",", ":"), sort_keys=True), encoding="utf-8")
-        fresh.replace(path)
-    except OSError:
-        fresh.unlink(missing_ok=True)
+    data = json.dumps(document, separators=(",", ":"), sort_keys=True).encode()
+    with suppress(PicoError):
+        write_whole(memory_path(root), data, folders=True, durable=False)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 from typing import Literal
 
 from pico.attachment import bench_folder
-from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
 
 Asking = Literal["safely", "now"]
 """`safely`: as the first Ctrl-C; `now`: as the second."""
@@ -17,13 +16,9 @@ Asking = Literal["safely", "now"]
 def ask_to_stop(root: Path, token: int, how: Asking) -> None:
     """Ask the holder of the lease `token` of the lab in `root` to stop; raises PicoError where it can't be asked."""
     path = _note(root)
-    fresh = path.with_name(f"stop.{os.getpid()}.tmp")
-    try:
-        fresh.write_text(json.dumps({"token": token, "how": how}), encoding="utf-8")
-        fresh.replace(path)
-    except OSError as exc:
-        text = f"the request to stop cannot be written to {path}: {(exc.strerror or str(exc)).lower()}"
-        raise PicoError(error("stop", text, hint="press Ctrl-C in the terminal of the run")) from exc
+    note = json.dumps({"token": token, "how": how}).encode()
+    what = f"the request to stop cannot be written to {path}; press Ctrl-C in the terminal of the run"
+    write_whole(path, note, what=what, code="stop", durable=False)
 
 
 def asked_to_stop(root: Path, token: int) -> Asking | None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pico.checking.candidate import Candidate, Origin, start
 from pico.checking.verdict import LabChecked, Picture
-from pico.diagnostics import PicoError, error
+from pico.disk import writing
 
 SIZE = (960, 720)
 """Width and height of a picture in pixels, without its list of steps."""
@@ -22,10 +22,8 @@ def draw(candidate: Candidate, before: Origin, found: LabChecked, folder: Path, 
 
     setup, wanted = candidate.manifests.require()
     begin, _ = start(setup, before)
-    try:
+    with writing(folder, what=f"can't make the folder {folder}"):
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError as exc:
-        raise PicoError(error("unwritable", f"cannot make the folder {folder}: {exc.strerror}")) from exc
     width, height = SIZE
     first = render(
         setup, standing(setup, begin), {}, view="top", width=width, height=height,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO, Protocol
 
 from pico.data.needs import Needs
 from pico.diagnostics import PicoError, error
+from pico.disk import beside, replace_whole, writing
 from pico.history import git
 from pico.history.repository import Repository
 from pico.trace.store import CHUNK, Store
@@ -104,7 +104,9 @@ class LfsObjects:
         path = self._path(sha256)
         with store.open(sha256) as file:
             if not path.is_file():
-                _write(path, pieces(file, heard))
+                with writing(path, code="data-io"):
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    replace_whole(path, pieces(file, heard), beside(path))
 
     def fetch(self, sha256: str, store: Store, heard: Heard) -> None:
         with self._path(sha256).open("rb") as file:
@@ -117,21 +119,6 @@ class LfsObjects:
 def _copy(sha256: str, source: Store, target: Store, heard: Heard) -> None:
     with source.open(sha256) as file:
         target.put(pieces(file, heard), expected=sha256)
-
-
-def _write(path: Path, content: Iterator[bytes]) -> None:
-    """Write a file so that it is there whole or not at all."""
-    fresh = path.with_name(f"{path.name}.{os.getpid()}.tmp")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with fresh.open("wb") as file:
-            file.writelines(content)
-            file.flush()
-            os.fsync(file.fileno())
-        fresh.replace(path)
-    except OSError as exc:
-        fresh.unlink(missing_ok=True)
-        raise PicoError(error("data-io", f"{path} can't be written: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
 def pieces(file: BinaryIO, heard: Heard) -> Iterator[bytes]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from pico.data.places import LfsObjects
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.disk import write_whole
 from pico.history.repository import Repository
 from pico.model.record import record
 from pico.model.run import RunDocument
@@ -46,8 +47,7 @@ def write_pointers(repository: Repository, lab: Path, store: Store, runs: Sequen
             place.send(artifact.sha256, store, lambda _: None)
             content, file = pointer(artifact.sha256, artifact.size), lab / path
             if not file.is_file() or file.read_bytes() != content:
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_bytes(content)
+                write_whole(file, content, folders=True)
                 written.append(path)
                 size += artifact.size
     return Pointed(files=tuple(written), size=size, attributes=bool(written) and _attribute(lab / ".gitattributes"))
@@ -68,5 +68,5 @@ def _attribute(path: Path) -> bool:
     text = path.read_text(encoding="utf-8") if path.is_file() else ""
     if ATTRIBUTES in text.splitlines():
         return False
-    path.write_text(f"{text}{'' if not text or text.endswith(chr(10)) else chr(10)}{ATTRIBUTES}\n", encoding="utf-8")
+    write_whole(path, f"{text}{'' if not text or text.endswith(chr(10)) else chr(10)}{ATTRIBUTES}\n".encode())
     return True

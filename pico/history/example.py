@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
+from pico.disk import disk_trouble, write_whole, writing
 from pico.history.attributes import GITATTRIBUTES
 from pico.history.replay import replay
 from pico.history.repository import Repository
@@ -39,15 +43,16 @@ def make_example(name: str, folder: Path) -> Repository:
         raise PicoError(error("exists", f"{folder} is not empty", hint="name a new folder, or an empty one"))
     source = labs_dir() / name
     history = yaml.safe_load((source / _HISTORY).read_text(encoding="utf-8"))
-    repository = Repository.init(folder)
-    ids: dict[str, str] = {}
-    refs: dict[str, str] = {}
-    for number, step in enumerate(replay(history["commits"], _files(source))):
-        parents = [ids[step.follows]] if step.follows else []
-        time = _BEGIN + timedelta(hours=number)
-        ids[step.tag] = repository.write_commit(step.files, step.message, parents, author=_AUTHOR, time=time)
-        refs |= {f"refs/tags/{step.tag}": ids[step.tag], f"refs/heads/{step.branch}": ids[step.tag]}
-    repository.write_refs(refs, head=history["head"])
+    with _all_or_nothing(folder):
+        repository = Repository.init(folder)
+        ids: dict[str, str] = {}
+        refs: dict[str, str] = {}
+        for number, step in enumerate(replay(history["commits"], _files(source))):
+            parents = [ids[step.follows]] if step.follows else []
+            time = _BEGIN + timedelta(hours=number)
+            ids[step.tag] = repository.write_commit(step.files, step.message, parents, author=_AUTHOR, time=time)
+            refs |= {f"refs/tags/{step.tag}": ids[step.tag], f"refs/heads/{step.branch}": ids[step.tag]}
+        repository.write_refs(refs, head=history["head"])
     return repository
 
 
@@ -73,22 +78,34 @@ def init_empty(folder: Path) -> Repository:
             hint = "choose another folder, or edit what is there"
             raise PicoError(error("exists", f"{folder / path} exists already", hint=hint))
     _make_folder(folder)
-    repository = Repository.discover(folder) or Repository.init(folder)
     beside = {".gitignore": GITIGNORE, ".gitattributes": GITATTRIBUTES}
     missing = {path: text for path, text in beside.items() if not (folder / path).exists()}
-    for path, text in (SKELETON | missing).items():
-        _make_folder((folder / path).parent)
-        (folder / path).write_text(text.replace("NAME", name), encoding="utf-8")
+    with _all_or_nothing(folder):
+        repository = Repository.discover(folder) or Repository.init(folder)
+        for path, text in (SKELETON | missing).items():
+            write_whole(folder / path, text.replace("NAME", name).encode(), folders=True)
     return repository
+
+
+@contextmanager
+def _all_or_nothing(folder: Path) -> Iterator[None]:
+    """Take away what was made in a folder where not all of it could be, as on a full disk; the same call then works."""
+    before = set(folder.iterdir())
+    try:
+        with disk_trouble(folder, "no lab was made"):
+            yield
+    except BaseException:
+        for path in set(folder.iterdir()) - before:
+            with suppress(OSError):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        raise
 
 
 def _make_folder(folder: Path) -> list[Path]:
     """Make a folder where there is none, and return what it holds."""
-    try:
+    with writing(folder, what=f"can't make the folder {folder}", code="folder"):
         folder.mkdir(parents=True, exist_ok=True)
         return list(folder.iterdir())
-    except OSError as exc:
-        raise PicoError(error("folder", f"can't make the folder {folder}: {exc.strerror}")) from exc
 
 
 def _files(source: Path) -> dict[str, bytes]:

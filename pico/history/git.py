@@ -20,6 +20,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from pico.diagnostics import PicoError, error
+from pico.disk import refusing, spoken, unwritable
 from pico.history.holders import held
 
 # git's words, the code of the diagnostic, and what to do. The first that matches counts.
@@ -98,7 +99,7 @@ def run(
         raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
     if done.returncode not in ends:
         words = "\n".join(t.decode(errors="replace") for t in (done.stderr, done.stdout) if t)
-        raise refusal(words.strip(), doing=doing, hook=_installed(root, hook), root=root)
+        raise refusal(words.strip(), doing=doing, hook=_installed(root, hook), root=root, acted=not looking)
     return done.stdout.decode(errors="surrogateescape")
 
 
@@ -123,7 +124,7 @@ def stream(root: Path, arguments: Sequence[str], *, doing: str) -> Iterator[str]
                 yield line.decode(errors="surrogateescape").rstrip("\n")
             if running.wait():
                 said.seek(0)
-                raise refusal(said.read().decode(errors="replace").strip(), doing=doing)
+                raise refusal(said.read().decode(errors="replace").strip(), doing=doing, root=root)
         finally:
             running.stdout.close()
             running.kill()
@@ -231,11 +232,16 @@ def notify(root: Path, name: str, *arguments: str) -> None:
         hook(root, name, arguments, doing="", extra={}, inherit=())
 
 
-def refusal(words: str, *, doing: str, hook: str | None = None, root: Path | None = None) -> PicoError:
+def refusal(
+    words: str, *, doing: str, hook: str | None = None, root: Path | None = None, acted: bool = False
+) -> PicoError:
     """Return the error that says in git's `words` why it did not do what was asked, and what to do about it.
 
-    A lock that is in the way in the working tree `root` is named with who has it.
+    A lock that is in the way in the working tree `root` is named with who has it. `acted`: git was to write there; a
+    full disk may then be the reason that its words do not name.
     """
+    if number := spoken(words):
+        return _on_disk(root or Path(), OSError(number, ""), words, doing)
     for pattern, code, hint in _KNOWN:
         found = re.search(pattern, words, re.IGNORECASE)
         lock = _LOCK.search(words) if found and code == "git-locked" else None
@@ -246,7 +252,14 @@ def refusal(words: str, *, doing: str, hook: str | None = None, root: Path | Non
             return PicoError(error(code, f"git did not {doing}", detail=said, hint=hint))
     if hook:
         return PicoError(error("git-hook", f"git did not {doing}: its {hook} hook refused", detail=words))
+    if root is not None and acted and (disk := refusing(root)):
+        return _on_disk(root, disk, words, doing)
     return PicoError(error("git", f"git did not {doing}", detail=words))
+
+
+def _on_disk(root: Path, disk: OSError, words: str, doing: str) -> PicoError:
+    what = f"git did not {doing} in {root.absolute()}"
+    return PicoError(replace(unwritable(root, disk, what=what, code="git-disk"), detail=words))
 
 
 def _installed(root: Path, names: str | None) -> str | None:

@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.disk import disk_trouble
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
@@ -314,8 +315,9 @@ class Repository:
         with write_lock(self.common / "pico" / "write.lock", doing):
             self._writing = True
             try:
-                self.noticed = recover(self._folders())
-                yield
+                with disk_trouble(self.common, f"{doing} was not done"):
+                    self.noticed = recover(self._folders())
+                    yield
             finally:
                 self._writing = False
 

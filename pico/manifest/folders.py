@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.disk import write_whole
 from pico.manifest.catalog import catalog_names, load_catalog, unknown_type
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_folder
@@ -111,7 +112,7 @@ def format_folder(start: Path, files: Sequence[Path] = (), *, write: bool = True
         raise PicoError(found)
     if write:
         for path, text in changed.items():
-            Path(path).write_bytes(text.encode())
+            write_whole(Path(path).resolve(), text.encode())
     return tuple(sorted(shown_path(Path(path)) for path in changed))
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import shutil
 import zipfile
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import BinaryIO
 
 from pico.diagnostics import PicoError, error
+from pico.disk import writing
 from pico.publishing.parts import File
 from pico.trace.store import CHUNK, Store
 
@@ -20,7 +21,7 @@ def write(files: Iterable[File], store: Store, out: Path, moment: datetime) -> N
 
     Raises PicoError where `out` exists or can't be written, and for objects that are damaged.
     """
-    with _guarded(out):
+    with writing(out):
         if out.exists() and not (out.is_dir() and not any(out.iterdir())):
             raise PicoError(error("exists", f"{out} exists already", hint="name another place with `--out`"))
         fresh = out.with_name(f".{out.name}.unfinished")
@@ -31,7 +32,8 @@ def write(files: Iterable[File], store: Store, out: Path, moment: datetime) -> N
                 out.rmdir()
             fresh.rename(out)
         except BaseException:
-            _discard(fresh)
+            with suppress(OSError):
+                _discard(fresh)
             raise
 
 
@@ -74,12 +76,3 @@ def _discard(path: Path) -> None:
         shutil.rmtree(path)
     else:
         path.unlink(missing_ok=True)
-
-
-@contextmanager
-def _guarded(out: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as exc:
-        text = f"{out} can't be written: {(exc.strerror or str(exc)).lower()}"
-        raise PicoError(error("unwritable", text)) from exc

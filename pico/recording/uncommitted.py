@@ -64,7 +64,7 @@ def _unrecorded(folder: LabFolder) -> list[Recorded]:
     path = folder.root / ".pico" / "journal.sqlite"
     if not path.exists():
         return []
-    with closing(Journal(path)) as journal:
+    with closing(Journal(path, looking=True)) as journal:
         moving = journal.moving()
         over = [run for run in journal.runs() if run.run in moving and not _goes_on(folder.root, run)]
         return [recorded(folder.setup, kept) for kept in _kept(folder, journal, over)]

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.disk import removed, unwritable
 
 CHUNK = 1 << 20
 """Bytes that are read or written at once."""
@@ -141,16 +142,12 @@ class Store:
     def _write(self, pieces: Iterable[bytes]) -> tuple[Path, str]:
         """Write pieces to a new temporary file, down to the disk; return it and the hash of what it holds."""
         fresh, counted = self._temporary(), hashlib.sha256()
-        try:
-            with fresh.open("xb") as file:
-                for piece in pieces:
-                    counted.update(piece)
-                    file.write(piece)
-                file.flush()
-                os.fsync(file.fileno())
-        except BaseException:
-            fresh.unlink(missing_ok=True)
-            raise
+        with removed(fresh), fresh.open("xb") as file:
+            for piece in pieces:
+                counted.update(piece)
+                file.write(piece)
+            file.flush()
+            os.fsync(file.fileno())
         return fresh, counted.hexdigest()
 
     def _place(self, fresh: Path, path: Path) -> None:
@@ -232,5 +229,5 @@ def _guarded(root: Path) -> Iterator[None]:
     try:
         yield
     except OSError as exc:
-        where, why = exc.filename or root, (exc.strerror or str(exc)).lower()
-        raise PicoError(error("data-io", f"the data in {root} can't be used: {where}: {why}")) from exc
+        what = f"the data in {root} can't be used{f': {exc.filename}' if exc.filename else ''}"
+        raise PicoError(unwritable(root, exc, what=what, code="data-io")) from exc

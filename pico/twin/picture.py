@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
 from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
 from pico.motion.engine import require_mujoco
@@ -79,10 +79,7 @@ def png(image: Image) -> bytes:
 
 def write_png(image: Image, path: Path) -> None:
     """Write `image` (h, w, 3), sRGB, as PNG; raises PicoError where the file can't be written."""
-    try:
-        path.write_bytes(png(image))
-    except OSError as exc:
-        raise PicoError(error("unwritable", f"cannot write the picture {path}: {exc.strerror}")) from exc
+    write_whole(path, png(image))
 
 
 def placed(poses: Mapping[str, Place]) -> dict[str, Placement]:

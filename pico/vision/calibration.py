@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
 from pico.model.record import as_json, digest, record
 from pico.vision.camera import CameraModel
 from pico.vision.rigid import motion, rotation, rotation_vector
@@ -77,7 +78,7 @@ FILE = "calibration.json"
 def write_calibration(folder: Path, calibration: Calibration) -> Path:
     """Write the calibration into the folder of a lab, and return the file."""
     path = folder / FILE
-    path.write_text(json.dumps(calibration.as_json(), indent=2) + "\n")
+    write_whole(path, (json.dumps(calibration.as_json(), indent=2) + "\n").encode())
     return path
 
 

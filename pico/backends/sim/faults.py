@@ -16,6 +16,7 @@ from pathlib import Path
 
 from pico.attachment import bench_folder, require_attached
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.disk import write_whole
 from pico.geometry.shape import placed, separation
 from pico.geometry.table import overhang
 from pico.model.lab import Setup
@@ -109,12 +110,8 @@ def faults_of(setup: Setup, root: Path) -> Faults:
 def save_faults(root: Path, faults: Faults) -> None:
     """Let these faults happen on the simulated bench in `root` from now on; raises PicoError."""
     require_attached(root)
-    try:
-        _path(root).parent.mkdir(parents=True, exist_ok=True)
-        _path(root).write_text(json.dumps(as_json(faults)), encoding="utf-8")
-    except OSError as exc:
-        text = f"the faults cannot be stored in {_path(root)}: {(exc.strerror or str(exc)).lower()}"
-        raise PicoError(error("faults-file", text)) from exc
+    what = f"the faults cannot be stored in {_path(root)}"
+    write_whole(_path(root), json.dumps(as_json(faults)).encode(), what=what, code="faults-file", folders=True)
 
 
 def _path(root: Path) -> Path:

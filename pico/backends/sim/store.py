@@ -14,6 +14,7 @@ from pico.backends.lease import BenchLock
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import SCHEMA, Body, FreePose, Shape, World, new_world
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.disk import write_whole, writing
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
@@ -53,25 +54,17 @@ def save_world(root: Path, world: World, *, durable: bool = True) -> None:
     `durable`: on the disk when this returns, so that it outlives a power failure and not only this process.
     """
     path = world_path(root)
-    fresh = path.with_name(f"world.{os.getpid()}.tmp")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with fresh.open("w", encoding="utf-8") as file:
-            json.dump(as_json(world), file, separators=(",", ":"), sort_keys=True)
-            file.flush()
-            if durable:
-                os.fsync(file.fileno())
-        fresh.replace(path)
-        if not durable:
-            return
+    what = f"the simulated table cannot be stored in {path}"
+    data = json.dumps(as_json(world), separators=(",", ":"), sort_keys=True).encode()
+    write_whole(path, data, what=what, code="world-file", folders=True, durable=durable)
+    if not durable:
+        return
+    with writing(path, what=what, code="world-file"):
         folder = os.open(path.parent, os.O_RDONLY)
         try:
             os.fsync(folder)
         finally:
             os.close(folder)
-    except OSError as exc:
-        text = f"the simulated table cannot be stored in {path}: {(exc.strerror or str(exc)).lower()}"
-        raise PicoError(error("world-file", text)) from exc
 
 
 def change_world(setup: Setup, root: Path, holder: str, change: Callable[[World], World]) -> tuple[Diagnostic, ...]:

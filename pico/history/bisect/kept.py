@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from pico.diagnostics import PicoError, error
+from pico.disk import writing
 from pico.history import git
 
 Verdict = Literal["good", "bad", "skip"]
@@ -116,7 +117,8 @@ class GitBisect:
         import os
 
         line = NOTE + json.dumps(what, ensure_ascii=False, sort_keys=True) + "\n"
-        with self._path("BISECT_LOG").open("a", encoding="utf-8") as log:
+        path = self._path("BISECT_LOG")
+        with writing(path), path.open("a", encoding="utf-8") as log:
             log.write(line)
             log.flush()
             os.fsync(log.fileno())

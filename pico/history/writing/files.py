@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import errno
-import os
-import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
+from pico.disk import beside, replace_whole, writing
 
 
 def write_files(root: Path, files: Mapping[str, bytes | None], scratch: Path) -> None:
@@ -27,14 +26,15 @@ def write_file(path: Path, data: bytes, scratch: Path) -> None:
     the folder or the disk does not allow it, and where a link leads out of the lab.
     """
     _refuse_links(path, scratch.parent)
-    try:
+    with writing(path, code="folder"):
         scratch.mkdir(parents=True, exist_ok=True)
         path.parent.mkdir(parents=True, exist_ok=True)
-        _write(path, data, scratch / "write.tmp")
-    except OSError as exc:
-        if exc.errno != errno.EXDEV:
-            raise PicoError(error("folder", f"can't write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
-        _write(path, data, path.with_name(f".{path.name}.tmp"))  # `scratch` is on another disk
+        try:
+            replace_whole(path, (data,), scratch / "write.tmp")
+        except OSError as exc:
+            if exc.errno != errno.EXDEV:
+                raise
+            replace_whole(path, (data,), beside(path))  # `scratch` is on another disk
 
 
 def _refuse_links(path: Path, lab: Path) -> None:
@@ -44,14 +44,3 @@ def _refuse_links(path: Path, lab: Path) -> None:
     if not real.is_relative_to(top) and (named.is_relative_to(top) or named.is_relative_to(lab.absolute())):
         text = f"{path} is not written: a symbolic link leads to {real}, out of the lab"
         raise PicoError(error("symlink", text, hint="put a folder in its place"))
-
-
-def _write(path: Path, data: bytes, fresh: Path) -> None:
-    fresh.unlink(missing_ok=True)
-    with fresh.open("xb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    if path.exists():
-        shutil.copymode(path, fresh)
-    fresh.replace(path)

@@ -11,10 +11,11 @@ import json
 import os
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
+from pico.disk import writing
 
 WAIT = 60.0
 """Seconds that a writer waits for another one: as long as somebody's pre-commit hooks may take."""
@@ -43,11 +44,9 @@ def write_lock(path: Path, doing: str, seconds: float = WAIT) -> Iterator[None]:
 
 
 def _open(path: Path) -> int:
-    try:
+    with writing(path, code="folder"):
         path.parent.mkdir(parents=True, exist_ok=True)
         return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
-    except OSError as exc:
-        raise PicoError(error("folder", f"can't write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
 def _locked(file: int) -> bool:
@@ -60,8 +59,9 @@ def _locked(file: int) -> bool:
 
 def _sign(file: int, doing: str) -> None:
     who = json.dumps({"user": _user(), "pid": os.getpid(), "what": doing}).encode()
-    os.ftruncate(file, 0)
-    os.pwrite(file, who, 0)
+    with suppress(OSError):  # on a full disk nobody learns who it is
+        os.ftruncate(file, 0)
+        os.pwrite(file, who, 0)
 
 
 def _holder(file: int) -> str:
