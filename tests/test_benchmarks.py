@@ -23,6 +23,7 @@ SMALLEST = {
     "commits": "--processes 2 --each 1 --kills 2 --capture 30",
     "crash_points": "--crashes 300",
     "data": "--commits 20 --objects 3 --size 0.1 --kills 2",
+    "disks": "fmt note blame --points 1",
     "eyes": "--scenes 1 --renderer raycast",
     "identical": "",
     "kills": "--kills 50 --applies 1",

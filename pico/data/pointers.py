@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pico.data.places import LfsObjects
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.disk import write_whole
+from pico.disk import disk_trouble, write_whole
 from pico.history.repository import Repository
 from pico.model.record import record
 from pico.model.run import RunDocument
@@ -42,15 +42,16 @@ def write_pointers(repository: Repository, lab: Path, store: Store, runs: Sequen
     """
     place = LfsObjects(repository)
     written, size = [], 0
-    for run in _runs(lab, runs):
-        for path, artifact in artifact_paths(run).items():
+    named = {path: artifact for run in _runs(lab, runs) for path, artifact in artifact_paths(run).items()}
+    with disk_trouble(lab, "not all pointers were written"):
+        for path, artifact in named.items():
             place.send(artifact.sha256, store, lambda _: None)
             content, file = pointer(artifact.sha256, artifact.size), lab / path
             if not file.is_file() or file.read_bytes() != content:
                 write_whole(file, content, folders=True)
                 written.append(path)
                 size += artifact.size
-    return Pointed(files=tuple(written), size=size, attributes=bool(written) and _attribute(lab / ".gitattributes"))
+    return Pointed(files=tuple(written), size=size, attributes=bool(named) and _attribute(lab / ".gitattributes"))
 
 
 def _runs(lab: Path, names: Sequence[str]) -> list[RunDocument]:

@@ -52,8 +52,3 @@ def judged(*words: str) -> str:
 
 def test_no_plan_is_left_that_is_empty_or_half() -> None:
     assert " 9  0" in judged("plan --out", "--points", "3")
-
-
-@pytest.mark.slow
-def test_disks_that_fail_under_any_command_leave_nothing_and_are_named() -> None:
-    assert "all " in judged("--points", "1")
