@@ -79,7 +79,7 @@ def _conflict(
     handle: Any, path: str, c: Conflict, way: str, here: tuple[Commit, str], called: str, source: str
 ) -> Diagnostic:
     ours, theirs = (_DELTA.sub("", text) for text in (c.ours, c.theirs))
-    later = _later(handle, here, path, c)
+    later = here[0].label if c.files else _later(handle, here, path, c)
     if c.base in (ours, theirs):
         summary = f"{c.address}: {called} and {later} changed parts of one thing"
         detail = f"in {path}; `policy: {{merge: strict}}` of the lab refuses that"

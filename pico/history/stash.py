@@ -110,11 +110,11 @@ class Stash:
         """Raise PicoError naming each tunable that the shelved edits and HEAD say otherwise."""
         handle, inside = opened(self.repository.root), self.repository.relative(self.folder.root)
         shelved, head = handle[shelf.commit], self.repository.resolve("HEAD")
-        commits = (shelved.parents[0], handle[head.id], shelved)
-        base, ours, theirs = (manifest_tree(handle, commit.tree, inside) for commit in commits)
-        union = unite_trees(
-            handle, base, ours, theirs, Labels(head.label, shelved.parents[0].short_id, "the shelved edits")
-        )
+        base, ours = (manifest_tree(handle, c.tree, inside) for c in (shelved.parents[0], handle[head.id]))
+        new = shelved.parents[2].tree if len(shelved.parents) > 2 else None  # files that git did not know
+        theirs = manifest_tree(handle, shelved.tree, inside, new)
+        labels = Labels(head.label, shelved.parents[0].short_id, "the shelved edits")
+        union = unite_trees(handle, base, ours, theirs, labels, follow=False)
         hint = "`git stash pop` writes both between markers; the edits are still shelved"
         found: list[Diagnostic] = [
             error(

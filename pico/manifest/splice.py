@@ -13,6 +13,7 @@ from pico.manifest.tree import Document, List, Map, Node, Scalar
 
 _BARE = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 _BREAK = re.compile(r"\r\n|\n|\r")
+_LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,8 +106,7 @@ class Editor:
         """Take an entry out, with its line in block style."""
         key, node = parent.entries[name]
         if not parent.flow:
-            start = self.content.rfind("\n", 0, key.start) + 1
-            self.splices.append(Splice(start, self._next_line(self._after(key, node)[0]), ""))
+            self.splices.append(Splice(*self._lines(key, node), ""))
             return
         names = list(parent.entries)
         index = names.index(name)
@@ -115,6 +115,32 @@ class Editor:
         else:
             before = self.end(*parent.entries[names[index - 1]]) if index else parent.start + 1
             self.splices.append(Splice(before, self.end(key, node), ""))
+
+    def block(self, key: Scalar, parent: Map, name: str) -> tuple[int, int]:
+        """Return where an entry of the block mapping `parent` of `key` stands: whole lines, with the comments above it,
+        and those below that are indented deeper than it."""
+        names = list(parent.entries)
+        index = names.index(name)
+        start = self.below(key, parent, names[index - 1] if index else None)
+        return start, self.below(key, parent, name)
+
+    def below(self, key: Scalar, parent: Map, name: str | None) -> int:
+        """Return where the lines end that belong to an entry of the block mapping `parent` of `key`; None: to the key
+        itself."""
+        if name is None:
+            return self._next_line(self._line_end(key.end))
+        at = self._lines(*parent.entries[name])[1]
+        column, found = self.column(parent.entries[name][0]), at
+        while line := _LINE.match(self.content, at):
+            at, text = line.end(), line[0].lstrip(" ")
+            if text.strip() and (not text.startswith("#") or len(line[0]) - len(text) <= column):
+                break
+            found = at if text.strip() else found
+        return found
+
+    def _lines(self, key: Scalar, node: Node) -> tuple[int, int]:
+        """Return where the lines of an entry in block style begin and end."""
+        return self.content.rfind("\n", 0, key.start) + 1, self._next_line(self._after(key, node)[0])
 
     def insert(
         self,

@@ -92,12 +92,13 @@ def refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, C
     """Return what stands in the way of a merge of `revision`: each value that both sides changed, with both commits."""
     ours, theirs = (f"{name} ({side.short})" for name, side in zip((labels.ours, labels.theirs), sides, strict=True))
     hint = f"`git merge {revision}` writes both between markers; edit, `git add`, `pico commit`"
+    apart = f"`git merge --no-commit {revision}`; then leave it in one file, or in none, `git add`, `pico commit`"
     found = [
         error(
             "merge-conflict",
             f"{c.address}: {ours} says {c.ours}, {theirs} says {c.theirs}",
             detail=f"in {path}; {labels.base}, which both come from, says {c.base}",
-            address=c.address, hint=hint,
+            address=c.address, hint=apart if c.files else hint,
         )
         for path, c in union.conflicts
     ]  # fmt: skip

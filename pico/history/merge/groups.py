@@ -30,9 +30,14 @@ def lab_around(path: Path) -> Path | None:
 
 def _holds_lab(folder: Path) -> bool:
     try:
-        return any(_IS_LAB.search(path.read_bytes()) for path in sorted(folder.glob("*.yaml")) if path.is_file())
+        return any(is_lab(path.read_bytes()) for path in sorted(folder.glob("*.yaml")) if path.is_file())
     except OSError:
         return False
+
+
+def is_lab(data: bytes) -> bool:
+    """Return whether a file holds a Lab."""
+    return bool(_IS_LAB.search(data))
 
 
 def groups_of(files: Iterable[tuple[str, bytes]]) -> tuple[Groups, bool]:

@@ -96,8 +96,9 @@ class _Merge:
         return replace(o, lead=lead, trail=kept, value=value, below=below, foot=both(b.foot, o.foot, t.foot)), ()
 
     def content(self, path: Path, b: Entry, o: Entry, t: Entry) -> tuple[str, list[Entry]]:
-        if _mapping(o) and _mapping(t) and not b.value:
-            return "", self.entries(path, b.below if _mapping(b) else [], o.below, t.below)
+        if (_mapping(o) and _mapping(t) and not b.value) or _components(b, o, t):
+            below = self.entries(path, b.below if _mapping(b) else [], o.below, t.below)
+            return "" if below else o.value, below
         was, mine, other = (_text(e) for e in (b, o, t))
         left = t if mine == was else o  # where both changed, the check of the result refuses it
         return left.value, left.below if left is o or mine != other else o.below
@@ -105,6 +106,11 @@ class _Merge:
 
 def _mapping(entry: Entry) -> bool:
     return bool(entry.below) and all(e.key is not None for e in entry.below)
+
+
+def _components(*versions: Entry) -> bool:
+    """Whether entries are the components of a state, of which a version may have none: `{}`, or nothing."""
+    return versions[1].key == "components" and all(_mapping(e) or e.value in ("", "{}", "null") for e in versions)
 
 
 def _name(entry: Entry) -> str:
@@ -157,8 +163,9 @@ def ordered(base: list[str], ours: list[str], theirs: list[str]) -> list[str]:
     """Return the keys of all three in one order, whichever side is called ours.
 
     Keys of the base stand as the side has them that moved them; a new one follows what it follows on its side, several
-    new ones by name.
+    new ones by name. Without a base, what both sides have stands as they have it.
     """
+    base = base or [k for k in min(ours, theirs) if k in ours and k in theirs]
     was, mine, other = ([k for k in keys if k in base and k in ours and k in theirs] for keys in (base, ours, theirs))
     result = other if mine == was else mine if other in (was, mine) else was
     new: set[str] = set()

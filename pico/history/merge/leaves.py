@@ -15,6 +15,7 @@ Groups = Mapping[str, tuple[tuple[str, ...], ...]]
 
 _PLACE = ("slot", "pose")
 _ABSENT: Any = object()
+OUT = "taken out"
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +23,8 @@ class Conflict:
     """One thing that both sides changed, each in its own way. `path` begins with the number of the document.
 
     `base`, `ours` and `theirs` are as a person reads them, the latter two with the distance from the base.
-    `keys`: the entries that stand in one another's place, where it is not one value that differs.
+    `keys`: the entries that stand in one another's place, where it is not one value that differs. `files`: where it is
+    the file of a component on which the sides disagree, those that have it.
     """
 
     path: Path
@@ -30,6 +32,12 @@ class Conflict:
     ours: str
     theirs: str
     keys: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+
+    @property
+    def out(self) -> int | None:
+        """Which side took a component out that the other moved to another file: 0 ours, 1 theirs, None neither."""
+        return (self.ours, self.theirs).index(OUT) if self.files and OUT in (self.ours, self.theirs) else None
 
     @property
     def address(self) -> str:
@@ -65,8 +73,14 @@ def canonical(node: Node | None) -> Any:
     if isinstance(node, List):
         return [canonical(item) for item in node.items]
     if isinstance(node, Map):
-        return {key: canonical(value) for key, (_, value) in node.entries.items()}
+        return {key: canonical(filled(key, value)) for key, (_, value) in node.entries.items()}
     return _ABSENT
+
+
+def filled(key: str, node: Node | None) -> Node | None:
+    """Return a value, a mapping without entries for `components:` with nothing behind it."""
+    nothing = key == "components" and isinstance(node, Scalar) and node.value is None
+    return Map(node.start, True, node.end) if nothing and node else node
 
 
 def leaves(node: Node, path: Path = ()) -> Iterator[tuple[Path, Node]]:
@@ -126,7 +140,7 @@ class _Merge:
         for key in dict.fromkeys([*(b.entries if b else ()), *o.entries, *t.entries]):
             if key in done:
                 continue
-            mine, other = self.node((*path, key), b.get(key) if b else None, o.get(key), t.get(key))
+            mine, other = self.node((*path, key), *(filled(key, n.get(key)) if n else None for n in (b, o, t)))
             with_ours |= {} if mine is _ABSENT else {key: mine}
             with_theirs |= {} if other is _ABSENT else {key: other}
         return with_ours, with_theirs

@@ -1,13 +1,14 @@
-"""Three trees of manifests merged in memory: every file that both sides changed is merged by value."""
+"""Three trees of manifests merged in memory: what both sides changed is merged by value, whichever file it is in."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
-from pico.history.merge.groups import groups_of
+from pico.history.merge.across import Alike, Files, Versions, made_alike, settled
+from pico.history.merge.groups import groups_of, is_lab
 from pico.history.merge.leaves import Conflict, Coupled
 from pico.history.merge.manifests import Merged, merge
 from pico.history.merge.markers import Labels
@@ -38,19 +39,23 @@ def unite_commits(handle: Any, ours: str, theirs: str, labels: Labels) -> Union:
     return _united(handle, index, trees, labels)
 
 
-def unite_trees(handle: Any, base: str, ours: str, theirs: str, labels: Labels) -> Union:
-    """Do to the tree `ours` what leads from the tree `base` to `theirs`, value by value."""
+def unite_trees(handle: Any, base: str, ours: str, theirs: str, labels: Labels, *, follow: bool = True) -> Union:
+    """Do to the tree `ours` what leads from the tree `base` to `theirs`, value by value.
+
+    Without `follow`, each file by itself, as git with PICO's driver will do it.
+    """
     index = handle.merge_trees(*(handle[name] for name in (base, ours, theirs)))
-    return _united(handle, index, [handle[name] for name in (base, ours, theirs)], labels)
+    return _united(handle, index, [handle[name] for name in (base, ours, theirs)], labels, follow=follow)
 
 
-def manifest_tree(handle: Any, tree: Any, folder: str) -> str:
-    """Write a tree with the manifests of `tree` (None: of nothing) below `folder`, at their paths; return its id."""
+def manifest_tree(handle: Any, tree: Any, folder: str, more: Any = None) -> str:
+    """Write a tree with the manifests of `tree`, and of `more` (None: of nothing), below `folder`, at their paths;
+    return its id."""
     import pygit2
 
     index = pygit2.Index()
-    top = _below(tree, folder) if tree is not None else None
-    for path, entry in _entries(top, f"{folder}/" if folder else "") if top is not None else ():
+    tops = [_below(each, folder) for each in (tree, more) if each is not None]
+    for path, entry in (e for top in tops if top is not None for e in _entries(top, f"{folder}/" if folder else "")):
         if is_manifest(path):
             index.add(pygit2.IndexEntry(path, entry.id, entry.filemode))
     return str(index.write_tree(handle))
@@ -79,6 +84,15 @@ def blobs(tree: Any) -> dict[str, Any]:
     return {path: entry.id for path, entry in _entries(tree)}
 
 
+def alike(handle: Any, trees: Sequence[Any], *, follow: bool = True) -> Alike:
+    """Return the manifests that differ between three trees (base, ours, theirs), made alike; see `made_alike`."""
+    ids = [{path: blob for path, blob in blobs(tree).items() if is_manifest(path)} for tree in trees]
+    paths = [path for path in set().union(*ids) if len({known.get(path) for known in ids}) > 1]
+    labs = {str(PurePosixPath(p).parent) for known in ids for p, blob in known.items() if is_lab(handle[blob].data)}
+    base, ours, theirs = ({path: handle[known[path]].data for path in paths if path in known} for known in ids)
+    return made_alike(base, ours, theirs, labs, follow=follow)
+
+
 def _below(tree: Any, folder: str) -> Any:
     try:
         found = tree[folder] if folder else tree
@@ -93,44 +107,54 @@ def _entries(tree: Any, at: str = "") -> list[tuple[str, Any]]:
     return [(at + p, e) for p, e in entries(tree) if e.type_str == "blob" and e.filemode != FileMode.LINK]
 
 
-def _united(handle: Any, index: Any, trees: Sequence[Any], labels: Labels) -> Union:
-    union = Union()
+def _united(handle: Any, index: Any, trees: Sequence[Any], labels: Labels, *, follow: bool = True) -> Union:
+    """Unite the manifests that differ, and what libgit2 could not, into `index`, where it has united all else."""
+    made = alike(handle, trees, follow=follow)
+    union = Union(conflicts=list(made.conflicts))
     groups, strict = groups_of(contents(handle, trees[1]).items())
-    for path, versions in _both_changed(trees, index):
-        was, mine, other = (handle[b].data if b else None for b in versions)
-        if mine is None or other is None:
-            union.files.append(path)
-            continue
-        merged = merge(was, mine, other, labels=labels, groups=groups, strict=strict)
-        _note(union, path, merged)
-        if merged.clean:
-            _store(handle, index, path, merged.data, trees[1])
+    united: Files = {}
+    for path, (was, mine, other) in sorted({**_left(handle, index, made.paths), **made.versions()}.items()):
+        data = other if mine == was else mine
+        if mine not in (was, other) and other != was:
+            if mine is None or other is None:
+                union.files.append(path)
+                continue
+            merged = merge(was, mine, other, labels=labels, groups=groups, strict=strict)
+            _note(union, path, merged)
+            data = merged.data
+        if data is not None:
+            united[path] = data
     if not union.conflicts and not union.files:
+        united, union.files = settled(made, united)
+    if not union.conflicts and not union.files:
+        _put(handle, index, made.paths, united, trees)
         union.tree = str(index.write_tree(handle))
     return union
 
 
-def _both_changed(trees: Sequence[Any], index: Any) -> list[tuple[str, tuple[Any, Any, Any]]]:
-    """Return the files that both sides changed otherwise, with their blobs in base, ours and theirs."""
-    found: dict[str, tuple[Any, Any, Any]] = {}
+def _left(handle: Any, index: Any, paths: Collection[str]) -> dict[str, Versions]:
+    """Return the files but `paths` that libgit2 could not unite, in base, ours and theirs."""
+    found: dict[str, Versions] = {}
     for sides in list(index.conflicts or ()):
         path = next(e.path for e in (sides[1], sides[2], sides[0]) if e)
-        was, mine, other = (e.id if e else None for e in sides)
-        found[path] = (was, mine, other)
-    before, here, there = (blobs(tree) for tree in trees)
-    for path in here.keys() & there.keys():
-        if is_manifest(path) and path not in found and len({before.get(path), here[path], there[path]}) == 3:
-            found[path] = (before.get(path), here[path], there[path])
-    return sorted(found.items())
+        if path not in paths:
+            was, mine, other = (handle[e.id].data if e else None for e in sides)
+            found[path] = (was, mine, other)
+    return found
 
 
-def _store(handle: Any, index: Any, path: str, data: bytes, ours: Any) -> None:
+def _put(handle: Any, index: Any, paths: Collection[str], united: Files, trees: Sequence[Any]) -> None:
+    """Give an index what files hold now; those of `paths` that are not among them are gone."""
     import pygit2
 
-    mode = ours[path].filemode if path in ours else pygit2.enums.FileMode.BLOB
-    if index.conflicts is not None and path in index.conflicts:
-        del index.conflicts[path]
-    index.add(pygit2.IndexEntry(path, handle.create_blob(data), mode))
+    for path in {*paths, *united}:
+        if index.conflicts is not None and path in index.conflicts:
+            del index.conflicts[path]
+        if path in index:
+            index.remove(path)
+    for path, data in united.items():
+        mode = next((tree[path].filemode for tree in trees[1:] if path in tree), pygit2.enums.FileMode.BLOB)
+        index.add(pygit2.IndexEntry(path, handle.create_blob(data), mode))
 
 
 def _note(union: Union, path: str, merged: Merged) -> None:
