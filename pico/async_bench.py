@@ -125,17 +125,20 @@ class AsyncBench(Drawings):
         can't be read, for a component that there is not, and for an expectation that makes no sense; what is physically
         impossible is in the plan's diagnostics.
         """
+        from pico.history.merge.doubts import require_settled
         from pico.planning import plan
 
         _require_preference(prefer)
-        here = manifests or self.folder.manifests
-        manifests = self.folder.manifests_at(revision) if revision else here
+        given = manifests
+        manifests = self.folder.manifests_at(revision) if revision else given or self.folder.manifests
         commit = self.folder.history().resolve(revision).id if revision else None
         wanted = self._goal(manifests, revision, targets)
         if not expecting:
             wanted = replace(wanted, expect=())
         if wanted.expect and not (targets or exclude):
             _require_sense("expect", manifests)
+        if manifests is not given:
+            require_settled(self.folder.repository, self.root, manifests, commit, targets)
         seen = await self.observe()
         found = plan(
             self.setup,

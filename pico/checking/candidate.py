@@ -8,6 +8,7 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.against import Against
+from pico.history.merge.doubts import unsettled
 from pico.history.repository import Repository
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
@@ -49,10 +50,13 @@ class Origin:
     notes: tuple[str, ...] = ()
 
 
-def in_folder(root: Path) -> Candidate:
-    """Return the lab of the folder `root` as its files are now. Never raises for what they hold."""
+def in_folder(root: Path, repository: Repository | None = None) -> Candidate:
+    """Return the lab of the folder `root` as its files are now, and as a merge in its repository left them. Never
+    raises for what they hold."""
     files, found = read_folder(root)
-    return _read(root, files, found)
+    read = _read(root, files, found)
+    doubts = unsettled(repository, root, read.manifests)
+    return replace(read, manifests=replace(read.manifests, diagnostics=(*read.manifests.diagnostics, *doubts)))
 
 
 def in_memory(root: Path, files: Mapping[str, bytes]) -> Candidate:

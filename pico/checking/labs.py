@@ -88,7 +88,7 @@ def _what(repository: Repository | None, edited: bool, merging: str | None) -> s
 
 def _candidate(repository: Repository | None, root: Path, merging: str | None) -> Candidate:
     if merging is None or repository is None:
-        return in_folder(root)
+        return in_folder(root, repository)
     from pico.history.merge.preview import merged_files
 
     return in_memory(root, merged_files(repository, root, merging))

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 from giving import Git
+
+from pico.history.example import make_example
 
 
 @pytest.fixture(autouse=True)
@@ -58,3 +61,16 @@ def repo(git: Git, tmp_path: Path) -> Path:
         git("commit", "-q", "-m", f"commit {number}", date=f"2026-01-0{number + 1}T12:00:00+01:00")
     git("checkout", "-q", "main")
     return root
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the case study in a repository, to be copied."""
+    return make_example("shel", tmp_path_factory.mktemp("example") / "shel").root
+
+
+@pytest.fixture
+def lab(example: Path, tmp_path: Path) -> Path:
+    """Return a copy of the case study, where `git` runs."""
+    shutil.copytree(example, tmp_path / "repo")
+    return tmp_path / "repo"

@@ -60,9 +60,9 @@ def text(state: State, flow: bool) -> str:
 def case(seed: int) -> Case:
     """Return the case of a seed: up to 12 components, up to 8 edits a side, some of the same tunable."""
     rng = random.Random(seed)
-    base = {f"c{i:02d}": _part(rng, i) for i in range(rng.randint(1, 12))}
+    base = {f"c{i:02d}": random_part(rng, i) for i in range(rng.randint(1, 12))}
     flow = rng.random() < 0.3
-    ours, theirs = _copy(base), _copy(base)
+    ours, theirs = copied(base), copied(base)
     leaves = [(n, k) for n in sorted(base) for k in base[n].values]
     rng.shuffle(leaves)
     conflicting: set[Leaf] = set()
@@ -71,19 +71,19 @@ def case(seed: int) -> Case:
         old = expected[n, k]
         kind = rng.random()
         if kind < 0.12:
-            mine, other = _other(rng, old, 1), _other(rng, old, 2)
+            mine, other = other_value(rng, old, 1), other_value(rng, old, 2)
             ours[n].values[k], theirs[n].values[k] = mine, other
             conflicting.add((n, k))
         elif kind < 0.2:
-            ours[n].values[k] = theirs[n].values[k] = expected[n, k] = _other(rng, old, 1)
+            ours[n].values[k] = theirs[n].values[k] = expected[n, k] = other_value(rng, old, 1)
         else:
             side = ours if rng.random() < 0.5 else theirs
-            side[n].values[k] = expected[n, k] = _other(rng, old, 1)
+            side[n].values[k] = expected[n, k] = other_value(rng, old, 1)
     comments = _remark(rng, base, ours, theirs, flow)
     for side, word in ((ours, "new_a"), (theirs, "new_b")):
         if rng.random() < 0.3:
             name = f"{rng.choice(sorted(base))}_{word}"
-            side[name] = _part(rng, 40 + len(word))
+            side[name] = random_part(rng, 40 + len(word))
             expected |= {(name, k): v for k, v in side[name].values.items()}
         _add_value(rng, base, side, (ours, theirs), expected)
     if rng.random() < 0.2:
@@ -140,7 +140,7 @@ def _stated(manifest: str) -> Iterator[tuple[Leaf, float | str]]:
                 yield (name.value, key.value), yaml.safe_load(node.value)
 
 
-def _part(rng: random.Random, i: int) -> Part:
+def random_part(rng: random.Random, i: int) -> Part:
     place: dict[str, float | str] = (
         {"slot": f"storage/a{i}"} if rng.random() < 0.3 else {"pose.x": 40 * i, "pose.y": 300, "pose.yaw": 0.0}
     )
@@ -150,11 +150,11 @@ def _part(rng: random.Random, i: int) -> Part:
     return part
 
 
-def _copy(state: State) -> State:
+def copied(state: State) -> State:
     return {n: Part(dict(p.values), list(p.above), dict(p.behind)) for n, p in state.items()}
 
 
-def _other(rng: random.Random, old: float | str, step: int) -> float | str:
+def other_value(rng: random.Random, old: float | str, step: int) -> float | str:
     """Return another value; of another `step`, a different one."""
     if isinstance(old, str):
         return f"storage/{'xyz'[step]}{rng.randint(1, 99)}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,23 +10,11 @@ import pytest
 from giving import Git
 
 from pico.diagnostics import ExitCode, PicoError
-from pico.history.example import make_example
 from pico.history.folder import LabFolder
 from pico.merging import merge
 
 Edit = tuple[str, str, str]
 """A component, and a line of it before and after."""
-
-
-@pytest.fixture(scope="module")
-def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_example("shel", tmp_path_factory.mktemp("merging") / "shel").root
-
-
-@pytest.fixture
-def lab(example: Path, tmp_path: Path) -> Path:
-    shutil.copytree(example, tmp_path / "repo")
-    return tmp_path / "repo"
 
 
 @pytest.fixture
