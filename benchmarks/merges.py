@@ -1,9 +1,10 @@
 """Merges random edits of two branches, and counts what is lost: `python benchmarks/merges.py --cases 2000`.
 
 Every case goes through the merge itself, with either side called ours; `--git` cases go through each command of git,
-`--failing` ones through `git merge` with a driver that is missing, killed at random, or never set. `--impossible`
-ones are clean as text and can't stand on the table: merge, plan and check must refuse them. Prints a line each; the
-exit code is 1 where anything is wrong.
+`--failing` ones through `git merge` with a driver that is missing, killed at random, or never set. `--moves` ones
+move parts between several files, and must come out united or in conflict; `--moves-by-git` ones go through `git merge`,
+and where that sees no conflict, plan or validate must tell. `--impossible` ones are clean as text but can not stand on
+the table: merge, plan and check must refuse them. Prints a line each; the exit code is 1 where anything is wrong.
 """
 
 from __future__ import annotations
@@ -20,18 +21,24 @@ from collections.abc import Callable, Iterable, Iterator
 from datetime import UTC, datetime
 from itertools import count, islice
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "history")]
 
 from merging_cases import Case, case, faults, losses  # noqa: E402
+from moving_cases import Files, Moved, mistakes, moved_case, stated  # noqa: E402
 
 from pico.diagnostics import ExitCode, PicoError  # noqa: E402
 from pico.history.attributes import GITATTRIBUTES, command, install  # noqa: E402
 from pico.history.example import make_example  # noqa: E402
 from pico.history.folder import LabFolder  # noqa: E402
+from pico.history.merge.doubts import unsettled  # noqa: E402
 from pico.history.merge.manifests import merge  # noqa: E402
+from pico.history.merge.markers import Labels  # noqa: E402
+from pico.history.merge.trees import contents, opened, unite_commits  # noqa: E402
 from pico.history.repository import Repository  # noqa: E402
+from pico.manifest.load import load_folder  # noqa: E402
 
 AUTHOR, TIME = ("A Physicist", "physicist@localhost"), datetime(2026, 1, 5, tzinfo=UTC)
 ENVIRONMENT = {
@@ -49,6 +56,8 @@ def main() -> int:
     parser.add_argument("--failing", type=int, default=50, help="cases for each way in which the driver fails")
     parser.add_argument("--first", type=int, default=0, help="seed of the first of these; each command gets its own")
     parser.add_argument("--impossible", type=int, default=200)
+    parser.add_argument("--moves", type=int, default=2000, help="cases with moves between files")
+    parser.add_argument("--moves-by-git", type=int, default=100, help="with a part taken out and moved, by `git merge`")
     options = parser.parse_args()
     os.environ.update(ENVIRONMENT)
     wrong = pure(options.cases)
@@ -63,6 +72,10 @@ def main() -> int:
             box.break_driver(name)
             lost = told(f"driver {name}", islice(cases, options.failing), lambda c: _unmarked(c, box.merge(c)))
             wrong += lost if name != "never set" else 0  # git alone: said, and not in PICO's hands
+    with tempfile.TemporaryDirectory() as folder:
+        wrong += moves(Path(folder), options.moves) if options.moves else 0
+    with tempfile.TemporaryDirectory() as folder:
+        wrong += moves_by_git(Path(folder), options.moves_by_git)
     with tempfile.TemporaryDirectory() as folder:
         wrong += impossible(Path(folder), options.impossible)
     return 1 if wrong else 0
@@ -84,6 +97,84 @@ def pure(number: int) -> int:
         f"{number} cases, both ways: {wrong} wrong; {conflicting} hold conflicts; {1000 * seconds:.1f} ms CPU a merge"
     )
     return wrong
+
+
+NEEDLESS = 0.02
+"""So many of the merges without a disagreement may conflict all the same."""
+
+
+def moves(folder: Path, number: int) -> int:
+    """Merge every case of several files in both directions, as `pico merge` does, and return how many went wrong:
+    in silence, or more than NEEDLESS of those that must be clean in conflict."""
+    repository = Repository.init(folder)
+    handle = opened(folder)
+    start = time.process_time()
+    silent = needless = clean = apart = 0
+    for seed, c in enumerate(map(moved_case, range(number))):
+        commits = _written(repository, c)
+        unions = [unite_commits(handle, commits[a], commits[b], Labels()) for a, b in ((1, 2), (2, 1))]
+        wrong = [fault for u in unions if u.tree for fault in mistakes(c, _files(handle, u.tree))]
+        wrong += ["another result where the sides change places"] if unions[0].tree != unions[1].tree else []
+        needlessly = [u for u in unions if not u.tree] if c.free else []
+        named = [f"{x.address}: {x.base} | {x.ours} | {x.theirs}" for u in needlessly for _, x in u.conflicts]
+        if wrong or needlessly:
+            print(f"  seed {seed}: {'; '.join([*wrong, *named, *(path for u in needlessly for path in u.files)][:3])}")
+        silent, needless = silent + bool(wrong), needless + len(needlessly)
+        clean, apart = clean + 2 * c.free, apart + bool(c.conflicting)
+    seconds = (time.process_time() - start) / number / 2
+    print(f"{number} cases with moves between files, both ways: {silent} silent; {needless} of {clean} needless;")
+    print(f"{apart} hold conflicts; {1000 * seconds:.1f} ms CPU a merge", flush=True)
+    return silent + (needless if needless >= NEEDLESS * clean else 0)
+
+
+def moves_by_git(folder: Path, number: int) -> int:
+    """Put cases of several files to `git merge`, which sees one file at a time, and return how many of those that it
+    merged wrongly without a conflict neither `pico validate` nor `pico plan` tells."""
+    repository = Repository.init(folder)
+    install(folder)
+    silent = conflicts = kept = dropped = 0
+    unseen = ((seed, c) for seed in count() if (c := moved_case(seed)).across and c.across == c.conflicting)
+    for seed, c in islice(unseen, number):
+        _, ours, theirs = _written(repository, c)
+        git = ["git", "-C", str(folder)]
+        for words in (["merge", "--abort"], ["checkout", "-q", "-f", "--detach", ours], ["clean", "-qfd"]):
+            subprocess.run([*git, *words], capture_output=True, check=False)
+        done = subprocess.run([*git, "merge", "-q", "-m", "merge", theirs], capture_output=True, check=False)
+        if done.returncode:
+            conflicts += 1
+            continue
+        files = {str(p.relative_to(folder)): p.read_text() for p in sorted(folder.glob("**/*.yaml"))}
+        wrong = mistakes(c, files)
+        manifests = load_folder(folder)
+        told = [*manifests.diagnostics, *unsettled(repository, folder, manifests)]
+        kept += bool(wrong)
+        missed = [fault for fault in wrong if not any(d.address == fault.partition(" ")[0] for d in told)]
+        there = {name for name, _, _ in stated(files)}  # in a file that git takes for a renamed one it is taken out
+        dropped += bool(missed) and not any(name in there for name in c.across)
+        missed = [fault for fault in missed if fault.partition(" ")[0] not in c.across - there]
+        silent += bool(missed)
+        if missed:
+            print(f"  seed {seed}: {'; '.join(missed[:3])}")
+    print(
+        f"git merge, a part taken out and moved, {number} cases: {conflicts} in conflict, {kept} wrong, {silent} untold"
+    )
+    print(f"({dropped}: git took a file for renamed, and the part out of it as one side had)", flush=True)
+    return silent
+
+
+def _written(repository: Repository, c: Moved) -> tuple[str, str, str]:
+    """Write a case as three commits, and return base, ours and theirs."""
+
+    def commit(files: Files, parents: list[str]) -> str:
+        data = {path: text.encode() for path, text in files.items()} | {".gitattributes": GITATTRIBUTES.encode()}
+        return repository.write_commit(data, "edit", parents, author=AUTHOR, time=TIME)
+
+    base = commit(c.base, [])
+    return base, commit(c.ours, [base]), commit(c.theirs, [base])
+
+
+def _files(handle: Any, tree: str) -> Files:
+    return {path: data.decode() for path, data in contents(handle, handle[tree]).items()}
 
 
 def told(name: str, cases: Iterable[tuple[int, Case]], judge: Callable[[Case], list[str]]) -> int:
