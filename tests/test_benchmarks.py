@@ -29,7 +29,7 @@ SMALLEST = {
     "kills": "--kills 50 --applies 1",
     "locks": "--trials 1",
     "makespan": "--labs shel",
-    "merges": "--cases 20 --git 2 --failing 2 --impossible 2",
+    "merges": "--cases 20 --git 2 --failing 2 --impossible 2 --moves 10 --moves-by-git 2",
     "motion": "--moves 4 --parts 6",
     "mutants": "--seed 1 --count 4 --rooms policy --tests tests/policy",
     "pick_and_place": "--moves 1 --sight exact",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -242,28 +240,3 @@ def tree_of(handle, files: Files) -> str:
     for path, text in files.items():
         index.add(pygit2.IndexEntry(path, handle.create_blob(text.encode()), pygit2.enums.FileMode.BLOB))
     return str(index.write_tree(handle))
-
-
-@pytest.mark.slow
-def test_the_benchmark_runs_at_its_smallest_size() -> None:
-    root = Path(__file__).resolve().parent.parent.parent
-    words = [
-        "--cases",
-        "5",
-        "--git",
-        "1",
-        "--failing",
-        "0",
-        "--impossible",
-        "0",
-        "--moves",
-        "10",
-        "--moves-by-git",
-        "3",
-    ]
-    done = subprocess.run(
-        [sys.executable, root / "benchmarks" / "merges.py", *words], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "10 cases with moves between files, both ways: 0 silent" in done.stdout
-    assert " 0 untold" in done.stdout
