@@ -1,9 +1,10 @@
-"""Kills real processes: `python benchmarks/kills.py --kills 10000 --applies 300`.
+"""Kills real processes: `python benchmarks/kills.py --kills 10000 --applies 300 --git 1000`.
 
 `--kills`: of a process that runs executor and journal on an instant bench, half at random instants, half just before or
 after a record of the journal; after every eight one is left alone, and must reach its goal. `--applies`: of whole
 `pico apply` commands on the simulated bench of the case study, at random instants; after each, the same command is
-run to its end. Prints the counts; the exit code is 1 where anything was lost, repeated, or not reached.
+run to its end. `--git`: of commands that write files, index and branches (`git_kills.py`). Prints the counts; the exit
+code is 1 where anything was lost, repeated, or not reached.
 """
 
 from __future__ import annotations
@@ -165,10 +166,15 @@ def main() -> int:
     parser.add_argument("--kills", type=int, default=10_000)
     parser.add_argument("--first", type=int, default=0, help="first batch of seeds, so that several can run at once")
     parser.add_argument("--applies", type=int, default=300)
+    parser.add_argument("--git", type=int, default=0, help="kills of Git commands: see benchmarks/git_kills.py")
     parser.add_argument("--fidelity", default="kinematic")
     given = parser.parse_args()
     wrong = instant(given.kills, given.first) if given.kills else 0
     wrong += applies(given.applies, given.fidelity) if given.applies else 0
+    if given.git:
+        from git_kills import git_kills
+
+        wrong += git_kills(given.git, given.first)
     return 1 if wrong else 0
 
 

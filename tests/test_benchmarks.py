@@ -26,7 +26,7 @@ SMALLEST = {
     "disks": "fmt note blame --points 1",
     "eyes": "--scenes 1 --renderer raycast",
     "identical": "",
-    "kills": "--kills 50 --applies 1",
+    "kills": "--kills 50 --applies 1 --git 9",
     "locks": "--trials 1",
     "makespan": "--labs shel",
     "merges": "--cases 20 --git 2 --failing 2 --impossible 2 --moves 10 --moves-by-git 2",

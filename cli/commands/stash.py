@@ -27,8 +27,8 @@ def stash(
 ) -> int:
     """Shelve the edits of the manifests, or bring them back. The bench is not shelved: nothing moves.
 
-    Runs `git stash` on the manifests of this lab. `pico plan` then shows what the bench has that the files have not.
-    Edits of tunables that were changed since are not brought back, but named.
+    The edits of this lab's manifests go into git's stash. `pico plan` then shows what the bench has that the files have
+    not. Edits of tunables that were changed since are not brought back, but named.
     """
     if action not in ACTIONS:
         hint = did_you_mean(action, ACTIONS)

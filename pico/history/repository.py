@@ -14,14 +14,15 @@ from pico.disk import disk_trouble
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
-from pico.history.revisions import BRANCHES, TAGS, find, names_at
+from pico.history.revisions import BRANCHES, TAGS, branch_for, find, names_at
 from pico.history.trees import collect, folder_id, is_manifest
 from pico.history.writing.claim import GitFolders, Goal
 from pico.history.writing.landing import Landing, land
 from pico.history.writing.lock import write_lock
 from pico.history.writing.made import Step
-from pico.history.writing.passage import Start, advance, go
+from pico.history.writing.passage import Start, advance, go, shelve
 from pico.history.writing.recovery import leave_word, recover
+from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import bare_repository
 
 MINUTE = timedelta(minutes=1)
@@ -288,6 +289,11 @@ class Repository:
         with self.writing(doing):
             go(self._folders(), self._start(doing), to)
 
+    def shelve(self, paths: Sequence[str], message: str, *, doing: str) -> None:
+        """Put files into git's stash and let them be as at HEAD again; else as `advance`."""
+        with self.writing(doing):
+            shelve(self._folders(), self._start(doing), paths, message)
+
     def _start(self, doing: str) -> Start:
         return Start(self.resolve("HEAD").id, self._moving(), doing)
 
@@ -295,7 +301,7 @@ class Repository:
         """Return the files of the refs that move with HEAD."""
         branch = self.head().branch
         named = [self.common / "refs" / "heads" / branch] if branch else []
-        return (self.own / "HEAD", self.own / "ORIG_HEAD", *named)
+        return (self.own / "HEAD", self.own / "ORIG_HEAD", self.common / "refs" / "stash", *named)
 
     def leave_word(self) -> None:
         """Bring to its end what a killed command left here, and leave what there is to say to the next command."""
@@ -333,13 +339,20 @@ class Repository:
             return True
 
     def checkout(self, revision: str) -> Head:
-        """Check `revision` out with git (a branch, else detached) and return the new HEAD. Moves nothing on a table.
+        """Check `revision` out (a branch, else detached) and return the new HEAD. Moves nothing on a table.
 
-        Raises PicoError where edits would be overwritten, in git's words.
+        Killed at any instant, it is as before, or it is brought to its end by whoever comes next. Raises PicoError
+        where edits would be overwritten, and where a merge or the like is under way.
         """
-        find(self._git, self.root, revision)
-        arguments = ["-c", "advice.detachedHead=false", "checkout", "--quiet", revision, "--"]
-        git.run(self.root, arguments, doing=f"check out {revision}", hook="post-checkout")
+        with self.writing(f"pico checkout {revision}"):
+            commit, before = str(find(self._git, self.root, revision).id), self.head()
+            refuse_begun(self.own, "checkout")
+            ref = branch_for(self._git, self.root, revision)
+            commit = str(self._git.references[ref].target) if ref else commit
+            came, goes = before.branch or before.commit, ref.removeprefix(BRANCHES) or commit
+            goal = Goal(commit, f"checkout: moving from {came} to {goes}", head=ref)
+            self.go(goal, doing=f"pico checkout {revision}")
+        git.notify(self.root, "post-checkout", before.commit or "", commit, "1")
         return self.head()
 
     def branch(self, name: str, at: str = "HEAD") -> None:

@@ -54,6 +54,32 @@ def find(handle: Any, root: Path, revision: str) -> Any:
         raise PicoError(_unknown(handle, revision)) from None
 
 
+def branch_for(handle: Any, root: Path, revision: str) -> str:
+    """Return the ref of the branch that a checkout of `revision` is on, empty for none; one that a remote alone has is
+    made. Raises PicoError where another worktree has it checked out."""
+    name = git.answer(root, ["rev-parse", "--abbrev-ref", "@{-1}"]).strip() if revision == "-" else revision
+    ref = f"{BRANCHES}{name}"
+    if ref not in handle.references:
+        remote = [
+            r for r in handle.references if r.startswith(REMOTES) and r.removeprefix(REMOTES).endswith(f"/{name}")
+        ]
+        try:
+            handle.revparse_single(name)
+        except (KeyError, ValueError):
+            if len(remote) == 1:
+                git.run(root, ["branch", "--quiet", "--", name, remote[0]], doing=f"make the branch {name}")
+                return ref
+        return ""
+    listed = git.run(root, ["worktree", "list", "--porcelain"], doing="list the worktrees").split("\n\n")
+    for worktree in listed:
+        lines = worktree.splitlines()
+        if f"branch {ref}" in lines and Path(lines[0].removeprefix("worktree ")).resolve() != root:
+            text = f"{name} is checked out in {lines[0].removeprefix('worktree ')}"
+            hint = f"work there, or make a branch of your own: `git switch -c NAME {name}`"
+            raise PicoError(error("worktree", text, hint=hint))
+    return ref
+
+
 def _on_one_remote(handle: Any, name: str) -> str | None:
     found = [
         commit for commit, refs in names_at(handle, REMOTES).items() for ref in refs if ref.partition("/")[2] == name

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
-from pico.history.attributes import command
 from pico.history.folder import LabFolder
 from pico.history.merge.markers import Labels
-from pico.history.merge.trees import manifest_tree, opened, unite_trees
+from pico.history.merge.trees import manifest_tree, opened, unite_trees, with_files
+from pico.history.writing.claim import Goal
 from pico.model.diff import Change
 from pico.model.record import record
 
@@ -59,9 +59,7 @@ class Stash:
             return None
         changes = self.folder.diff("HEAD")
         said = message.strip() or _said(changes)
-        named = ["-m", said] if said else []
-        words = ["--literal-pathspecs", "stash", "push", "--quiet", "--include-untracked", *named, "--", *paths]
-        git.run(self.repository.root, words, doing="shelve the edits")
+        self.repository.shelve(paths, said, doing="pico stash")
         self.folder.reload()
         shelf = self.shelves()[0]
         return Shelf(number=0, commit=shelf.commit, message=shelf.message, changes=changes)
@@ -69,15 +67,12 @@ class Stash:
     def pop(self, name: str = "") -> Shelf:
         """Bring shelved edits back into the manifests (the last ones without a `name` such as `1`).
 
-        Git merges them, with PICO's driver. Raises PicoError, the edits still shelved and nothing written, where a
-        tunable was changed since they were shelved.
+        Raises PicoError, the edits still shelved and nothing written, where a tunable was changed since they were
+        shelved.
         """
         shelf = self._find(name)
         with self.folder.writing("pico stash pop"):
-            self._refuse_conflicts(shelf)
-            driver = ["-c", f"merge.pico.driver={command()}"]  # also where it is not set for plain git
-            words = [*driver, "stash", "pop", "--quiet", f"stash@{{{shelf.number}}}"]
-            git.run(self.repository.root, words, doing="bring the edits back")
+            self.repository.go(Goal(tree=self._united(shelf), shelf=shelf.commit), doing="pico stash pop")
             self.folder.reload()
         return shelf
 
@@ -106,15 +101,18 @@ class Stash:
         except PicoError:  # shelved before there was a lab, or unreadable
             return ()
 
-    def _refuse_conflicts(self, shelf: Shelf) -> None:
-        """Raise PicoError naming each tunable that the shelved edits and HEAD say otherwise."""
-        handle, inside = opened(self.repository.root), self.repository.relative(self.folder.root)
+    def _united(self, shelf: Shelf) -> str:
+        """Return the tree of HEAD with the shelved edits done to it, new files too.
+
+        Raises PicoError naming each tunable that the shelved edits and HEAD say otherwise.
+        """
+        handle = opened(self.repository.root)
         shelved, head = handle[shelf.commit], self.repository.resolve("HEAD")
-        base, ours = (manifest_tree(handle, c.tree, inside) for c in (shelved.parents[0], handle[head.id]))
-        new = shelved.parents[2].tree if len(shelved.parents) > 2 else None  # files that git did not know
-        theirs = manifest_tree(handle, shelved.tree, inside, new)
+        base, ours, nothing = shelved.parents[0].tree, handle[head.id].tree, manifest_tree(handle, None, "")
+        new = str(shelved.parents[2].tree.id) if len(shelved.parents) > 2 else nothing  # files that git did not know
+        theirs = with_files(handle, shelved.tree, nothing, new)
         labels = Labels(head.label, shelved.parents[0].short_id, "the shelved edits")
-        union = unite_trees(handle, base, ours, theirs, labels, follow=False)
+        union = unite_trees(handle, str(base.id), str(ours.id), theirs, labels)
         hint = "`git stash pop` writes both between markers; the edits are still shelved"
         found: list[Diagnostic] = [
             error(
@@ -130,6 +128,7 @@ class Stash:
         ]
         if found:
             raise PicoError(found)
+        return union.tree
 
 
 def _said(changes: Sequence[Change]) -> str:

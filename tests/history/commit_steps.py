@@ -28,8 +28,11 @@ EVERY: Watched = (
 
 def kill_at(
     step: int, *, after: bool, watched: Watched = WATCHED, by: signal.Signals = signal.SIGKILL, group: bool = True
-) -> None:
-    """Let this process, and with `group` all that it started, get a signal at the `step`-th call of what is watched."""
+) -> Callable[[], int]:
+    """Let this process, and with `group` all that it started, get a signal at the `step`-th call of what is watched.
+
+    Returns what tells how many calls there were.
+    """
     done = 0
 
     def hit() -> None:
@@ -57,6 +60,7 @@ def kill_at(
 
     for owner, name in watched:
         watch(owner, name)
+    return lambda: done
 
 
 def forked(work: Callable[[], object]) -> bool:

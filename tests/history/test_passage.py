@@ -14,6 +14,8 @@ from commit_steps import EVERY, forked, guards_ended, kill_at
 from pico.diagnostics import PicoError
 from pico.history.example import make_example
 from pico.history.folder import LabFolder
+from pico.history.repository import Repository
+from pico.history.stash import Stash
 from pico.history.writing import guard, index_lock
 from pico.merging import merge
 from pico.restoring import cherry_pick, revert
@@ -61,29 +63,50 @@ WAYS: dict[str, Way] = {
     "fast-forward": lambda root: merge(LabFolder(root), "ahead"),
     "revert": lambda root: revert(LabFolder(root), "HEAD"),
     "cherry-pick": lambda root: cherry_pick(LabFolder(root), ["theirs", "ahead"]),
+    "checkout": lambda root: LabFolder(root).history().checkout("theirs"),
+    "stash": lambda root: Stash(LabFolder(root)).push(),
+    "stash pop": lambda root: Stash(LabFolder(root)).pop(),
     "no-commit": lambda root: revert(LabFolder(root), "HEAD", commit=False),
 }
 
 
 def files(root: Path) -> dict[str, str]:
-    return {p.name: p.read_text() for p in (root / TABLE, *root.glob("*.txt"))}
+    return {p.name: p.read_text() for p in (*root.glob("state/*"), *root.glob("*.txt"))}
 
 
-def look(root: Path) -> tuple[str, str, dict[str, str]]:
-    """Return HEAD's tree, what git finds edited, and the files; demand that git can be used and finds no merge."""
+def shelved(root: Path) -> str:
+    return git_in(root, "stash", "list", "--format=%gs %T")
+
+
+Looks = tuple[str, str, str, dict[str, str]]
+
+
+def look(root: Path) -> Looks:
+    """Return HEAD's tree, what git finds edited, the stash, and the files; demand that git is not blocked."""
     git_in(root, "fsck", "--strict", "--no-dangling")
     assert not (root / ".git" / "MERGE_HEAD").exists() and not (root / ".git" / "index.lock").exists()
     left = [p.name for p in root.rglob("*") if p.suffix == ".tmp" or p.name in (".merge_file", "files")]
     assert not left
-    return git_in(root, "rev-parse", "HEAD^{tree}"), git_in(root, "status", "--porcelain"), files(root)
+    return git_in(root, "rev-parse", "HEAD^{tree}"), git_in(root, "status", "--porcelain"), shelved(root), files(root)
 
 
-def ends(origin: Path, root: Path, way: Way) -> list[tuple[str, str, dict[str, str]]]:
+def ends(origin: Path, root: Path, way: Way) -> list[Looks]:
     """Return what a repository looks like before, and after, something was done."""
-    fresh(origin, root)
+    prepared(origin, root, way)
     before = look(root)
     way(root)
     return [before, look(root)]
+
+
+def prepared(origin: Path, root: Path, way: Way) -> Path:
+    """A copy, with what there is to shelve or shelved where that is what is to be done."""
+    fresh(origin, root)
+    if way in (WAYS["stash"], WAYS["stash pop"]):
+        (root / TABLE).write_text((root / TABLE).read_text().replace("x: 300", "x: 305"))
+        (root / "state" / "new.yaml").write_text("apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: shel}\n")
+    if way is WAYS["stash pop"]:
+        WAYS["stash"](root)
+    return root
 
 
 @pytest.mark.slow
@@ -109,7 +132,10 @@ def test_killed_at_any_step_it_is_whole_or_not_at_all(
         if guarding:
             guards_ended(root / ".git")
         else:
-            LabFolder(root)
+            repository = Repository.discover(root)
+            assert repository is not None
+            with repository.writing("the next command"):
+                pass
         now = look(root)
         assert now in allowed, (step, now)
         seen.add(allowed.index(now))
@@ -223,7 +249,8 @@ def test_a_lock_of_somebody_else_is_named(lab: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(index_lock, "WAIT", 0.05)
     lock = lab / ".git" / "index.lock"
     lock.touch()
-    for way in WAYS.values():
+    for name in ("merge", "fast-forward", "revert", "cherry-pick", "no-commit", "checkout"):
+        way = WAYS[name]
         with pytest.raises(PicoError) as caught:
             way(lab)
         (said,) = caught.value.diagnostics
@@ -257,3 +284,42 @@ def test_filters_line_ends_and_modes_are_those_of_git(lab: Path) -> None:
     merge(LabFolder(lab), "back")
     assert (lab / "link" / "inside").read_text() == "a folder now\n"
     assert git_in(lab, "status", "--porcelain") == "?? mine.txt\n"
+
+
+def test_the_stash_is_that_of_git_both_ways(origin: Path, lab: Path) -> None:
+    before = look(prepared(origin, lab, WAYS["stash"]))
+    WAYS["stash"](lab)
+    assert git_in(lab, "status", "--porcelain") == "?? mine.txt\n" and "x: 305" not in (lab / TABLE).read_text()
+    git_in(lab, "stash", "pop", "--quiet")
+    assert look(lab) == before
+    git_in(lab, "stash", "push", "--quiet", "--include-untracked", "--", "state")
+    WAYS["stash pop"](lab)
+    assert look(lab) == before
+
+
+def test_a_shelf_is_not_taken_down_over_edits(origin: Path, lab: Path) -> None:
+    prepared(origin, lab, WAYS["stash pop"])
+    (lab / TABLE).write_text((lab / TABLE).read_text() + "# later\n")
+    with pytest.raises(PicoError, match="would be lost"):
+        WAYS["stash pop"](lab)
+    assert shelved(lab) and (lab / TABLE).read_text().endswith("# later\n")
+
+
+def test_a_checkout_is_as_that_of_git(lab: Path) -> None:
+    folder = LabFolder(lab)
+    folder.history().checkout("theirs")
+    assert git_in(lab, "reflog", "-1", "--format=%gs") == "checkout: moving from ours to theirs\n"
+    assert folder.history().checkout("-").branch == "ours"
+    assert folder.history().checkout("theirs~1").branch is None
+    git_in(lab, "checkout", "-q", "-")
+    assert git_in(lab, "symbolic-ref", "--short", "HEAD") == "ours\n" and look(lab)[1] == "?? mine.txt\n"
+
+
+def test_a_branch_of_a_remote_is_made_and_one_of_another_worktree_is_not_taken(lab: Path) -> None:
+    git_in(lab, "clone", "-q", ".", "../clone")
+    clone = LabFolder(lab.parent / "clone").history()
+    assert clone.checkout("theirs").branch == "theirs"
+    assert git_in(clone.root, "rev-parse", "--abbrev-ref", "theirs@{upstream}") == "origin/theirs\n"
+    git_in(lab, "worktree", "add", "-q", "../other", "theirs")
+    with pytest.raises(PicoError, match="other"):
+        LabFolder(lab).history().checkout("theirs")

@@ -45,14 +45,10 @@ class Alike:
         return {path: (self.base.get(path), self.ours.get(path), self.theirs.get(path)) for path in paths}
 
 
-def made_alike(base: Files, ours: Files, theirs: Files, labs: Collection[str], *, follow: bool = True) -> Alike:
-    """Return three versions of files (those that differ between them) made alike; `labs`: the folders of labs.
-
-    Without `follow` nothing changes its file: only the conflicts are found.
-    """
+def made_alike(base: Files, ours: Files, theirs: Files, labs: Collection[str]) -> Alike:
+    """Return three versions of files (those that differ between them) made alike; `labs`: the folders of labs."""
     versions = [dict(base), dict(ours), dict(theirs)]
-    if follow:
-        _rename(versions)
+    _rename(versions)
     sight = _Sight(versions, labs)
     made = Alike({}, {}, {}, labs, base.keys() | ours.keys() | theirs.keys(), sight.unclear)
     moves = _Moves(sight)
@@ -61,12 +57,12 @@ def made_alike(base: Files, ours: Files, theirs: Files, labs: Collection[str], *
         conflict = disagreement(key[1], *homes)
         if conflict:
             made.conflicts.append(conflict)
-        elif follow:
+        else:
             moves.follow(key, homes)
         if None not in homes[1:] or homes[0] is None:
             made.present.add(key)
     made.base, made.ours, made.theirs = (moves.made(i) for i in range(3))
-    made.emptied = set(_empty(made)) if follow else set()
+    made.emptied = set(_empty(made))
     return made
 
 

@@ -39,13 +39,10 @@ def unite_commits(handle: Any, ours: str, theirs: str, labels: Labels) -> Union:
     return _united(handle, index, trees, labels)
 
 
-def unite_trees(handle: Any, base: str, ours: str, theirs: str, labels: Labels, *, follow: bool = True) -> Union:
-    """Do to the tree `ours` what leads from the tree `base` to `theirs`, value by value.
-
-    Without `follow`, each file by itself, as git with PICO's driver will do it.
-    """
+def unite_trees(handle: Any, base: str, ours: str, theirs: str, labels: Labels) -> Union:
+    """Do to the tree `ours` what leads from the tree `base` to `theirs`, value by value."""
     index = handle.merge_trees(*(handle[name] for name in (base, ours, theirs)))
-    return _united(handle, index, [handle[name] for name in (base, ours, theirs)], labels, follow=follow)
+    return _united(handle, index, [handle[name] for name in (base, ours, theirs)], labels)
 
 
 def manifest_tree(handle: Any, tree: Any, folder: str, more: Any = None) -> str:
@@ -69,7 +66,7 @@ def with_files(handle: Any, tree: Any, out: str, into: str) -> str:
     index.read_tree(tree)
     for path in blobs(handle[out]):
         index.remove(path)
-    for path, entry in _entries(handle[into]):
+    for path, entry in entries(handle[into]):
         index.add(pygit2.IndexEntry(path, entry.id, entry.filemode))
     return str(index.write_tree(handle))
 
@@ -84,13 +81,13 @@ def blobs(tree: Any) -> dict[str, Any]:
     return {path: entry.id for path, entry in _entries(tree)}
 
 
-def alike(handle: Any, trees: Sequence[Any], *, follow: bool = True) -> Alike:
+def alike(handle: Any, trees: Sequence[Any]) -> Alike:
     """Return the manifests that differ between three trees (base, ours, theirs), made alike; see `made_alike`."""
     ids = [{path: blob for path, blob in blobs(tree).items() if is_manifest(path)} for tree in trees]
     paths = [path for path in set().union(*ids) if len({known.get(path) for known in ids}) > 1]
     labs = {str(PurePosixPath(p).parent) for known in ids for p, blob in known.items() if is_lab(handle[blob].data)}
     base, ours, theirs = ({path: handle[known[path]].data for path in paths if path in known} for known in ids)
-    return made_alike(base, ours, theirs, labs, follow=follow)
+    return made_alike(base, ours, theirs, labs)
 
 
 def _below(tree: Any, folder: str) -> Any:
@@ -107,9 +104,9 @@ def _entries(tree: Any, at: str = "") -> list[tuple[str, Any]]:
     return [(at + p, e) for p, e in entries(tree) if e.type_str == "blob" and e.filemode != FileMode.LINK]
 
 
-def _united(handle: Any, index: Any, trees: Sequence[Any], labels: Labels, *, follow: bool = True) -> Union:
+def _united(handle: Any, index: Any, trees: Sequence[Any], labels: Labels) -> Union:
     """Unite the manifests that differ, and what libgit2 could not, into `index`, where it has united all else."""
-    made = alike(handle, trees, follow=follow)
+    made = alike(handle, trees)
     union = Union(conflicts=list(made.conflicts))
     groups, strict = groups_of(contents(handle, trees[1]).items())
     united: Files = {}

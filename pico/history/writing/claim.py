@@ -76,13 +76,15 @@ class Goal:
     """Where index, files and HEAD go: to a `commit`, told in the reflog as `reason`.
 
     `head`: the ref that HEAD is to name, empty for none (detached), None where it names what it does. `tree`: instead
-    of all that, only the files go, to those of a tree.
+    of all that, only the files go, to those of a tree. `shelf`: a commit of the stash, which is put there before
+    anything goes to a commit, and is taken out when the files have gone to a tree.
     """
 
     commit: str = ""
     reason: str = ""
     head: str | None = None
     tree: str = ""
+    shelf: str = ""
 
 
 @dataclass
@@ -112,10 +114,17 @@ class Claim:
         self.pending = True
         self._say(tree=tree)
 
-    def leads(self, to: Goal) -> None:
-        """Say where it leads for sure: from now on there is no way back."""
+    def leads(self, to: Goal, tree: str = "") -> None:
+        """Say where it leads for sure, from the files of a tree, if not those of `base`: there is no way back now."""
         self.pending = True
-        self._say(commit=to.commit, reason=to.reason, head=to.head, only=to.tree)
+        self._say(
+            **({"tree": tree} if tree else {}),
+            commit=to.commit,
+            reason=to.reason,
+            head=to.head,
+            only=to.tree,
+            shelf=to.shelf,
+        )
 
     def turns_back(self, tree: str) -> None:
         """Say that it leads back after all; the files may be those of a tree."""
@@ -139,10 +148,7 @@ class Claim:
             found |= told
         if "pico" not in found:
             return Said()
-        to = (
-            Goal(found["commit"], found["reason"], found["head"], found["only"])
-            if found.get("commit") is not None
-            else None
-        )
+        keys = ("commit", "reason", "head", "only", "shelf")
+        to = Goal(*(found[key] for key in keys)) if found.get("commit") is not None else None
         refs = tuple(Path(p) for p in found["refs"])
         return Said(str(found["pico"]), found["doing"], found["base"], refs, tuple(trees), to)

@@ -21,7 +21,8 @@ from pico.history import git
 from pico.history.writing.claim import Claim, GitFolders, Goal, Said
 from pico.history.writing.index_lock import index_lock
 from pico.history.writing.made import Step, make
-from pico.history.writing.under import Under
+from pico.history.writing.shelving import dropped, shelf, stored
+from pico.history.writing.under import Under, listed
 from pico.history.writing.worktree import bring
 
 _HOOK = "reference-transaction"
@@ -82,6 +83,16 @@ def go(at: GitFolders, start: Start, to: Goal) -> None:
     _pass(at, start, work)
 
 
+def shelve(at: GitFolders, start: Start, paths: Sequence[str], message: str) -> None:
+    """Put the files `paths` into git's stash, and let them be as in the commit at HEAD; raises PicoError."""
+
+    def work(claim: Claim) -> None:
+        made, tree = shelf(at, claim, start.base, paths, message)
+        claim.leads(Goal(start.base, shelf=made), tree)
+
+    _pass(at, start, work)
+
+
 def _pass(at: GitFolders, start: Start, work: Callable[[Claim], None]) -> None:
     with index_lock(at, start.doing, start.base, start.refs) as claim:
         try:
@@ -106,11 +117,16 @@ def settle(at: GitFolders, claim: Claim) -> Settled:
 
 
 def _onwards(at: GitFolders, claim: Claim, said: Said, base: str, to: Goal) -> Settled:
+    index = Under(at, claim)
+    if to.shelf and not to.tree and (why := stored(index, to)):
+        return Settled(why=why)  # the edits stay where they are
     kept = bring(Under(at, claim, _FILES), (base, *said.trees), to.tree or to.commit)
     if to.tree:
-        return Settled(True, kept)
-    index = Under(at, claim)
-    _restaged(index, base, to.commit)
+        return Settled(True, kept, dropped(index, to) if to.shelf else None)
+    if to.shelf:
+        _unstaged(index, said.trees, base)
+    else:
+        _restaged(index, base, to.commit)
     index.adopt()
     try:
         _move_head(index, base, to)
@@ -136,6 +152,16 @@ def _restaged(index: Under, before: str, after: str) -> None:
     index.begin()
     index.git("read-tree", "-m", "-i", before, after, doing="stage the files of a commit")
     index.git("update-index", "-q", "--refresh", doing="look at the files", ends=(0, 1))
+
+
+def _unstaged(index: Under, trees: Sequence[str], base: str) -> None:
+    """Make an index as git's own, in which files that trees hold otherwise are as in `base`."""
+    index.begin()
+    for tree in trees:
+        words = ["diff-tree", "-r", "-z", "--name-only", "--no-renames", tree, base]
+        paths = index.git(*words, doing="compare two commits").split("\0")[:-1]
+        if paths:
+            index.git("reset", "--quiet", base, *listed(index.at, paths), doing="take back what was staged")
 
 
 def _move_head(index: Under, base: str, to: Goal) -> None:

@@ -128,7 +128,12 @@ def _of_ours(root: Path, lock: Path, said: Said) -> bool:
     """Whether the lock of a ref names nothing yet, or what ours was to say: a commit on the one before, or the goal."""
     try:
         name = lock.read_text(encoding="ascii").strip()
-        if not name or name == said.base or (said.to and name in (said.to.commit, f"ref: {said.to.head}")):
+        if (
+            not name
+            or lock.name == "stash.lock"
+            or name == said.base
+            or (said.to and name in (said.to.commit, f"ref: {said.to.head}"))
+        ):
             return True
         _, *parents = git.run(root, ["rev-list", "--parents", "-n1", name], doing="read a commit").split()
     except (OSError, ValueError, PicoError):

@@ -139,7 +139,7 @@ def _refuse(paths: Sequence[str], wanted: Mapping[str, Wanted]) -> None:
             raise PicoError(error("exists", f"{named} would be overwritten, and git does not keep it", hint=hint))
         if some:
             hint = "commit the edits (`pico commit`), or shelve them (`pico stash`)"
-            raise PicoError(error("dirty", f"edits that are not committed would be lost: {named}", hint=hint))
+            raise PicoError(error("dirty", "edits that are not committed would be lost", detail=named, hint=hint))
 
 
 def _prepare(under: Under, paths: Sequence[str], folder: Path) -> None:
