@@ -201,6 +201,24 @@ def test_validate_tells_of_a_part_that_gits_merge_left_in_two_files(branches: Br
     assert any("p1 is in two files" in d.summary for d in check_folder(folder.root).diagnostics)
 
 
+def test_what_git_kept_is_told_beside_a_part_in_two_files_and_after_that_is_mended(
+    branches: Branches, git: Git
+) -> None:
+    def also(edit: Edit, path: str) -> Edit:
+        def both(root: Path) -> None:
+            edit(root)
+            moved("p2", path)(root)
+
+        return both
+
+    folder = branches(also(moved("p1"), THIRD), also(taken_out("p1"), "state/fourth.yaml"))
+    git("merge", "-q", "-m", "merge", "theirs")
+    said = [d.summary for d in check(folder.root, None, environment={}).labs[0].diagnostics]
+    assert any("p2 is in two files" in s for s in said) and any("took it out" in s for s in said)
+    (folder.root / THIRD).unlink()
+    assert [d.address for d in planned(folder.root)] == ["p1"]
+
+
 def planned(root: Path, revision: str | None = None, targets: list[str] | None = None) -> list:
     """Return what keeps a bench from being planned for."""
     with Bench.open(root) as bench:

@@ -12,6 +12,8 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.repository import Repository
 from pico.history.writing.trailers import STATE, values
 from pico.manifest.load import Manifests, load_files
+from pico.manifest.places import find
+from pico.model.state import LabState
 
 
 def require_settled(
@@ -33,7 +35,7 @@ def unsettled(
     there, or that is under way, is asked: what PICO committed was looked at, and so was what a person edited or
     committed upon.
     """
-    if repository is None or repository.handle.head_is_unborn or manifests.state is None:
+    if repository is None or repository.handle.head_is_unborn:
         return []
     handle = repository.handle
     at = commit or str(handle.head.target)
@@ -43,12 +45,18 @@ def unsettled(
     if len(sides) != 2 or (not underway and values(handle[at].message, STATE)):
         return []
     found = _moved_and_out(repository, root, sides)
-    if found and not underway:
+    there = {n for n in found if any(find(d, "components", n) for d in manifests.documents.get("LabState", ()))}
+    if there and not underway:
         merged = load_files(repository.files(at, root), setup=manifests.setup).state
-        kept = merged.components if merged and not _later(repository, at) else {}
-        found = {n: told for n, told in found.items() if kept.get(n) == manifests.state.components.get(n)}
-    found = {n: told for n, told in found.items() if n in manifests.state.components}
-    return [_told(name, *found[name], "" if underway else at, manifests) for name in sorted(found)]
+        there = set() if _later(repository, at) else there - _edited(merged, manifests.state)
+    return [_told(name, *found[name], "" if underway else at, manifests) for name in sorted(there)]
+
+
+def _edited(merged: LabState | None, wanted: LabState | None) -> set[str]:
+    """Return the components that are not wanted as the merge left them; none where either can't be read."""
+    if merged is None or wanted is None:
+        return set()
+    return {name for name, part in merged.components.items() if wanted.components.get(name) != part}
 
 
 def _moved_and_out(repository: Repository, root: Path, sides: Sequence[str]) -> dict[str, tuple[str, str, str]]:
