@@ -12,7 +12,7 @@ from pico.model.pose import Pose
 from pico.model.tethers import turn_between
 from pico.motion import timing
 from pico.motion.explain import Errand, blocked
-from pico.motion.kinematics import Column, tool_pose
+from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.paths import Stand, distance, plumb, postures, route, stand, swing, usable
 from pico.motion.reach import grasp_height, opening
 from pico.motion.scene import Hit, Scene
@@ -26,6 +26,8 @@ WOUND = 0.02
 """What a turn of joints 1 and 7 away from zero counts where ways are else alike."""
 TRANSIT_DIP = 0.5
 """No swing comes lower than this below the transit height [mm]."""
+STRAIGHTENED = 0.02
+"""A tool that was stopped askew is made plumb on the spot where no joint turns by more than this for it [rad]."""
 _TOUCHING = -1.0
 """Gap [mm] down to which a part that is lifted may seem to overlap a neighbor: parts that touch, seen with error."""
 _JAW_GAP = 1.0
@@ -208,13 +210,16 @@ def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> li
     """Return corners of the way from `joints` straight up to the transit height (just `joints` where it is high
     enough), or what is in the way.
 
-    What the hand stands around is not in the way: the arm may have been stopped over it. A tool that is tilted is
-    first brought upright in the plane that the arm is in.
+    What the hand stands around is not in the way: the arm may have been stopped over it. A tool that is tilted by
+    little, as an arm is that was stopped at speed, is made plumb where it is; one that is tilted by more is first
+    brought upright in the plane that the arm is in.
     """
-    here, height = stand(scene, joints), scene.robot.transit_height
+    height = scene.robot.transit_height
     x, y, z, _ = tool_pose(scene.robot, joints)
+    here = stand(scene, joints)
+    here = here if here.column else _plumb(scene, joints)
     if here.column is not None and z >= height - 1.0:
-        return [joints]
+        return list(dict.fromkeys((joints, here.joints)))
     if here.column is None or not usable(here.column, z, height):
         upright = _upright(scene, joints)
         hit = swing(scene, joints, upright)
@@ -225,7 +230,18 @@ def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> li
     )
     hit = plumb(scene, here.column, z, height)
     scene.ignored = before
-    return [joints, _top(here.column, height)] if hit is None else hit
+    return list(dict.fromkeys((joints, here.joints, _top(here.column, height)))) if hit is None else hit
+
+
+def _plumb(scene: Scene, joints: Joints) -> Stand:
+    """The arm with its tool vertical where it is now, where that turns no joint by more than `STRAIGHTENED`; else the
+    arm as it is."""
+    x, y, z, yaw = tool_pose(scene.robot, joints)
+    for column in columns(scene.robot, x, y, yaw):
+        upright = column.at(z)
+        if upright is not None and max(abs(a - b) for a, b in zip(upright, joints, strict=True)) <= STRAIGHTENED:
+            return Stand(upright, column)
+    return Stand(joints, None)
 
 
 def _upright(scene: Scene, joints: Joints) -> Joints:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pico.geometry.shape import placed, separation
 from pico.model.catalog import Geometry
@@ -20,6 +20,9 @@ from pico.motion.reach import grasp_height, opening
 from pico.motion.scene import Hit
 from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
 
+SWING = 3.0
+"""What is held swings by no more than this between the jaws [mm]."""
+
 
 def tool_of(robot: Robot, joints: Joints) -> Pose:
     """Return where the tool of a robot is, seen from above [mm, deg]."""
@@ -31,8 +34,14 @@ def tool_of(robot: Robot, joints: Joints) -> Pose:
 
 
 def tool_goal(robot: Robot, joints: Joints, held: Pose, goal: Pose) -> Pose:
-    """Return where the tool must be for the part that is `held` now to be at `goal`."""
+    """Return where the tool must be for the part that is `held` now to be at `goal`.
+
+    Jaws center what they hold: where it was seen a little off their middle, the arm was stopped at speed, and it swings
+    back.
+    """
     in_hand = tool_of(robot, joints).inverse().compose(held)
+    if robot.gripper.fingers != "none" and abs(in_hand.x) <= SWING:
+        in_hand = replace(in_hand, x=0.0)
     return goal.compose(in_hand.inverse())
 
 

@@ -59,3 +59,13 @@ def test_a_place_that_is_taken_is_refused_by_name(motion: ArmMotion) -> None:
     found = motion.set_down("arm1", "p1", START, GOAL, standing, joints)
     assert isinstance(found, Blocked)
     assert found.obstacle == "p2"
+
+
+def test_an_arm_that_was_stopped_at_speed_among_neighbours_sets_down(motion: ArmMotion) -> None:
+    neighbour = {"ly_150": Standing(Pose(110, 310, 0), SETUP.type_of("ly_150").geometry)}
+    lift = next(s for s in moved(motion, neighbour).segments if s.name == "lift")
+    q = lift.joints[1]
+    askew = (q[0], q[1] + 0.0015, 2e-6, q[3], 5e-6, q[5], q[6])
+    swung = tool_of(SETUP.lab.robots["arm1"], askew).compose(Pose(0.9, -1.7, 0))
+    for held in (START, swung):
+        assert isinstance(motion.set_down("arm1", "p1", held, START, neighbour, askew), MovePath)
