@@ -16,12 +16,11 @@ from pathlib import Path
 
 from pico.attachment import bench_folder
 from pico.journal import Journal
-from pico.model.diff import diff_observed, value_distance
+from pico.model.diff import deviation, diff_observed, value_deviation
 from pico.model.drift import drift_of
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation
-from pico.model.pose import angle_between
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, place_of
 
@@ -121,18 +120,13 @@ def _there(setup: Setup, state: LabState, one: tuple[str, str], part: ObservedCo
     if part is None:
         return False
     if tunable == "pose":
-        slot, goal = place_of(setup, state, component)
-        if part.pose is None:
-            return False
-        if slot is not None:
-            return slot_at(setup, part.pose) == slot
-        near = part.pose.distance(goal) <= kind.pose.tolerance.position
-        return near and abs(angle_between(part.pose.yaw, goal.yaw)) <= kind.pose.tolerance.yaw
+        place = place_of(setup, state, component)
+        return part.pose is not None and deviation(setup, component, part.pose, *place) != "off"
     value, own = part.values.get(tunable), kind.tunables.get(tunable)
     goal_value = state.components[component].values.get(tunable) if component in state.components else None
     if value is None or value.value is None or goal_value is None or own is None:
         return False
-    return value_distance(own, value.value, goal_value) <= own.tolerance
+    return value_deviation(own, value.value, goal_value) != "off"
 
 
 def _of_run(journal: Journal, run: str) -> str | None:

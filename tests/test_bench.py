@@ -49,7 +49,7 @@ def test_a_plan_says_where_it_starts_and_leads(bench: Bench) -> None:
     assert plan.target.commit == entry.commit.id
     assert plan.base.commit == bench.entry("HEAD").commit.id
     assert plan.target.state["lx_125"]["pose"] == {"x": 395, "y": 420, "yaw": 0}
-    assert plan.base.state["lx_125"] == {"slot": "storage/a3"}
+    assert plan.base.state["lx_125"]["pose"] == {"x": 290, "y": 310, "yaw": 0}
 
 
 def test_a_plan_survives_being_written_and_read(bench: Bench) -> None:

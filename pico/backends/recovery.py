@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, error
 from pico.journal import Journal, Unsettled
-from pico.model.diff import value_distance
+from pico.model.diff import deviation, value_distance
 from pico.model.lab import Setup
-from pico.model.observation import Observation, slot_at
+from pico.model.observation import Observation
 from pico.model.operation import Operation, Outcome
-from pico.model.pose import Pose, angle_between
+from pico.model.pose import Pose
 from pico.model.record import record
 
 BY_OBSERVATION = "observation"
@@ -64,12 +64,7 @@ def repeatable(operation: Operation) -> bool:
 def arrived(setup: Setup, operation: Operation, pose: Pose) -> bool:
     """Return whether `pose` is the goal of a move: in its slot, or within the tolerance of the component."""
     to = operation.arguments["to"]
-    goal, slot = Pose(**to["pose"]), to.get("slot")
-    if slot:
-        return slot_at(setup, pose) == str(slot)
-    tolerance = setup.type_of(operation.component).pose.tolerance
-    away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
-    return away <= tolerance.position and turned <= tolerance.yaw
+    return deviation(setup, operation.component, pose, to.get("slot"), Pose(**to["pose"])) != "off"
 
 
 def _has_value(setup: Setup, operation: Operation, seen: Observation) -> bool:

@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping
 
 from pico.model.address import Named, holds
-from pico.model.catalog import Tunable
-from pico.model.diff import value_distance
+from pico.model.diff import deviation, value_deviation
 from pico.model.lab import Setup
 from pico.model.observation import slot_at
 from pico.model.pose import Pose, angle_between
@@ -31,7 +30,7 @@ def differences(
     changes: dict[str, dict[str, Change]] = {}
     for name in sorted(live.components.keys() & setup.lab.inventory.keys()):
         seen = live.components[name]
-        entries = _place(setup, name, wanted, seen)
+        entries = _place(setup, name, wanted, live)
         if name in wanted.components:
             entries |= _values(setup, name, wanted.components[name], seen)
         elif entries:
@@ -47,31 +46,34 @@ def _known(setup: Setup, name: str, tunable: str) -> bool:
     return tunable in setup.type_of(name).tunables
 
 
-def _place(setup: Setup, name: str, wanted: LabState, seen: ComponentState) -> dict[str, Change]:
-    slot, goal = place_of(setup, wanted, name)
-    if seen.slot:
-        # A pose that lies in the slot's capture radius is as right as the slot's name.
-        same = slot == seen.slot or (slot is None and slot_at(setup, goal) == seen.slot)
-        return {} if same else {"slot": seen.slot}
-    if seen.pose is None:
+def _place(setup: Setup, name: str, wanted: LabState, seen: LabState) -> dict[str, Change]:
+    """Return what to write of a place, in the form that is wanted: a slot becomes a pose only where the part is in
+    none, a pose never a slot, which would say less."""
+    if not (seen.components[name].slot or seen.components[name].pose):
         return {}
+    (slot, goal), (_, live) = place_of(setup, wanted, name), place_of(setup, seen, name)
+    if deviation(setup, name, live, slot, goal) != "off":
+        return {}
+    if slot is None:
+        return {"pose": _posed(setup, name, goal, live)}
+    other = slot_at(setup, live) if setup.movable(name) else None
+    return {"slot": other} if other else {"pose": _posed(setup, name, None, live)}
+
+
+def _posed(setup: Setup, name: str, goal: Pose | None, live: Pose) -> Pose:
+    """Return a pose rounded to its resolution, as far as that is within tolerance; axes of the `goal` that are stay."""
     kind = setup.type_of(name).pose
-    step = kind.resolution
-    exact = Pose(
-        _round(seen.pose.x, step.position), _round(seen.pose.y, step.position), _round(seen.pose.yaw, step.yaw)
-    )
-    if slot is not None:
-        return {"pose": exact}
-    moved = goal.distance(seen.pose) > kind.tolerance.position
-    turned = abs(angle_between(goal.yaw, seen.pose.yaw)) > kind.tolerance.yaw
-    # Of a component that moved along x only, y stays as it is written: each axis within its share of the tolerance.
-    share = kind.tolerance.position / math.sqrt(2)
-    pose = Pose(
-        exact.x if moved and abs(goal.x - seen.pose.x) > share else goal.x,
-        exact.y if moved and abs(goal.y - seen.pose.y) > share else goal.y,
-        exact.yaw if turned else goal.yaw,
-    )
-    return {"pose": pose} if moved or turned else {}
+    step, most = kind.resolution, kind.tolerance
+    pose = Pose(_round(live.x, step.position), _round(live.y, step.position), _round(live.yaw, step.yaw))
+    if goal is not None:
+        # Of a component that moved along x only, y stays as it is written: each axis within its share of the tolerance.
+        share = most.position / math.sqrt(2) if goal.distance(live) > most.position else math.inf
+        pose = Pose(
+            pose.x if abs(goal.x - live.x) > share else goal.x,
+            pose.y if abs(goal.y - live.y) > share else goal.y,
+            pose.yaw if abs(angle_between(goal.yaw, live.yaw)) > most.yaw else goal.yaw,
+        )
+    return live if deviation(setup, name, live, None, pose) == "off" else pose
 
 
 def _values(setup: Setup, name: str, wanted: ComponentState, seen: ComponentState) -> dict[str, Change]:
@@ -79,19 +81,19 @@ def _values(setup: Setup, name: str, wanted: ComponentState, seen: ComponentStat
     return {
         tunable: rounded(setup, name, tunable, seen.values[tunable])
         for tunable, goal in sorted(wanted.values.items())
-        if tunable in seen.values and tunable in kinds and _differs(kinds[tunable], goal, seen.values[tunable])
+        if tunable in seen.values
+        and tunable in kinds
+        and value_deviation(kinds[tunable], seen.values[tunable], goal) == "off"
     }
 
 
-def _differs(kind: Tunable, goal: Value, live: Value) -> bool:
-    return value_distance(kind, goal, live) > kind.tolerance
-
-
 def rounded(setup: Setup, name: str, tunable: str, value: Value) -> Value:
-    """Return a value rounded to the resolution that its type declares."""
+    """Return a value rounded to the resolution that its type declares, as far as that is within tolerance."""
     if isinstance(value, bool | str):
         return value
-    return _round(value, setup.type_of(name).tunables[tunable].resolution)
+    kind = setup.type_of(name).tunables[tunable]
+    near = _round(value, kind.resolution)
+    return value if value_deviation(kind, value, near) == "off" else near
 
 
 def _round(value: float, step: float) -> float:

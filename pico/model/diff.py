@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Literal
 
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
@@ -12,6 +12,8 @@ from pico.model.pose import Pose, angle_between, short
 from pico.model.quantities import Value
 from pico.model.record import as_json, record
 from pico.model.state import LabState, place_of
+
+Deviation = Literal["none", "tolerated", "off"]
 
 
 @record
@@ -78,23 +80,39 @@ def diff_observed(setup: Setup, seen: Observation, wanted: LabState, *, exact: b
     return tuple(changes)
 
 
+def deviation(setup: Setup, name: str, pose: Pose, slot: str | None, goal: Pose) -> Deviation:
+    """Return how far a part that stands at `pose` is off the place where it belongs: a slot, which is right anywhere in
+    its capture radius and at any yaw, or a pose, of which only the pose counts, slot or not."""
+    if slot is not None and slot_at(setup, pose) == slot:
+        return "none"
+    kind = setup.type_of(name).pose
+    away, turned = pose.distance(goal), abs(angle_between(pose.yaw, goal.yaw))
+    if away < kind.resolution.position and turned < kind.resolution.yaw:
+        return "none"
+    within = slot is None and away <= kind.tolerance.position and turned <= kind.tolerance.yaw
+    return "tolerated" if within else "off"
+
+
 def _observed_move(setup: Setup, name: str, pose: Pose, wanted: LabState, exact: bool) -> Change | None:
     slot, goal = place_of(setup, wanted, name)
-    if slot is not None and slot_at(setup, pose) == slot:
-        return None  # in the slot, at any yaw, is right
-    tunable = setup.type_of(name).pose
-    away, turned = pose.distance(goal), abs(angle_between(pose.yaw, goal.yaw))
-    if away < tunable.resolution.position and turned < tunable.resolution.yaw:
+    off = deviation(setup, name, pose, slot, goal)
+    if off == "none":
         return None
-    live = slot_at(setup, pose) if setup.movable(name) else None
+    live = slot_left(setup, name, pose, goal)
     return Change(
         component=name,
         tunable="pose",
         before=place_json(live, pose),
         after=place_json(slot, goal),
         text=describe_move(live, pose, slot, goal),
-        tolerated=slot is None and not exact and away <= tunable.tolerance.position and turned <= tunable.tolerance.yaw,
+        tolerated=off == "tolerated" and not exact,
     )
+
+
+def slot_left(setup: Setup, name: str, pose: Pose, goal: Pose) -> str | None:
+    """Return the slot that a part at `pose` leaves for `goal`; None where it is in none, or stays in it."""
+    slot = slot_at(setup, pose) if setup.movable(name) else None
+    return None if slot == slot_at(setup, goal) else slot
 
 
 def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: LabState, exact: bool) -> list[Change]:
@@ -106,10 +124,8 @@ def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: L
         if kind is None or live is None or kind.restore.kind == "none":
             continue
         value = None if live.status == "unknown" else live.value
-        if value == goal:
-            continue
-        apart = math.inf if value is None else value_distance(kind, value, goal)
-        if apart < max(kind.resolution, 1e-9):
+        off = "off" if value is None else value_deviation(kind, value, goal)
+        if off == "none":
             continue
         text = describe_value(kind, value, goal)
         changes.append(
@@ -119,10 +135,18 @@ def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: L
                 before=value,
                 after=goal,
                 text=text,
-                tolerated=apart <= kind.tolerance and not exact,
+                tolerated=off == "tolerated" and not exact,
             )
         )
     return changes
+
+
+def value_deviation(kind: Tunable, value: Value, goal: Value) -> Deviation:
+    """Return how far a tunable that has `value` is off the one that is wanted."""
+    apart = value_distance(kind, value, goal)
+    if value == goal or apart < max(kind.resolution, 1e-9):
+        return "none"
+    return "tolerated" if apart <= kind.tolerance else "off"
 
 
 def value_distance(kind: Tunable, a: Value, b: Value) -> float:

@@ -128,10 +128,11 @@ def _slot_cells(slots: Mapping[str, Slot]) -> dict[tuple[int, int], list[str]]:
 
 
 def live_state(setup: Setup, seen: Observation, *, sure: bool = False) -> LabState:
-    """Return the live laboratory state: what the observation amounts to, as a manifest would hold it.
+    """Return the live laboratory state: poses as observed, for the name of a slot says neither where in it a part
+    stands nor how it is turned.
 
-    Parts in a slot's capture radius are named by the slot. Missing, held and toppled parts and unknown values are
-    left out; with `sure` also what was seen less exactly than it must stand, or is only remembered.
+    Missing, held and toppled parts and unknown values are left out; with `sure` also what was seen less exactly than
+    it must stand, or is only remembered.
     """
     components = {}
     for name, part in seen.components.items():
@@ -142,6 +143,5 @@ def live_state(setup: Setup, seen: Observation, *, sure: bool = False) -> LabSta
         ):
             continue
         values = {k: v.value for k, v in part.values.items() if v.value is not None and v.status != "unknown"}
-        slot = slot_at(setup, part.pose) if setup.movable(name) else None
-        components[name] = ComponentState(slot=slot, pose=None if slot else part.pose, values=values)
+        components[name] = ComponentState(pose=part.pose, values=values)
     return LabState(lab=setup.lab.name, components=components)

@@ -8,10 +8,10 @@ from typing import Any
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, diff_observed, show_value, value_distance
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, doubtful, slot_at
 from pico.model.plan import Plan
 from pico.model.pose import angle_between
-from pico.model.state import LabState, state_from_json
+from pico.model.state import LabState, place_of, state_from_json
 
 MOST_PATHS = 6
 """So many differences of a lab are named."""
@@ -60,7 +60,7 @@ def _changed(setup: Setup, base: LabState, seen: Observation) -> list[Diagnostic
             what = part.presence if part else "missing"
             found.append(stale(name, f"{name} is {what} now"))
     for change in diff_observed(setup, seen, base):
-        if change.component in base.components and not change.tolerated:
+        if change.component in base.components and not change.tolerated and not _doubt(setup, change, base, seen):
             subject = change.component if change.tunable == "pose" else f"{change.component}.{change.tunable}"
             found.append(stale(subject, f"{subject} changed {_much(setup, change)}"))
     appeared = sorted(
@@ -68,6 +68,15 @@ def _changed(setup: Setup, base: LabState, seen: Observation) -> list[Diagnostic
         if name not in base.components and name in seen.components and seen.components[name].presence == "seen"
     )  # fmt: skip
     return found + [stale(name, f"{name} was not seen then and is now") for name in appeared]
+
+
+def _doubt(setup: Setup, change: Change, base: LabState, seen: Observation) -> bool:
+    """Return whether a part that was seen too badly to say where in its slot it stands is in that slot still."""
+    part = seen.components[change.component]
+    if change.tunable != "pose" or part.pose is None or not doubtful(setup, change.component, part):
+        return False
+    slot = slot_at(setup, part.pose)
+    return slot is not None and slot == slot_at(setup, place_of(setup, base, change.component)[1])
 
 
 def _much(setup: Setup, change: Change) -> str:

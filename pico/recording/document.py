@@ -15,7 +15,7 @@ from pico.model.plan import LabRef
 from pico.model.record import digest
 from pico.model.run import STRENGTH, Cause, Evidence, RunDocument, RunEnd, Seen, TraceEvent
 from pico.model.state import LabState, state_from_json
-from pico.recording.states import changes, state_left, state_seen, touched
+from pico.recording.states import changes, digest_of, state_left, state_seen, touched
 from pico.recording.trace import busy, measured, tally, trace_events
 
 ASKED = ("asked", "parked", "interlock", "held")
@@ -61,14 +61,14 @@ def recorded(setup: Setup, kept: Kept) -> Recorded:
     earlier = [r for r in kept.records if _resumption(r) < kept.part]
     before = state_left(setup, state_from_json(name, plan["base"]["state"]), earlier)
     after = state_seen(setup, kept.seen["components"]) if kept.seen else state_left(setup, before, own)
-    trace, observed = trace_events(own), after.digest()
+    trace, observed = trace_events(own), digest_of(setup, after)
     about = kept.about[min(kept.part, len(kept.about) - 1)] if kept.about else {}
     document = RunDocument(
         id=kept.id,
         number=run.number,
         lab=LabRef(**plan["lab"]),
         parent=plan["base"].get("commit"),
-        state_before=before.digest(),
+        state_before=digest_of(setup, before),
         state_after=_reached(kept) or observed,
         observed=Seen(at=kept.seen["at"] if kept.seen else own[-1].at, state=observed, looked=kept.seen is not None),
         plan=plan["digest"],
@@ -106,8 +106,8 @@ def _resumption(r: JournalRecord) -> int:
 
 
 def _reached(kept: Kept) -> str | None:
-    """Return the digest of the goal where all of it was reached."""
-    if kept.seen and kept.seen.get("reached"):
+    """Return the digest of the goal where all of it was reached, and it is that of a manifest."""
+    if kept.seen and kept.seen.get("reached") and not kept.plan["target"].get("title"):
         return digest(kept.plan["target"]["state"])
     return None
 

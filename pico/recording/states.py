@@ -7,10 +7,18 @@ from dataclasses import replace
 from typing import Any
 
 from pico.journal import JournalRecord, observed_from_json
-from pico.model.diff import Change, diff_states, place_json, value_distance
+from pico.model.diff import (
+    Change,
+    describe_move,
+    deviation,
+    diff_states,
+    place_json,
+    slot_left,
+    value_deviation,
+)
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, live_state
-from pico.model.pose import Pose, angle_between
+from pico.model.observation import Observation, ObservedComponent, live_state, slot_at
+from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState, place_of
 
 
@@ -29,6 +37,15 @@ def state_left(setup: Setup, before: LabState, records: Iterable[JournalRecord])
             parts.pop(r.component, None)
             parts |= _live(setup, {r.component: after}).components
     return replace(before, components=parts)
+
+
+def digest_of(setup: Setup, state: LabState) -> str:
+    """Return the digest of an observed state in the form of a manifest whose parts in slots are named by these."""
+    parts = {}
+    for name, part in state.components.items():
+        slot = slot_at(setup, part.pose) if part.pose and setup.movable(name) else None
+        parts[name] = replace(part, slot=slot, pose=None) if slot else part
+    return replace(state, components=parts).digest()
 
 
 def touched(records: Iterable[JournalRecord]) -> frozenset[str]:
@@ -74,10 +91,15 @@ def _judged(setup: Setup, change: Change) -> Change:
     kind = setup.type_of(change.component)
     if change.tunable != "pose":
         own = kind.tunables.get(change.tunable)
-        apart = value_distance(own, change.before, change.after) if own and change.before is not None else None
-        return replace(change, tolerated=own is not None and apart is not None and apart <= own.tolerance)
+        if own is None or change.before is None or change.after is None:
+            return change
+        return replace(change, tolerated=value_deviation(own, change.before, change.after) != "off")
     if not (isinstance(change.before, Mapping) and isinstance(change.after, Mapping)):
-        return change
-    a, b, tolerance = Pose(**change.before), Pose(**change.after), kind.pose.tolerance
-    turned = abs(angle_between(a.yaw, b.yaw))
-    return replace(change, tolerated=a.distance(b) <= tolerance.position and turned <= tolerance.yaw)
+        return change  # of an older journal, which kept the names of slots
+    a, b = Pose(**change.before), Pose(**change.after)
+    slots = slot_left(setup, change.component, a, b), slot_left(setup, change.component, b, a)
+    return replace(
+        change, before=place_json(slots[0], a), after=place_json(slots[1], b),
+        text=describe_move(slots[0], a, slots[1], b),
+        tolerated=deviation(setup, change.component, a, None, b) != "off",
+    )  # fmt: skip

@@ -8,8 +8,9 @@ from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.world import Body, World
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Geometry, Tunable
+from pico.model.diff import deviation
 from pico.model.lab import Setup
-from pico.model.observation import ObservedValue, Presence, slot_at
+from pico.model.observation import ObservedValue, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -107,10 +108,9 @@ def meets(name: str, robot: str, zone: str) -> MoveFailed:
 
 def require_placed(setup: Setup, world: World, name: str, goal: Pose, slot: str | None) -> None:
     """Raise MoveFailed where a component that was put down does not stand where it should, within its tolerance."""
-    pose, tolerance = standing_pose(world, name), setup.type_of(name).pose.tolerance
-    away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
-    right = slot_at(setup, pose) == slot if slot else away <= tolerance.position and turned <= tolerance.yaw
-    if not right:
+    pose = standing_pose(world, name)
+    if deviation(setup, name, pose, slot, goal) == "off":
+        away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
         text = f"{name} stands {away:.3g} mm and {turned:.3g}° from its goal {slot or goal}"
         raise MoveFailed(error("misplaced", text, hint=_AGAIN, address=name))
 
