@@ -81,7 +81,7 @@ def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
     watched(run, screen.show)
     screen.clear()
     report = run.report
-    if report.outcome == "done" and not report.remaining and not report.absent:
+    if report.outcome == "done" and report.reached:
         return report.seconds, ExitCode.DONE
     from .views import report as report_view
 

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.attachment import bench_folder
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.state import LabState, state_from_json
 from pico.motion.deferred import DeferredMotion
+from pico.planning.phrases import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
-
     from pico.async_bench import AsyncBench
     from pico.journal import Journal, RunRecord
     from pico.model.operation import Outcome
@@ -41,32 +43,71 @@ async def resume_plan(bench: AsyncBench) -> tuple[Plan, str]:
 
 
 async def undo_plan(bench: AsyncBench) -> Plan:
-    """Return the plan that takes everything that the last run moved or set back to where it was before.
+    """Return the plan that takes everything that the last run moved or set back to where it was before, exactly.
 
-    What nobody knew before it is left as it is. Raises PicoError where no run has moved anything.
+    Runs that only emptied hands since belong to the one that they tidied up after. A part that a hand held when the run
+    began goes to where it stood before that. What nobody knew before it is left as it is; where something else has
+    changed since, the plan is for what the run changed alone. Raises PicoError where no run has moved anything.
     """
     journal = _journal(bench)
     _refuse_while_held(bench)
-    for last in reversed(journal.runs()):
-        touched = {r.component for r in journal.records(run=last.run) if r.kind == "started"}
-        if not touched:
-            continue
-        before = state_from_json(bench.setup.lab.name, _document(journal, last).base.state)
-        seen = await bench.observe()
-        back = {n: part for n, part in before.components.items() if n in touched and n in bench.setup.lab.inventory}
-        wanted = _live(bench, seen)
-        wanted = LabState(lab=wanted.lab, components={**wanted.components, **back})
-        name = f"the bench before {last.run}"
-        target = Target(title=name, cause="undo", of=last.run, state=wanted.as_json())
-        return _planned(bench, seen, wanted, target)
-    raise PicoError(_no_run())
+    runs = [run for run in reversed(journal.runs()) if run.run in journal.moving()]
+    last = next((n for n, run in enumerate(runs) if _document(journal, run).target.cause != "recover"), None)
+    if last is None:
+        raise PicoError(_no_run())
+    done = {one for run in runs[: last + 1] for one in _begun(journal, run)}
+    before, held = _before(bench, journal, runs[last:], {component for component, _ in done})
+    looked = await bench.observe()
+    seen = _emptied(bench, looked)
+    live = live_state(bench.setup, seen)
+    wanted = replace(live, components={**live.components, **before.components})
+    off = {(c.component, c.tunable) for c in drift_of(bench.setup, seen, wanted) if not c.tolerated}
+    only = _addresses(done, off - done) if off - done else ()
+    taken = f", with {listed(held)} where it was picked" if held else ""
+    target = Target(
+        title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run,
+        state=wanted.as_json(),
+    )  # fmt: skip
+    return _planned(bench, looked, wanted, target, only)
+
+
+def _begun(journal: Journal, run: RunRecord) -> Iterator[tuple[str, str]]:
+    """Yield the components with their tunables that the operations change which a run began."""
+    records = journal.records(run=run.run)
+    begun = {r.key for r in records if r.kind == "started"}
+    for record in records:
+        if record.kind == "intent" and record.key in begun and record.data["primitive"] not in ("park", "measure"):
+            yield record.component, str(record.data["arguments"].get("tunable", "pose"))
+
+
+def _before(
+    bench: AsyncBench, journal: Journal, runs: Sequence[RunRecord], touched: Collection[str]
+) -> tuple[LabState, list[str]]:
+    """Return the bench before the first of some runs, the newest first, and which of the components that were `touched`
+    a hand held then: they are where the run before found them."""
+    setup = bench.setup
+    states = (state_from_json(setup.lab.name, _document(journal, run).base.state) for run in runs)
+    parts = dict(next(states).components)
+    held = [name for name in sorted(touched) if name not in parts]
+    for state in states:
+        parts = {**{n: p for n, p in state.components.items() if n in held}, **parts}
+        if parts.keys() >= set(held):
+            break
+    known = {name: part for name, part in parts.items() if name in setup.lab.inventory}
+    return LabState(lab=setup.lab.name, components=known), [name for name in held if name in known]
+
+
+def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, str]]) -> tuple[str, ...]:
+    """Return what a run did as it is named: a component, or its tunables where others of them are to be left alone."""
+    apart = {component for component, _ in left}
+    return tuple(sorted({f"{c}.{t}" if c in apart else c for c, t in done}))
 
 
 async def recover_plan(bench: AsyncBench) -> Plan:
     """Return the plan that sets down what hands still hold, and changes nothing else."""
     _refuse_while_held(bench)
     seen = await bench.observe()
-    wanted = _live(bench, seen)
+    wanted = live_state(bench.setup, _emptied(bench, seen))
     target = Target(title="the bench with empty hands", cause="recover", state=wanted.as_json())
     return _planned(bench, seen, wanted, target)
 
@@ -117,11 +158,11 @@ def _planned(
     return bench.judged(found, seen)
 
 
-def _live(bench: AsyncBench, seen: Observation) -> LabState:
-    """The bench as it is, with what hands hold where it will be set down."""
+def _emptied(bench: AsyncBench, seen: Observation) -> Observation:
+    """Return the bench as it is, with what hands hold where it will be set down."""
     from pico.planning.setdown import set_downs
 
-    return live_state(bench.setup, set_downs(bench.setup, seen, DeferredMotion(bench.setup)).seen)
+    return set_downs(bench.setup, seen, DeferredMotion(bench.setup)).seen
 
 
 def _asked(plan: Plan) -> tuple[str, ...]:

@@ -43,6 +43,7 @@ SMALLEST = {
     "startup": "--sizes 10 --repeat 1",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
+    "undo": "--cycles 2 --held 1",
 }
 ELSEWHERE = {"identical": "tests/planning/test_identical.py"}
 """Those that have a slow test of their own."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,8 @@ import pytest
 from pico.bench import Bench
 from pico.diagnostics import PicoError
 from pico.history.example import make_example
+from pico.journal import Journal
+from pico.model.plan import plan_from_json
 from pico.model.pose import Pose
 
 
@@ -79,3 +82,49 @@ def test_undo_takes_back_what_the_run_moved_and_nothing_else(bench: Bench) -> No
     again = bench.undo_plan()
     assert bench.apply(again).outcome == "done"
     assert bench.observe().components["lx_125"].pose == Pose(395, 420, 0)
+
+
+def put(bench: Bench, part: str, pose: Pose) -> Pose:
+    """Put a part somewhere by hand."""
+    now = bench.observe().components[part].pose
+    assert now is not None
+    bench.sim.nudge(part, dx=pose.x - now.x, dy=pose.y - now.y, dyaw=pose.yaw - now.yaw)
+    return pose
+
+
+def test_a_part_off_the_center_of_a_slot_comes_back_exactly(bench: Bench) -> None:
+    stood = put(bench, "p2", Pose(206.4, 213.6, 45))
+    bench.apply("C3")
+    assert bench.apply(bench.undo_plan()).outcome == "done"
+    assert bench.observe().components["p2"].pose == stood
+
+
+def test_a_part_that_stands_elsewhere_in_its_slot_is_not_called_equal(bench: Bench) -> None:
+    put(bench, "p2", Pose(206.4, 213.6, 45))
+    bench.apply(bench.single("p2", "move", {"x": "201", "y": "219", "yaw": "0"}))
+    plan = bench.undo_plan()
+    assert not plan.reached
+    assert [op.component for op in plan.operations if op.primitive == "move"] == ["p2"]
+
+
+def test_what_else_was_changed_since_is_left_and_named(bench: Bench) -> None:
+    bench.apply("C3")
+    bench.apply(bench.single("p1", "set", {"angle": "7"}))
+    put(bench, "p1", Pose(640, 420, 0))
+    report = bench.apply(bench.undo_plan())
+    assert (report.whole, report.scope, report.left) == (False, "only p1.angle", ("p1.pose",))
+    assert bench.observe().components["p1"].pose == Pose(640, 420, 0)
+
+
+def test_a_journal_that_keeps_names_of_slots_is_undone_into_them(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench.apply("C3")
+    kept = Journal.document
+
+    def older(journal: Journal, run: str) -> str:
+        plan = plan_from_json(kept(journal, run) or "")
+        state = {**plan.base.state, "p2": {"slot": "storage/b2"}}
+        return replace(plan, base=replace(plan.base, state=state)).sealed().to_json()
+
+    monkeypatch.setattr(Journal, "document", older)
+    assert bench.apply(bench.undo_plan()).reached
+    assert bench.observe().components["p2"].pose == Pose(200, 220, 0)

@@ -104,7 +104,7 @@ def approve(
         return ExitCode.DENIED
     if not plan.operations:
         bench.settle()
-        return ExitCode.ERROR if plan.absent else _expected(session, bench, plan)
+        return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
     session.say("")
     if not auto_approve and not session.confirm(question(plan)):
         session.say("Nothing moved.")

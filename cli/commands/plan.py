@@ -79,7 +79,7 @@ def plan(
         return ExitCode.IMPOSSIBLE
     if found.denied:
         return ExitCode.DENIED
-    return ExitCode.CHANGES if detailed_exitcode and (found.operations or found.absent) else ExitCode.DONE
+    return ExitCode.CHANGES if detailed_exitcode and not found.reached else ExitCode.DONE
 
 
 def _next(revision: str | None, out: Path | None, options: str, named: tuple[str, ...]) -> str:

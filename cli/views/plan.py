@@ -211,13 +211,7 @@ def tally(operations: Sequence[Operation]) -> str:
 
 def _summary(plan: Plan) -> list[str]:
     if not plan.operations:
-        if plan.absent:
-            return [f"Nothing to move, but {listed(plan.absent)} can't be seen: the bench is not {goal_name(plan)}."]
-        if plan.errored:
-            return []
-        if plan.target.scope:
-            return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
-        return [f"Nothing to do: the bench equals {goal_name(plan)}."]
+        return _idle(plan)
     parts = [tally(plan.operations)]
     if any(op.primitive in ("move", "stow") for op in plan.operations):
         parts.append(_staging(plan))
@@ -232,8 +226,24 @@ def _summary(plan: Plan) -> list[str]:
     lines += policy(plan)
     if plan.target.scope:
         return [*lines, _scope(plan)]
-    waiting = plan.absent or any(d.code == "blocked" for d in plan.diagnostics)
+    waiting = plan.absent or plan.unsure or any(d.code == "blocked" for d in plan.diagnostics)
     return [*lines, f"the bench will not equal {goal_name(plan)} yet: the warnings say why"] if waiting else lines
+
+
+def _idle(plan: Plan) -> list[str]:
+    """Return why a plan without operations has none."""
+    if plan.absent:
+        return [f"Nothing to move, but {listed(plan.absent)} can't be seen: the bench is not {goal_name(plan)}."]
+    if plan.errored:
+        return []
+    if not plan.reached:
+        names = dict.fromkeys([*(c.component for c in plan.changes if not c.tolerated), *plan.unsure])
+        return [
+            f"Nothing can be moved, but the bench is not {goal_name(plan)}: the warnings say why ({listed([*names])})."
+        ]
+    if plan.target.scope:
+        return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
+    return [f"Nothing to do: the bench equals {goal_name(plan)}."]
 
 
 def policy(plan: Plan) -> list[str]:

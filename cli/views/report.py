@@ -51,7 +51,7 @@ def expectations(found: Sequence[Expected]) -> list[str]:
 
 
 def _bench(report: RunReport) -> list[str]:
-    if not report.remaining and not report.absent and not report.held:
+    if report.reached:
         if report.whole:
             return [f"The bench equals {report.goal}."]
         if report.scope:

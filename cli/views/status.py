@@ -73,7 +73,7 @@ def _summary(status: Status) -> list[str]:
     advice = []
     if pending or drifts:
         advice.append("`pico plan` shows what would move; `pico capture` takes the live values into the manifest.")
-    elif edits:
+    elif edits and not lost:
         advice.append('The bench is as the manifest says; `pico commit -m "why"` keeps it.')
     return [said, *advice]
 

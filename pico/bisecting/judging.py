@@ -43,6 +43,7 @@ def not_as_called(setup: Setup, seen: Observation, state: LabState | None, tried
 
     off = [c for c in drift_of(setup, seen, state) if not c.tolerated] if state else []
     differs = "; ".join(f"{c.component}.{c.tunable} {c.text}" for c in off[:4])
+    same = "the bench stands as that commit says" if state else ""
     hints = {
         "good": "so the cause is not in the history: something else on the bench has changed since. `pico drift`, "
         "`pico verify`; or name an older good commit",
@@ -53,7 +54,7 @@ def not_as_called(setup: Setup, seen: Observation, state: LabState | None, tried
     is_now = "can't be told" if tried.verdict == "skip" else f"is {tried.verdict}"
     return error(
         "not-as-called", f"{name} was called {tried.end} and {is_now} now: {tried.why}",
-        detail=f"the bench differs from it: {differs}" if differs else "the bench stands as that commit says",
+        detail=f"the bench differs from it: {differs}" if differs else same,
         hint=hints[tried.end],
     )  # fmt: skip
 

@@ -15,13 +15,14 @@ from pico.execution.result import RunResult
 from pico.execution.run import run
 from pico.journal import Journal
 from pico.model.diff import Change, diff_observed
+from pico.model.drift import uncertain
 from pico.model.event import Event
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
-from pico.model.observation import Observation, doubtful
+from pico.model.observation import Observation, ObservedComponent
 from pico.model.plan import Plan
 from pico.model.report import RunReport
-from pico.model.state import state_from_json
+from pico.model.state import place_of, state_from_json
 
 
 class AsyncRun:
@@ -86,7 +87,7 @@ class AsyncRun:
     def _keep(self, report: RunReport, seen: Observation) -> Sequence[Diagnostic]:
         """Journal how the bench was seen afterwards; what keeps that from being written must not hide the report."""
         journal: Journal | None = getattr(self._backend, "journal", None)
-        reached = report.whole and report.outcome == "done" and not (report.remaining or report.absent)
+        reached = report.whole and report.outcome == "done" and report.reached
         try:
             if journal is not None:
                 journal.saw(self.id, seen_after(seen, report.expectations, reached=reached))
@@ -152,11 +153,16 @@ def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
 
 
 def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
-    """Return the components of the goal that do not stand where they are seen, or not surely."""
-    parts = {n: seen.components.get(n) for n in setup.lab.inventory if n in plan.target.state}
-    return tuple(
-        sorted(n for n, part in parts.items() if not part or part.presence != "seen" or doubtful(setup, n, part))
-    )
+    """Return the components that do not stand where they are seen, or not surely; of those that the goal does not name
+    those that lie or are held, for these nobody sees at home."""
+    wanted = state_from_json(plan.lab.name, plan.target.state)
+    found = []
+    for name in sorted(setup.lab.inventory):
+        part = seen.components.get(name) or ObservedComponent(presence="missing")
+        stands = part.presence == "seen" and not uncertain(setup, name, part, place_of(setup, wanted, name)[0])
+        if not stands and (name in wanted.components or part.presence != "missing"):
+            found.append(name)
+    return tuple(found)
 
 
 def _expectations(setup: Setup, plan: Plan, seen: Observation) -> tuple[Expected, ...]:

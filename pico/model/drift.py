@@ -26,20 +26,28 @@ def drift_of(setup: Setup, seen: Observation, wanted: LabState) -> tuple[Change,
 
 def _unsure(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Change]:
     for name in sorted(setup.lab.inventory):
-        text = _text(setup, name, seen.components.get(name))
+        slot, goal = place_of(setup, wanted, name)
+        text = _text(setup, name, seen.components.get(name), slot)
         if text:
-            slot, goal = place_of(setup, wanted, name)
             where = f"in {slot}" if slot else f"at {goal}"
             yield Change(
                 component=name, tunable="pose", after=place_json(slot, goal), text=f"{text}; it belongs {where}"
             )
 
 
-def _text(setup: Setup, name: str, part: ObservedComponent | None) -> str:
+def uncertain(setup: Setup, name: str, part: ObservedComponent, slot: str | None) -> bool:
+    """Return whether a component was seen too badly to say that it stands where it belongs: in `slot`, where it is
+    right anywhere, or at a pose (None)."""
+    if part.pose is None or not doubtful(setup, name, part):
+        return False
+    return slot is None or slot_at(setup, part.pose) != slot
+
+
+def _text(setup: Setup, name: str, part: ObservedComponent | None, slot: str | None) -> str:
     if part is None or part.presence == "missing" or (part.pose is None and part.presence == "seen"):
         return "nobody sees it"
     if part.presence != "seen" or part.pose is None:
         return {"held": "is in a gripper", "toppled": "lies on its side"}.get(part.presence, part.presence)
-    if not doubtful(setup, name, part) or (setup.movable(name) and slot_at(setup, part.pose)):
+    if not uncertain(setup, name, part, slot):
         return ""
     return f"uncertain: seen at {part.pose} ± {part.uncertainty.position:.2g} mm, {part.uncertainty.yaw:.2g}°"

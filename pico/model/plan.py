@@ -120,9 +120,22 @@ class Plan:
         return tuple(sorted(self.target.state.keys() - self.base.state.keys() - held))
 
     @property
+    def unsure(self) -> tuple[str, ...]:
+        """Components of which nobody can say that they are as the target wants them, though they were seen."""
+        return tuple(sorted({d.address for d in self.diagnostics if d.code in ("uncertain", "held", "toppled")}))
+
+    @property
+    def reached(self) -> bool:
+        """Whether the bench, as it was observed, equals the target already; of a plan for some components, these."""
+        if self.operations or self.absent or self.errored or not all(c.tolerated for c in self.changes):
+            return False
+        return bool(self.target.scope) or not self.unsure
+
+    @property
     def asked(self) -> bool:
         """Whether it is of single operations that somebody asked for, not of a state."""
-        return all(op.reason.kind in ("asked", "parked", "interlock", "held") for op in self.operations)
+        kinds = {op.reason.kind for op in self.operations}
+        return "asked" in kinds and kinds <= {"asked", "parked", "interlock", "held"}
 
     def because(self, cause: str, of: str | None = None) -> Plan:
         """Return the plan, sealed, with why it was made: see `Target`."""

@@ -48,11 +48,16 @@ class RunReport:
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
+    def reached(self) -> bool:
+        """Whether the bench, as it was observed after the run, is as was wanted, and every hand is empty."""
+        return not (self.remaining or self.absent or self.held)
+
+    @property
     def exit_code(self) -> ExitCode:
         """What a command ends with."""
         if self.outcome == "interrupted":
             return ExitCode.INTERRUPTED
-        if self.outcome != "done" or self.remaining or self.absent:
+        if self.outcome != "done" or not self.reached:
             return ExitCode.ERROR
         return ExitCode.DONE if all(e.holds for e in self.expectations) else ExitCode.EXPECTATION
 

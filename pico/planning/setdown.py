@@ -11,7 +11,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry import Grid, fits, placed
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedRobot, slot_at
+from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
 from pico.motion.types import Blocked, Motion, MovePath, Standing
@@ -96,7 +96,7 @@ def _places(setup: Setup, name: str, hand: ObservedRobot, obstacles: Sequence[Ob
 def _wished(setup: Setup, name: str, hand: ObservedRobot) -> Iterator[Place]:
     footprint, home = setup.type_of(name).geometry.footprint, setup.lab.inventory[name].home
     if hand.picked is not None:
-        yield Place(hand.picked, slot_at(setup, hand.picked))
+        yield Place(hand.picked, None)  # exactly there: in a slot as well
     if home is not None:
         yield from turned(setup, home, footprint)
     near = hand.picked or (setup.lab.slots[home].pose if home else None)

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.diff import Change, diff_observed
+from pico.model.drift import uncertain
 from pico.model.lab import Setup
-from pico.model.observation import Observation, doubtful
+from pico.model.observation import Observation
 from pico.model.state import LabState, place_of
 
 
@@ -27,7 +28,7 @@ def read_situation(setup: Setup, seen: Observation, wanted: LabState, *, exact: 
     changes = diff_observed(setup, seen, wanted, exact=exact)
     moving = tuple(c.component for c in changes if c.tunable == "pose" and not c.tolerated)
     robots = tuple(n for n in sorted(setup.lab.robots) if not _holding(seen, n))
-    found = [*_problems(seen, wanted), *_absences(setup, seen, wanted), *_doubts(setup, seen)]
+    found = [*_problems(seen, wanted), *_absences(setup, seen, wanted), *_doubts(setup, seen, wanted)]
     return Situation(changes, moving, robots, tuple(found))
 
 
@@ -66,9 +67,9 @@ def _absences(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Dia
             )  # fmt: skip
 
 
-def _doubts(setup: Setup, seen: Observation) -> Iterator[Diagnostic]:
+def _doubts(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Diagnostic]:
     for name, part in sorted(seen.components.items()):
-        if name in setup.lab.inventory and part.pose is not None and doubtful(setup, name, part):
+        if name in setup.lab.inventory and uncertain(setup, name, part, place_of(setup, wanted, name)[0]):
             yield warning(
                 "uncertain",
                 f"{name} was seen at {part.pose} only to within {part.uncertainty.position:.2g} mm and "

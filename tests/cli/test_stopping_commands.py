@@ -95,6 +95,20 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert pico("apply", "e1", "--auto-approve").code == 0
 
 
+def test_what_was_set_down_after_a_kill_is_undone_to_where_it_was_before_the_run(shel: Path, pico: Pico) -> None:
+    pico("sim", "nudge", "lx_125", "--dx", "5", "--dy", "-6", "--dyaw", "45")
+    before = {n: p.pose for n, p in Bench.open(shel).observe().components.items()}
+    process = started(shel, "apply", "e1", "--auto-approve", "--", "lx_125")
+    process.send_signal(signal.SIGKILL)
+    process.communicate(timeout=120)
+    assert Bench.open(shel).observe().robots["arm1"].holding == "lx_125"
+    assert pico("recover", "--auto-approve").code == 0
+    assert pico("sim", "nudge", "lx_125", "--dx", "-4", "--dyaw", "-45").code == 0  # as if it had been set down so
+    answer = pico("undo", "--auto-approve")
+    assert answer.code == 0 and "The bench equals the bench before" in answer.out
+    assert {n: p.pose for n, p in Bench.open(shel).observe().components.items()} == before
+
+
 def test_nothing_to_stop_or_to_undo_is_said(shel: Path, pico: Pico) -> None:
     assert "Nothing moves" in pico("stop").out
     assert pico("undo").code == pico("resume").code == 1
