@@ -207,8 +207,10 @@ class Matching:
         self.tests, self.texts = tests, texts
         self.at: defaultdict[tuple[str, int], set[str]] = defaultdict(set)
         self.of: defaultdict[str, set[str]] = defaultdict(set)
+        self.any: defaultdict[str, set[str]] = defaultdict(set)
         for name, test in tests.items():
             for file, lines in test["lines"].items():
+                self.any[file].add(name)
                 if file in test["changed"]:
                     self.of[file].add(name)
                 for line in lines:
@@ -216,7 +218,7 @@ class Matching:
 
     def __call__(self, mutant: Mutant, budget: float) -> tuple[list[str], float]:
         """Return the tests that a mutant meets, in order, and their CPU seconds."""
-        found = self._of_function(mutant) if mutant.function else self._of_name(mutant.name)
+        found = self._of_function(mutant) if mutant.function else self._of_name(mutant.name) or self.any[mutant.file]
         room = room_of(mutant.file) or ""
         near = tuple(f"tests/{name}/" for name in (*ROOMS[room], *NEAR.get(room, ())))
 
