@@ -23,4 +23,5 @@ def differs(name: str, text: str) -> str:
     """Return the first line that is not as it is kept, with the one that is kept; "" where all are."""
     was, now = kept(name, text).splitlines(), text.splitlines()
     both = ((a, b) for a, b in zip([*was, *[""] * len(now)], [*now, *[""] * len(was)], strict=False) if a != b)
-    return next((f"{name} has\n  {a}\nand not\n  {b}" for a, b in both), "")
+    why = "where that is meant: PICO_UPDATE_GOLDEN=1, then look at git diff tests/golden"
+    return next((f"{name} has\n  {a}\nand not\n  {b}\n{why}" for a, b in both), "")

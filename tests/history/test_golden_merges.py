@@ -48,6 +48,7 @@ components:
 # the end
 """
 
+LONG = "[" + ", ".join(f"{{that: m{n}.tip > 0}}" for n in range(1, 4)) + "]"
 CHANGES = {
     "both move it": ("slot: a1", "slot: b1", "slot: c1"),
     "a slot against a pose": ("slot: a1", "pose: {x: 9, y: 9, yaw: 0}", "slot: c1"),
@@ -67,6 +68,17 @@ CHANGES = {
     "numbers": ("tip: 1.0", "tip: 1", "tip: 1.00"),
     "quoted": ("slot: a1", "slot: 1", 'slot: "1"'),
     "a list": ("metadata:", "expect: [{that: a}]\nmetadata:", "expect: [{that: b}]\nmetadata:"),
+    "a long list": ("metadata:", f"expect: {LONG}\nmetadata:", f"expect: {LONG[:-1]}, {{that: c}}]\nmetadata:"),
+    "no newline at the end": ("# the end\n", "  n1: {slot: x}", "  n1: {slot: y}"),
+    "moved below": ("    tip: 1.0  # mrad\n", "    tip: 1.0  # mrad\n    # below\n    tilt: 3\n", "    tip: 2.0\n"),
+    "comments moved": ("  # first\n", "  # second\n", "  # first\n  # second\n"),
+    "comments doubled": ("  # first\n", "  # first\n  # first\n", "  # 1st\n"),
+    "braces against lines": (
+        "  m2: {slot: a2, tilt: 2}\n",
+        "  m2: {slot: a2, tilt: 2, tip: 1}\n",
+        "  m2:\n    slot: b2\n",
+    ),
+    "a part against none": ("  m2: {slot: a2, tilt: 2}\n", "  m2:\n", "  m2: {slot: a2}\n"),
     "not alike": ("LabState", "LabState", "Lab"),
     "broken": ("slot: a1", "slot: [", "slot: c1"),
 }

@@ -1,0 +1,85 @@
+"""What the solvers answer to random problems, kept as text: see `kept`. The same problem has the same answer."""
+
+from __future__ import annotations
+
+import random
+import sys
+from pathlib import Path
+
+from kept import differs
+from test_together import some_work
+
+HERE = Path(__file__).resolve().parent
+sys.path += [str(HERE / "feedback"), str(HERE / "sequencing")]
+
+from feedback_cases import random_digraph, random_problem  # noqa: E402
+from sequencing_cases import instance  # noqa: E402
+
+from pico.planning.arms import least, soonest, timed  # noqa: E402
+from pico.planning.feedback import Limit, fewest_vertices, solve  # noqa: E402
+from pico.planning.sequencing.cuts import cut_bound  # noqa: E402
+from pico.planning.sequencing.nearest import nearest_order  # noqa: E402
+from pico.planning.sequencing.problem import Effort  # noqa: E402
+from pico.planning.sequencing.solve import best_order  # noqa: E402
+
+LIMITS = (Limit(), Limit(solves=0, exchanges=0), Limit(solves=2, nodes=5, exchanges=20), Limit(exchanges=0))
+
+
+def digraph(seed: int) -> tuple[list[list[int]], dict[int, float]]:
+    rng = random.Random(seed)
+    n = rng.choice((14, 22, 30))
+    arcs = [[v for v in range(n) if v != u and rng.random() < rng.choice((2.0, 4.0)) / n] for u in range(n)]
+    return arcs, {v: rng.choice((1.0, 1.0, 2.0, 0.5)) for v in range(n)}
+
+
+def test_feedback_vertices_are_the_ones_kept() -> None:
+    lines = []
+    for seed in range(1000, 1060):
+        answer = fewest_vertices(*random_digraph(random.Random(seed)))
+        lines.append(
+            f"{seed}: {answer.vertices} {answer.weight:g} {answer.lower_bound:g} {answer.proven} {answer.cycle}"
+        )
+    for seed in range(12):
+        for n, limit in enumerate(LIMITS):
+            answer = fewest_vertices(*digraph(seed), limit=limit)
+            lines.append(
+                f"large {seed}, {n}: {answer.vertices} {answer.weight:g} {answer.lower_bound:.6g} {answer.proven}"
+            )
+    assert not differs("solved_vertices.txt", "\n".join(lines) + "\n")
+
+
+def test_fewest_stagings_are_the_ones_kept() -> None:
+    lines = []
+    for seed in range(2000, 2080):
+        problem = random_problem(random.Random(seed))
+        for limit in (LIMITS[0], LIMITS[1]) if seed % 4 == 0 else LIMITS[:1]:
+            answer = solve(problem, limit)
+            lines += [f"{seed}: {answer.staged} {answer.weight:g} {answer.lower_bound:.6g} {answer.proven}"]
+            lines += [f"  {answer.options}", f"  {answer.order}", *(f"  {cycle}" for cycle in answer.cycles)]
+    assert not differs("solved_stagings.txt", "\n".join(lines) + "\n")
+
+
+def test_cheapest_orders_are_the_ones_kept() -> None:
+    lines = []
+    for count, density in ((1, 0.0), (5, 0.2), (9, 0.1), (14, 0.3), (24, 0.15)):
+        for seed in range(3):
+            case = instance(count, density, seed + 50)
+            for limit in (Effort(moves=3000, steps=200_000), Effort(moves=50, steps=20)):
+                found = best_order(case.start, case.between, case.end, case.before, limit=limit)
+                lines.append(f"{count} {seed}: {found.order} {found.cost:g} {found.lower_bound:.6g} {found.proven}")
+            lines.append(f"  {nearest_order(case.tour)} {cut_bound(case.tour, 0.0, 4):.6g}" if count > 1 else "  alone")
+    assert not differs("solved_orders.txt", "\n".join(lines) + "\n")
+
+
+def test_arms_at_work_end_when_they_ended() -> None:
+    lines = []
+    for seed in range(100, 112):
+        work = some_work(seed, 5 + seed % 3)
+        first = tuple(range(len(work.arm)))
+        order = soonest(work, first, 30)
+        end, total = timed(work, order)
+        free = {0: 2.5} if seed % 2 else {}
+        lines.append(
+            f"{seed}: {timed(work, first)[0]:.4f} {order} {end:.4f} {total:.4f} {least(work, [3.0], free):.4f}"
+        )
+    assert not differs("solved_arms.txt", "\n".join(lines) + "\n")
