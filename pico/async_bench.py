@@ -162,8 +162,10 @@ class AsyncBench(Drawings):
             targets=targets,
             exclude=exclude,
         )
-        calibration = calibration_digest(self.root)
-        return self.judged(replace(found, calibration=calibration).sealed() if calibration else found, seen)
+        told, calibration = manifests.passed_over, calibration_digest(self.root)
+        if told or calibration:
+            found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
+        return self.judged(found, seen)
 
     def _goal(self, manifests: Manifests, revision: str | None, targets: Collection[str]) -> LabState:
         from pico.history.taken import state_for

@@ -13,10 +13,11 @@ from ..views import doctor as view
 def doctor(context: typer.Context) -> int:
     """Check that git, its merge driver and the manifests are as PICO needs them."""
     from pico.history.attributes import checkup
+    from pico.history.withheld import withheld
     from pico.manifest.folders import check_folder
 
     session = Session.of(context)
-    checked = check_folder(session.folder)
+    checked = check_folder(session.folder, beside=withheld)
     found = (*checkup(session.folder), *checked.diagnostics)
     if not session.json:
         session.report(found)

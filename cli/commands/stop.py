@@ -29,10 +29,10 @@ def stop(context: typer.Context, now: Now = False) -> int:
     """
     from pico.backends.lease import BenchLock
     from pico.backends.stopping import ask_to_stop
-    from pico.history.folder import LabFolder
+    from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    root = LabFolder(session.folder).root
+    root = find_lab(session.folder)
     lock = BenchLock(root)
     holder = lock.holder()
     if holder is None:

@@ -19,14 +19,15 @@ def validate(
 ) -> int:
     """Check the manifests, and that everything has room where the state wants it.
 
-    All errors at once, each with its place. Asks neither the bench nor Git.
+    All errors at once, each with its place. Does not ask the bench; asks Git only what it keeps out of the folder.
     """
+    from pico.history.withheld import withheld
     from pico.manifest.folders import check_files, check_folder
     from pico.merging import overlapping
 
     session = Session.of(context)
-    where, also = session.folder, overlapping
-    checked = check_files(where, files, also) if files else check_folder(where, also)
+    where, asked = session.folder, (overlapping, withheld)
+    checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
     if not session.json:
         session.report(checked.diagnostics)
     session.show(view, checked)

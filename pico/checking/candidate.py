@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.history.against import Against
 from pico.history.merge.doubts import unsettled
 from pico.history.repository import Repository
+from pico.history.withheld import withheld
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
@@ -54,7 +55,7 @@ def in_folder(root: Path, repository: Repository | None = None) -> Candidate:
     """Return the lab of the folder `root` as its files are now, and as a merge in its repository left them. Never
     raises for what they hold."""
     files, found = read_folder(root)
-    read = _read(root, files, found)
+    read = _read(root, files, [*found, *withheld(root, files, found)])
     doubts = unsettled(repository, root, read.manifests)
     return replace(read, manifests=replace(read.manifests, diagnostics=(*read.manifests.diagnostics, *doubts)))
 
@@ -65,8 +66,8 @@ def in_memory(root: Path, files: Mapping[str, bytes]) -> Candidate:
 
 
 def _read(root: Path, files: Mapping[str, bytes], found: list[Diagnostic]) -> Candidate:
-    manifests = load_files(files)
-    everything = (*found, *manifests.diagnostics, *expression_errors(manifests))
+    manifests = load_files(files, found)
+    everything = (*manifests.diagnostics, *expression_errors(manifests))
     return Candidate(root, files, replace(manifests, diagnostics=everything))
 
 
@@ -74,14 +75,16 @@ def origin(repository: Repository | None, base: Against, root: Path) -> Origin:
     """Return the lab of the folder `root` as the commit `base` has it."""
     if repository is None or base.commit is None:
         return Origin(base, notes=("there is nothing to compare with: from every part at home",))
+    unread: list[Diagnostic] = []
     try:
-        files = repository.files(base.commit, root)
+        files = repository.files(base.commit, root, unread)
     except PicoError:  # the folder came later
         files = {}
     if not files:
         return Origin(base, notes=(f"the lab is new: {base.name} does not have it; from every part at home",))
     try:
-        setup, state = load_files({f"{base.commit[:7]}:{path}": data for path, data in files.items()}).require()
+        named = {f"{base.commit[:7]}:{path}": data for path, data in files.items()}
+        setup, state = load_files(named, unread).require()
     except PicoError as exc:
         note = f"the lab is not valid at {base.name}, so from every part at home: {exc.diagnostics[0].summary}"
         return Origin(base, files, notes=(note,))

@@ -18,6 +18,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.notes import Note, note_path, notes, read_note, require_part, with_note
+from pico.history.withheld import withheld
 from pico.history.writing.contents import contents, nothing
 from pico.history.writing.files import write_file
 from pico.history.writing.lock import write_lock
@@ -27,7 +28,7 @@ from pico.history.writing.trailers import EVIDENCE, LAB, META, RUN, STATE, requi
 from pico.history.writing.underway import require_resolved
 from pico.manifest.edit import capture
 from pico.manifest.files import read_folder, shown_path
-from pico.manifest.load import Manifests, find_lab, load_files, load_folder
+from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
@@ -108,10 +109,11 @@ class LabFolder:
         files, found = read_folder(self.root)
         if files == self._files and not found:
             return
+        found += withheld(self.root, files, found, lambda: self.repository)
         shown = shown_path(self.root)
         bench = _bench_of({os.path.relpath(p, shown): data for p, data in files.items()})
         known = self._benches.get(bench) if self._files and not found else None
-        self._adopt(files, self._read(files, known) if known else load_folder(self.root))
+        self._adopt(files, self._read(files, known) if known else load_files(files, found, root=shown))
         self._benches[bench] = self.setup
 
     def state_now(self) -> LabState | None:
@@ -137,7 +139,7 @@ class LabFolder:
     def _stand_in(self) -> bool:
         """Take bench and state from HEAD, and return whether that was possible."""
         try:
-            self.manifests = load_files(_named("HEAD", self.history().files("HEAD", self.root)))
+            self.manifests = load_files(_named("HEAD", self.history().files("HEAD", self.root, [])))
             self.setup, self.state = self.manifests.require()
         except PicoError:
             return False
@@ -172,11 +174,12 @@ class LabFolder:
 
     def manifests_at(self, revision: str) -> Manifests:
         """Return the manifests of a revision, its states read against the bench as it is now."""
+        found: list[Diagnostic] = []
         try:
-            files = self.history().files(revision, self.root)
+            files = self.history().files(revision, self.root, found)
         except PicoError as exc:
             raise PicoError([_no_revision(d, revision, self.setup) for d in exc.diagnostics]) from exc
-        manifests = load_files(_named(revision, files), setup=self.setup)
+        manifests = load_files(_named(revision, files), found, setup=self.setup)
         return replace(manifests, diagnostics=tuple(_at_revision(d, revision) for d in manifests.diagnostics))
 
     def historic(self, revision: str) -> tuple[Setup, LabState]:
@@ -186,12 +189,13 @@ class LabFolder:
         """
         if revision in self._historic:
             return self._historic[revision]
-        files = self.history().files(revision, self.root)
+        unread: list[Diagnostic] = []
+        files = self.history().files(revision, self.root, unread)
         bench = _bench_of(files)
         if bench not in self._benches:
             self._benches[bench] = load_files(_named(revision, files)).setup
         setup = self._benches[bench]
-        found = load_files(_named(revision, files), setup=setup or self.setup).require()
+        found = load_files(_named(revision, files), unread, setup=setup or self.setup).require()
         if setup and len(revision) == FULL:  # the whole id of a commit means the same for ever
             self._historic = {**dict([*self._historic.items()][-3:]), revision: found}
         return found

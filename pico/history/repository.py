@@ -6,16 +6,17 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import datetime, timedelta, timezone
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
-from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import disk_trouble
 from pico.history import git
 from pico.history.commit import Commit, Head
 from pico.history.graph import topological
 from pico.history.revisions import BRANCHES, TAGS, branch_for, find, names_at
-from pico.history.trees import collect, folder_id, is_manifest
+from pico.history.trees import folder_id, subtree
+from pico.history.unread import read_tree
 from pico.history.writing.claim import GitFolders, Goal
 from pico.history.writing.landing import Landing, land
 from pico.history.writing.lock import write_lock
@@ -24,6 +25,7 @@ from pico.history.writing.passage import Start, advance, go, shelve
 from pico.history.writing.recovery import leave_word, recover
 from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import bare_repository
+from pico.manifest.which import is_manifest
 
 MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.
@@ -139,28 +141,19 @@ class Repository:
     ) -> dict[str, bytes]:
         """Return every `*.yaml` below `folder` (relative to the root) at `revision`, by path relative to `folder`.
 
-        Nothing is checked out. Dot-folders and `runs/` are left out; links and submodules are skipped, with a
-        warning appended to `diagnostics`. Raises PicoError where the revision or the folder in it does not exist.
+        Nothing is checked out. Dot-folders and `runs/` are left out. What may hide a manifest (a link, a submodule,
+        another spelling) is told in `diagnostics`; without these, errors among it are raised. Raises PicoError where
+        the revision or the folder in it does not exist.
         """
-        import pygit2
-
-        tree = find(self._git, self.root, revision).tree
-        inside = self.relative(folder)
-        try:
-            tree = tree[inside] if inside else tree
-        except KeyError:
-            tree = None
-        if not isinstance(tree, pygit2.Tree):
+        top, inside = find(self._git, self.root, revision).tree, self.relative(folder)
+        if subtree(top, inside) is None:
             hint = "the lab may have had another folder then"
             raise PicoError(error("revision", f"`{revision}` has no folder {inside}", hint=hint))
-        found: dict[str, bytes] = {}
-        skipped: list[str] = []
-        collect(tree, PurePosixPath(), found, skipped)
-        if diagnostics is not None:
-            diagnostics += [
-                warning("link", f"{path} at {revision} is a link or a submodule and is not read") for path in skipped
-            ]
-        return found
+        return read_tree(self, top, inside, revision, diagnostics)
+
+    def tree_at(self, revision: str, folder: str | Path) -> Any:
+        """Return the tree of `folder` at a revision, None where it has none; raises PicoError for an unknown one."""
+        return subtree(find(self._git, self.root, revision).tree, self.relative(folder))
 
     def holds(self, revision: str, folder: str | Path) -> bool:
         """Return whether a revision has the folder; raises PicoError for one that there is not."""

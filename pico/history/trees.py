@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from pathlib import PurePosixPath
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.manifest.files import MAX_BYTES, MAX_LEVELS
+from pico.manifest.files import MAX_LEVELS
+from pico.manifest.which import alike, hidden, is_manifest
+
+Odd = tuple[str, Any]
+"""A path in a tree, and what stands there."""
 
 MAX_ENTRIES = 300_000
 """Files and folders of a revision. A tree of a few kilobytes can hold ten thousand million of them."""
 
 
-def collect(tree: Any, at: PurePosixPath, found: dict[str, bytes], skipped: list[str]) -> None:
-    """Add the manifests of `tree`, which lies at `at`, to `found`; links and submodules to `skipped`."""
+def manifests(tree: Any, odd: list[Odd] | None = None) -> Iterator[Odd]:
+    """Yield the manifests of a tree, by path; add to `odd` what may hide one: links, submodules, other spellings."""
     from pygit2.enums import FileMode
 
-    for path, entry in entries(tree, lambda folder: not left_out(f"{folder}/*")):
-        if entry.filemode == FileMode.COMMIT or (entry.filemode == FileMode.LINK and is_manifest(path)):
-            skipped.append(str(at / path))
-        elif is_manifest(path):
-            found[str(at / path)] = bytes(memoryview(entry)[: MAX_BYTES + 1])  # more makes the reader refuse it
+    for path, entry in entries(tree, lambda folder: not hidden(folder)):
+        elsewhere = entry.filemode in (FileMode.COMMIT, FileMode.LINK)
+        if is_manifest(path) and not elsewhere:
+            yield path, entry
+        elif odd is not None and (elsewhere or alike(path)) and not hidden(path):
+            odd.append((path, entry))
 
 
 def entries(tree: Any, enter: Callable[[str], bool] = lambda folder: True) -> Iterator[tuple[str, Any]]:
@@ -53,14 +57,13 @@ def _too_much(at: str, *, deep: bool) -> Diagnostic:
     return error("too-many", f"a revision holds more than {MAX_ENTRIES} files and folders", hint=hint)
 
 
-def is_manifest(path: str) -> bool:
-    """Return whether a file of this path may be a manifest: `*.yaml`, not hidden, not in a folder that is left out."""
-    return path.endswith(".yaml") and not PurePosixPath(path).name.startswith(".") and not left_out(path)
-
-
-def left_out(path: str) -> bool:
-    """Return whether a path lies in a dot-folder or in a folder called `runs`."""
-    return any(part.startswith(".") or part == "runs" for part in PurePosixPath(path).parts[:-1])
+def subtree(tree: Any, folder: str) -> Any:
+    """Return the tree of a folder (empty: the tree itself) in a tree, None where that has no such folder."""
+    try:
+        found = tree[folder] if folder else tree
+    except KeyError:
+        return None
+    return found if found.type_str == "tree" else None
 
 
 def folder_id(commit: Any, folder: str) -> str | None:

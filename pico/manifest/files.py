@@ -9,14 +9,23 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.manifest.behind import behind, head_of
 from pico.manifest.source import Source
+from pico.manifest.which import MAX_BYTES, SUFFIX, about, alike, declared, hidden, misnamed
 
-MAX_BYTES = 2 * 1024 * 1024
 MAX_LEVELS = 64
 """Folders in folders."""
 _NOT_TEXT = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _UTF8_BOM = b"\xef\xbb\xbf"
-_OTHER_BOMS = (b"\xff\xfe", b"\xfe\xff", b"\x00\x00\xfe\xff")
+_WIDE = ("not UTF-8 but UTF-16 or UTF-32", "save it as UTF-8")
+_NO_TEXT = {
+    b"\xff\xfe": _WIDE,
+    b"\xfe\xff": _WIDE,
+    b"\x00\x00\xfe\xff": _WIDE,
+    b"version https://git-lfs.github.com/spec/": ("a pointer of Git LFS, not the file", "fetch it: `git lfs pull`"),
+    b"\0GITCRYPT\0": ("encrypted by git-crypt", "decrypt it: `git-crypt unlock`"),
+}
+"""How files begin that hold no text to read, what they are, and what to do."""
 _BEGIN = "begin it with `apiVersion: pico/v1`, or delete it"
 
 
@@ -29,38 +38,62 @@ def shown_path(path: Path) -> str:
 
 
 def read_folder(root: Path) -> tuple[dict[str, bytes], list[Diagnostic]]:
-    """Return every `*.yaml` below `root` by shown path, and what can't be read.
+    """Return every `*.yaml` below `root` by shown path, and what can't be read or is not: a part may stand in it.
 
     Left out: dot-files, dot-folders and folders called `runs`. Symbolic links are refused, not followed.
     """
     files: dict[str, bytes] = {}
     found: list[Diagnostic] = []
-    for path in _paths(root, found):
+    for entry in _walk(root, found):
+        path = Path(entry.path)
         shown = _below(root, path)
         try:
-            files[shown] = _read(path, shown)
+            if entry.name.endswith(SUFFIX):
+                files[shown] = _read(path, shown)
+            else:
+                found.extend(_passed_over(entry, shown, root))
         except PicoError as exc:
             found.extend(exc.diagnostics)
     return files, found
 
 
-def _paths(root: Path, found: list[Diagnostic]) -> Iterator[Path]:
+def _walk(root: Path, found: list[Diagnostic]) -> Iterator[os.DirEntry[str]]:
+    """Yield what may be a manifest, or have some behind it, by folder and name."""
+    below = [root]
+    while below:
+        folder = below.pop()
+        if len(folder.parts) - len(root.parts) >= MAX_LEVELS:
+            at = _below(root, folder)
+            found.append(about(at, "too-deep", f"folders nested deeper than {MAX_LEVELS}", "no lab needs that"))
+            return
+        try:
+            listed = sorted(os.scandir(folder), key=lambda entry: entry.name)
+        except OSError as exc:
+            found.append(shut(_below(root, folder), exc))
+            continue
+        folders = {e: Path(e.path) for e in reversed(listed) if e.is_dir(follow_symlinks=False)}
+        below += [path for entry, path in folders.items() if not hidden(entry.name)]
+        for entry in listed:
+            if entry not in folders and not hidden(entry.name) and (alike(entry.name) or entry.is_symlink()):
+                yield entry
+
+
+def _passed_over(entry: os.DirEntry[str], shown: str, root: Path) -> list[Diagnostic]:
+    """Return what to say of a link, or of a file that is not called as manifests are."""
     try:
-        yield from _walk(root)
-    except PicoError as exc:
-        found.extend(exc.diagnostics)
+        if entry.is_symlink():
+            target = Path(entry.path).readlink()
+            found = behind(Path(entry.path).parent / target, root, shown, str(target))
+            return [found] if found else []
+        return [misnamed(shown)] if declared(head_of(Path(entry.path))) else []
+    except OSError as exc:
+        return [shut(shown, exc)]
 
 
-def _walk(root: Path) -> Iterator[Path]:
-    top = len(root.parts)
-    for folder, folders, names in os.walk(root):
-        if len(Path(folder).parts) - top >= MAX_LEVELS:
-            at = _below(root, Path(folder))
-            raise PicoError(_whole(at, "too-deep", f"folders nested deeper than {MAX_LEVELS}", "no lab needs that"))
-        folders[:] = sorted(n for n in folders if not n.startswith(".") and n != "runs")
-        for name in sorted(names):
-            if name.endswith(".yaml") and not name.startswith("."):
-                yield Path(folder) / name
+def shut(shown: str, exc: OSError) -> Diagnostic:
+    """Return what to say of a file or folder that can't be read."""
+    hint = "check that it exists and that you may read it; what is none of PICO's may lie in a folder with a dot"
+    return about(shown, "unreadable", f"can't be read: {exc.strerror}", hint)
 
 
 def _below(root: Path, path: Path) -> str:
@@ -71,27 +104,23 @@ def _read(path: Path, shown: str) -> bytes:
     try:
         mode = path.lstat().st_mode
         if stat.S_ISLNK(mode):
-            raise PicoError(_whole(shown, "symlink", "a symbolic link is not read", "put the file itself here"))
+            raise PicoError(about(shown, "symlink", "a symbolic link is not read", "put the file itself here"))
         if not stat.S_ISREG(mode):
-            raise PicoError(_whole(shown, "not-a-file", "not a regular file", "put a text file here, or rename it"))
+            raise PicoError(about(shown, "not-a-file", "not a regular file", "put a text file here, or rename it"))
         with path.open("rb") as file:
             return file.read(MAX_BYTES + 1)
     except OSError as exc:
-        hint = "check that the file exists and that you may read it"
-        raise PicoError(_whole(shown, "unreadable", f"can't be read: {exc.strerror}", hint)) from exc
-
-
-def _whole(path: str, code: str, summary: str, hint: str) -> Diagnostic:
-    return error(code, f"{path}: {summary}", hint=hint, source=Source(path, "").range(0))
+        raise PicoError(shut(shown, exc)) from exc
 
 
 def decode(path: str, data: bytes) -> tuple[Source | None, list[Diagnostic]]:
     """Return the text of a manifest, or why it is none: empty, too large, binary, another encoding."""
     if len(data) > MAX_BYTES:
         hint = "one file a sub-assembly, 10 to 50 components each; measurements belong in `runs/`"
-        return None, [_whole(path, "too-large", "larger than 2 MB", hint)]
-    if data.startswith(_OTHER_BOMS):
-        return None, [_whole(path, "encoding", "not UTF-8 but UTF-16 or UTF-32", "save it as UTF-8")]
+        return None, [about(path, "too-large", "larger than 2 MB", hint)]
+    for start, (summary, hint) in _NO_TEXT.items():
+        if data.startswith(start):
+            return None, [about(path, "encoding", summary, hint)]
     found: list[Diagnostic] = []
     if data.startswith(_UTF8_BOM):
         data = data[len(_UTF8_BOM) :]
@@ -106,7 +135,7 @@ def decode(path: str, data: bytes) -> tuple[Source | None, list[Diagnostic]]:
         what = "binary data" if b"\0" in data else f"the byte 0x{data[exc.start]:02x} is not UTF-8"
         return None, [*found, error("encoding", what, hint="save it as UTF-8 text", source=source.range(index))]
     if not source.content.strip():
-        return None, [*found, _whole(path, "empty", "the file is empty", _BEGIN)]
+        return None, [*found, about(path, "empty", "the file is empty", _BEGIN)]
     odd = _NOT_TEXT.search(source.content)
     if odd:
         what = "binary data" if odd[0] == "\0" else f"the control character U+{ord(odd[0]):04X}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,9 +10,12 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import write_whole
 from pico.manifest.catalog import catalog_names, load_catalog, unknown_type
 from pico.manifest.files import read_folder, shown_path
-from pico.manifest.load import Manifests, find_lab, load_folder
+from pico.manifest.load import Manifests, find_lab, load_files, load_folder
 from pico.model.catalog import Catalog, ComponentType
 from pico.model.record import record
+
+Beside = Callable[[Path, Mapping[str, bytes], Sequence[Diagnostic]], list[Diagnostic]]
+"""Says what a lab's folder should hold beside the files that were read of it, and what was said of others."""
 
 
 @record
@@ -36,15 +39,19 @@ Asked = Callable[[Manifests], Sequence[Diagnostic]]
 """What else is asked of manifests in which nothing else is wrong."""
 
 
-def check_folder(start: Path, also: Asked = lambda _: ()) -> Checked:
-    """Return the verdict on the lab that `start` lies in; on `start` itself where no lab is found."""
+def check_folder(start: Path, also: Asked = lambda _: (), beside: Beside = lambda *_: []) -> Checked:
+    """Return the verdict on the lab that `start` lies in; on `start` itself where no lab is found.
+
+    `beside`: what is known of files that are not there.
+    """
     try:
         root = find_lab(start)
     except PicoError:
         if not any(start.glob("**/*.yaml")):
             raise
         root = start
-    manifests = load_folder(root)
+    files, unread = read_folder(root)
+    manifests = load_files(files, [*unread, *beside(root, files, unread)], root=shown_path(root))
     lab = manifests.setup.lab if manifests.setup else None
     found = [*manifests.diagnostics, *expression_errors(manifests)]
     if not any(d.severity == "error" for d in manifests.diagnostics):
@@ -52,7 +59,7 @@ def check_folder(start: Path, also: Asked = lambda _: ()) -> Checked:
     return Checked(
         folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
         lab=lab.name if lab else "",
-        files=len(read_folder(root)[0]),
+        files=len(files),
         parts=len(lab.inventory) if lab else 0,
         diagnostics=tuple(found),
     )
@@ -68,7 +75,9 @@ def expression_errors(manifests: Manifests) -> list[Diagnostic]:
     return []
 
 
-def check_files(start: Path, files: Sequence[Path], also: Asked = lambda _: ()) -> Checked:
+def check_files(
+    start: Path, files: Sequence[Path], also: Asked = lambda _: (), beside: Beside = lambda *_: []
+) -> Checked:
     """Return the verdict on the labs that `files` lie in, together: a manifest is right or wrong only among the others.
 
     Files that lie in no lab and don't claim to be PICO's are passed over; raises PicoError for those that do.
@@ -80,7 +89,7 @@ def check_files(start: Path, files: Sequence[Path], also: Asked = lambda _: ()) 
         except PicoError:
             if "apiVersion: pico/" in _read(start / path):
                 raise
-    found = [check_folder(root, also) for root in roots]
+    found = [check_folder(root, also, beside) for root in roots]
     return Checked(
         folder=", ".join(c.folder for c in found),
         lab=", ".join(c.lab for c in found),
@@ -137,7 +146,7 @@ def _read(path: Path) -> str:
 
 def _manifests(root: Path) -> dict[str, str]:
     files, found = read_folder(root)
-    if found:
+    if any(d.severity == "error" for d in found):
         raise PicoError(found)
     return {path: data.decode() for path, data in files.items() if b"apiVersion" in data}
 

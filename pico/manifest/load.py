@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, SourceRange, error
 from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_broken
 from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
-from pico.manifest.files import decode_all, read_folder, shown_path
+from pico.manifest.files import decode_all, read_folder, shown_path, shut
 from pico.manifest.kinds import kind_of
 from pico.manifest.lab_checks import check_lab, check_setup
 from pico.manifest.places import find, where, where_key
@@ -19,6 +19,7 @@ from pico.manifest.records import read_record
 from pico.manifest.source import Source
 from pico.manifest.state import read_states
 from pico.manifest.tree import Document, Map, Scalar, parse
+from pico.manifest.which import PASSED_OVER, alike, misnamed, weighed
 from pico.model.catalog import ComponentType
 from pico.model.lab import Lab, Setup
 from pico.model.state import LabState
@@ -35,6 +36,11 @@ class Manifests:
     state: LabState | None
     diagnostics: tuple[Diagnostic, ...]
     documents: Mapping[str, tuple[Document, ...]] = field(default_factory=dict, repr=False, compare=False)
+
+    @property
+    def passed_over(self) -> tuple[Diagnostic, ...]:
+        """What is told of files that were not read, or are gone, and is no error."""
+        return tuple(d for d in self.diagnostics if d.code in PASSED_OVER and d.severity != "error")
 
     def source(self, address: str) -> SourceRange | None:
         """Return where an address stands: `p1`, `p1.angle`, `p1.pose.x`, `inventory.p1`, `slots.storage/a1`.
@@ -62,15 +68,20 @@ class Manifests:
 def find_lab(start: Path) -> Path:
     """Return the nearest folder, from `start` upward, that holds a manifest of kind Lab; raises PicoError for none."""
     folder = start.resolve()
-    if not folder.exists():
-        raise PicoError(error("no-lab", f"there is no folder {start}", hint=_NO_LAB))
-    for candidate in [folder, *folder.parents] if folder.is_dir() else folder.parents:
-        if (candidate / "lab.yaml").is_file() or any(_is_lab(path) for path in sorted(candidate.glob("*.yaml"))):
-            return candidate
-    for candidate in (folder, *folder.parents):
-        if candidate.name != ".git" and all((candidate / name).exists() for name in ("HEAD", "objects", "refs")):
-            raise PicoError(bare_repository(candidate))
-    raise PicoError(error("no-lab", f"no lab in {start} or any folder above it", hint=_NO_LAB))
+    try:
+        if not folder.exists():
+            raise PicoError(error("no-lab", f"there is no folder {start}", hint=_NO_LAB))
+        for candidate in [folder, *folder.parents] if folder.is_dir() else folder.parents:
+            if (candidate / "lab.yaml").is_file() or any(_is_lab(path) for path in sorted(candidate.glob("*.yaml"))):
+                return candidate
+        names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+        for candidate in (folder, *folder.parents):
+            if candidate.name != ".git" and all((candidate / name).exists() for name in ("HEAD", "objects", "refs")):
+                raise PicoError(bare_repository(candidate))
+    except OSError as exc:
+        raise PicoError(shut(str(start), exc)) from exc
+    missed = [misnamed(name) for name in names if alike(name) and _is_lab(folder / name)]
+    raise PicoError([error("no-lab", f"no lab in {start} or any folder above it", hint=_NO_LAB), *missed])
 
 
 def bare_repository(folder: Path) -> Diagnostic:
@@ -104,16 +115,18 @@ def load_folder(root: Path) -> Manifests:
 
     Dot-folders and folders called `runs` are left out. Never raises for what a file holds: that is in the diagnostics.
     """
-    files, found = read_folder(root)
-    return _load(files, found, shown_path(root), None)
+    return load_files(*read_folder(root), root=shown_path(root))
 
 
-def load_files(files: Mapping[str, bytes], *, setup: Setup | None = None) -> Manifests:
+def load_files(
+    files: Mapping[str, bytes], found: Iterable[Diagnostic] = (), *, setup: Setup | None = None, root: str = ""
+) -> Manifests:
     """Return the manifests of files in memory, by path, as a Git tree has them.
 
-    With `setup` given, Lab and ComponentType documents are skipped and the state is read against that bench.
+    `found`: what was said of files that are not among them. With `setup` given, Lab and ComponentType documents are
+    skipped and the state is read against that bench. `root`: how diagnostics call the lab's folder.
     """
-    return _load(files, [], "", setup)
+    return _load(files, [*found], root, setup)
 
 
 def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None) -> Manifests:
@@ -127,7 +140,7 @@ def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup:
         hint = "add a file with `kind: LabState` and `components:`"
         found.append(error("no-state", "the lab has no LabState", hint=hint, source=_somewhere(documents, root)))
     kept = {kind: tuple(of_kind) for kind, of_kind in documents.items()}
-    return Manifests(setup, state, tuple(sorted(found, key=_order)), kept)
+    return Manifests(setup, state, tuple(sorted(weighed(found, setup, state), key=_order)), kept)
 
 
 def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, list[Document]]:
@@ -153,7 +166,7 @@ def _bench(
 ) -> tuple[Setup | None, BenchView | None]:
     own, wrong_ones = _own_types(documents["ComponentType"], found)
     if not documents["Lab"]:
-        if not found:
+        if not any(d.severity == "error" for d in found):
             hint = f"add lab.yaml with `kind: Lab`; {_NO_LAB}"
             found.append(error("no-lab", "no Lab here", hint=hint, source=_somewhere(documents, root)))
         return None, None

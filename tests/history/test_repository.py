@@ -125,7 +125,9 @@ def test_dot_folders_runs_and_links_are_not_read(repo: Path, git: Git) -> None:
     git("commit", "-q", "-m", "more")
     found: list[Diagnostic] = []
     assert set(opened(repo).files("HEAD", diagnostics=found)) == {"lab.yaml", "state/table.yaml"}
-    assert [d.severity for d in found] == ["warning"] and "linked.yaml" in found[0].summary
+    assert [d.severity for d in found] == ["error"] and "linked.yaml" in found[0].summary
+    with pytest.raises(PicoError, match=r"linked\.yaml"):
+        opened(repo).files("HEAD")
 
 
 def test_a_folder_that_the_revision_lacks_is_an_error(repo: Path) -> None:

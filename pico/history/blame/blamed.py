@@ -17,7 +17,7 @@ from pico.history.blame.walk import Walker
 from pico.history.commit import Commit
 from pico.history.notes import Note, note_path, notes
 from pico.history.repository import Repository
-from pico.manifest.files import MAX_BYTES
+from pico.manifest.which import MAX_BYTES
 from pico.model.catalog import Tunable
 from pico.model.diff import describe_move, describe_value
 from pico.model.pose import Pose

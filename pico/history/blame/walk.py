@@ -19,8 +19,7 @@ from pico.history.blame.flat import loads as flat_from
 from pico.history.blame.follow import Blame, Delta, Step, walk
 from pico.history.blame.how import RunBrief, brief_of
 from pico.history.repository import Repository
-from pico.history.trees import is_manifest
-from pico.manifest.files import MAX_BYTES
+from pico.manifest.which import MAX_BYTES, is_manifest
 from pico.model.run import RunDocument
 from pico.resources import catalog_dir
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from functools import cache
 from typing import Any, Literal
 
-from pico.diagnostics import PicoError
+from pico.diagnostics import Diagnostic, PicoError
 from pico.history.commit import Commit
 from pico.history.folder import STATE_ONLY, Entry, LabFolder, between
-from pico.history.trees import entries, is_manifest, left_out
+from pico.history.trees import Odd, manifests, subtree
+from pico.history.unread import unread_at
 from pico.manifest.bench_view import BenchView, view_of
 from pico.manifest.files import decode
 from pico.manifest.kinds import kind_of
@@ -36,6 +36,8 @@ class CommitDiffs:
         self._git: Any = self.repository.handle
         self._inside = self.repository.relative(folder.root)
         self._files: dict[str, Files] = {}
+        self._odd: dict[str, list[Odd]] = {}
+        self._unread: dict[str, list[Diagnostic]] = {}
         self._kinds: dict[str, Kind] = {}
         self._benches: dict[BenchFiles, tuple[Setup, BenchView]] = {}
         self._states: dict[tuple[str, BenchFiles], Mapping[str, ComponentState]] = {}
@@ -55,6 +57,9 @@ class CommitDiffs:
     def changes(self, a: str, b: str, *, names: Iterable[str] = ()) -> tuple[Change, ...]:
         """Return what differs from commit `a` to `b` (ids); raises PicoError where either can't be read."""
         before, after = self.files(a), self.files(b)
+        wrong = [d for commit in (a, b) for d in self._unread.get(commit, ()) if d.severity == "error"]
+        if wrong:
+            raise PicoError(wrong)
         paths = sorted(p for p in before.keys() | after.keys() if before.get(p) != after.get(p))
         if not paths:
             return ()
@@ -72,22 +77,20 @@ class CommitDiffs:
 
     def files(self, commit: str) -> Files:
         """Return the manifests of a commit (its id); none of one that a shallow clone does not have."""
-        import pygit2
-
-        if commit not in self._git:
-            return {}
-        tree = self._git[commit].tree
-        try:
-            tree = tree[self._inside] if self._inside else tree
-        except KeyError:
-            return {}
-        if not isinstance(tree, pygit2.Tree):
+        tree = subtree(self._git[commit].tree, self._inside) if commit in self._git else None
+        if tree is None:
             return {}
         key = str(tree.id)
         if key not in self._files:
             if len(self._files) > 50:
                 del self._files[next(iter(self._files))]
-            self._files[key] = _below(tree)
+            odd: list[Odd] = []
+            self._files[key] = {path: str(entry.id) for path, entry in manifests(tree, odd)}
+            self._odd |= {key: odd} if odd else {}
+        if key in self._odd:
+            self._unread[commit] = unread_at(
+                self.repository, self._git[commit].tree, self._inside, self._odd[key], commit[:7]
+            )
         return self._files[key]
 
     def components_of(self, commit: str, path: str) -> frozenset[str]:
@@ -145,17 +148,3 @@ def _small(bench: Setup, states: Iterable[LabState]) -> Setup:
     """Return a bench with only the parts that some states name: the others are at home in all of them."""
     parts = {n: bench.lab.inventory[n] for state in states for n in state.components if n in bench.lab.inventory}
     return replace(bench, lab=replace(bench.lab, inventory=parts))
-
-
-def _below(tree: Any, at: str = "") -> dict[str, str]:
-    """Return the manifests below a tree; links and submodules are none."""
-    from pygit2.enums import FileMode
-
-    files = (FileMode.BLOB, FileMode.BLOB_EXECUTABLE)
-    listed = entries(tree, lambda folder: not left_out(f"{at}{folder}/*"))
-    return {at + p: str(entry.id) for p, entry in listed if entry.filemode in files and _manifest(at + p)}
-
-
-@cache
-def _manifest(path: str) -> bool:
-    return is_manifest(path)

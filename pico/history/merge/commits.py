@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
@@ -10,7 +10,8 @@ from pico.history import git
 from pico.history.commit import Commit
 from pico.history.folder import LabFolder, edited
 from pico.history.merge.markers import Labels
-from pico.history.merge.trees import Union, contents, opened, unite_commits
+from pico.history.merge.trees import Union, opened, unite_commits
+from pico.history.unread import read_tree
 from pico.history.writing.claim import Goal
 from pico.history.writing.made import Step
 from pico.history.writing.trailers import EVIDENCE, LAB, STATE, with_trailers
@@ -124,10 +125,9 @@ def coupled_warnings(union: Union, labels: Labels) -> list[Diagnostic]:
 
 def manifests_in(folder: LabFolder, handle: Any, tree: str, name: str) -> Manifests:
     """Return the manifests of the lab in a tree; `name`: what diagnostics call it."""
-    inside = folder.history().relative(folder.root)
-    top = handle[tree][inside] if inside else handle[tree]
-    files: Mapping[str, bytes] = contents(handle, top)
-    return load_files({f"{name}:{path}": data for path, data in files.items()})
+    repository, found = folder.history(), list[Diagnostic]()
+    files = read_tree(repository, handle[tree], repository.relative(folder.root), name, found)
+    return load_files({f"{name}:{path}": data for path, data in files.items()}, found)
 
 
 def planned_trailers(manifests: Manifests) -> list[tuple[str, str]]:

@@ -7,8 +7,9 @@ from pathlib import Path
 from pico.diagnostics import PicoError, error
 from pico.history.merge.commits import label_of, refusals
 from pico.history.merge.markers import Labels
-from pico.history.merge.trees import Union, contents, opened, unite_commits
+from pico.history.merge.trees import Union, opened, unite_commits
 from pico.history.repository import Repository
+from pico.history.unread import read_tree
 
 
 def merged_files(repository: Repository, folder: Path, revision: str) -> dict[str, bytes]:
@@ -28,5 +29,4 @@ def merged_files(repository: Repository, folder: Path, revision: str) -> dict[st
     union: Union = unite_commits(handle, ours.id, theirs.id, labels)
     if union.conflicts or union.files:
         raise PicoError(refusals(union, labels, revision, (ours, theirs)))
-    tree, inside = handle[union.tree], repository.relative(folder)
-    return contents(handle, tree[inside] if inside else tree)
+    return read_tree(repository, handle[union.tree], repository.relative(folder), f"{labels.ours}+{labels.theirs}")

@@ -12,7 +12,8 @@ from pico.history.merge.groups import groups_of, is_lab
 from pico.history.merge.leaves import Conflict, Coupled
 from pico.history.merge.manifests import Merged, merge
 from pico.history.merge.markers import Labels
-from pico.history.trees import entries, is_manifest
+from pico.history.trees import entries, subtree
+from pico.manifest.which import is_manifest
 
 
 @dataclass
@@ -51,7 +52,7 @@ def manifest_tree(handle: Any, tree: Any, folder: str, more: Any = None) -> str:
     import pygit2
 
     index = pygit2.Index()
-    tops = [_below(each, folder) for each in (tree, more) if each is not None]
+    tops = [subtree(each, folder) for each in (tree, more) if each is not None]
     for path, entry in (e for top in tops if top is not None for e in _entries(top, f"{folder}/" if folder else "")):
         if is_manifest(path):
             index.add(pygit2.IndexEntry(path, entry.id, entry.filemode))
@@ -88,14 +89,6 @@ def alike(handle: Any, trees: Sequence[Any]) -> Alike:
     labs = {str(PurePosixPath(p).parent) for known in ids for p, blob in known.items() if is_lab(handle[blob].data)}
     base, ours, theirs = ({path: handle[known[path]].data for path in paths if path in known} for known in ids)
     return made_alike(base, ours, theirs, labs)
-
-
-def _below(tree: Any, folder: str) -> Any:
-    try:
-        found = tree[folder] if folder else tree
-    except KeyError:
-        return None
-    return found if found.type_str == "tree" else None
 
 
 def _entries(tree: Any, at: str = "") -> list[tuple[str, Any]]:

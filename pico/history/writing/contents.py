@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, error
 from pico.history.notes import is_note, note_path
-from pico.history.trees import is_manifest
 from pico.manifest.edit import components_of
 from pico.manifest.load import load_files
+from pico.manifest.which import is_manifest
 from pico.model.address import Named
 from pico.model.record import record
 from pico.model.state import LabState
@@ -47,7 +47,9 @@ def contents(folder: LabFolder, named: Named | None = None) -> Contents:
     paths = repository.changed(folder.root, lambda p: is_manifest(p) or is_note(p.removeprefix(lead)) or p in own)
     head = repository.head().commit
     known = head is not None and repository.holds(head, folder.root)
-    files = repository.files(head, folder.root) if head and known and (named or own.intersection(paths)) else {}
+    unread: list[Diagnostic] = []
+    asked = head and known and (named or own.intersection(paths))
+    files = repository.files(head, folder.root, unread) if head and asked else {}
     if named is None:
         return Contents(paths=tuple(p for p in paths if not (files and p in own)), state=folder.state)
     texts = {path: _text(folder, path.removeprefix(lead)) for path in paths}
@@ -59,7 +61,8 @@ def contents(folder: LabFolder, named: Named | None = None) -> Contents:
         if text is not None:
             files[path] = text
             held |= components_of(text)
-    state = load_files({f"the commit:{path}": data for path, data in files.items()}, setup=folder.setup).require()[1]
+    whole = {f"the commit:{path}": data for path, data in files.items()}
+    state = load_files(whole, unread, setup=folder.setup).require()[1]
     return Contents(paths=tuple(holding), state=state, components=frozenset(held))
 
 

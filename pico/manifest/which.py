@@ -1,0 +1,84 @@
+"""Which files are manifests, by their names; and which look like it, and are not read: a part may stand in them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import PurePosixPath
+
+from pico.diagnostics import Diagnostic, error
+from pico.manifest.source import Source
+from pico.model.lab import Setup
+from pico.model.state import LabState
+
+MAX_BYTES = 2 * 1024 * 1024
+SUFFIX = ".yaml"
+_LIKE = (SUFFIX, ".yml")
+# At the start of a line: a script in YAML for others may write a manifest, indented.
+_DECLARED = re.compile(
+    rb"""^(?:(?:\{[ \t]*)?['"]?apiVersion['"]?|[ \t{]*"apiVersion")[ \t]*:[ \t]*['"]?pico/""", re.MULTILINE
+)
+_MARKS = b"\xef\xbb\xbf\xff\xfe"
+UNSEEN, GONE = "unseen", "gone"
+PASSED_OVER = (UNSEEN, GONE, "symlink")
+"""Codes of what is said of a file that is not read: of one that nobody can look at, of one deleted, of a link."""
+
+
+@lru_cache(10_000)
+def is_manifest(path: str) -> bool:
+    """Return whether a file of this path may be a manifest: `*.yaml`, not hidden, not in a folder that is left out."""
+    return path.endswith(SUFFIX) and not PurePosixPath(path).name.startswith(".") and not left_out(path)
+
+
+def left_out(path: str) -> bool:
+    """Return whether a path lies in a dot-folder or in a folder called `runs`."""
+    return any(part.startswith(".") or part == "runs" for part in PurePosixPath(path).parts[:-1])
+
+
+def hidden(path: str) -> bool:
+    """Return whether a file or folder of this path is left out, with all that lies in it."""
+    return left_out(f"{path}/*")
+
+
+def alike(path: str) -> bool:
+    """Return whether a file's name is that of a manifest, or of one in another spelling: `.yml`, `.YAML`."""
+    return PurePosixPath(path).suffix.lower() in _LIKE
+
+
+def declared(data: bytes) -> bool:
+    """Return whether a file declares PICO's apiVersion, whatever its name and its encoding are."""
+    return bool(_DECLARED.search(data.replace(b"\0", b"").lstrip(_MARKS)))
+
+
+def about(path: str, code: str, summary: str, hint: str) -> Diagnostic:
+    """Return what is wrong with a file or folder as a whole."""
+    return error(code, f"{path}: {summary}", hint=hint, source=Source(path, "").range(0))
+
+
+def misnamed(path: str) -> Diagnostic:
+    """Return what to say of a manifest under a name that is not read."""
+    better = PurePosixPath(path).with_suffix(SUFFIX).name
+    return about(
+        path, "name", "a manifest that is not read: its name does not end in `.yaml`", f"rename it: `{better}`"
+    )
+
+
+def linked(path: str, target: str, holds: str) -> Diagnostic:
+    """Return what to say of a link that leads to manifests, one of them `holds`."""
+    summary = f"a link, and links are not followed: {holds} behind it is not read"
+    return about(path, "symlink", summary, f"put the files themselves here, in place of the link to {target}")
+
+
+def unseen(path: str, why: str, hint: str) -> Diagnostic:
+    """Return what to say of something behind which manifests may lie, and nobody can look (`weighed`)."""
+    return replace(about(path, UNSEEN, f"{why}: PICO can't tell whether manifests lie there", hint), severity="warning")
+
+
+def weighed(found: Iterable[Diagnostic], setup: Setup | None, state: LabState | None) -> list[Diagnostic]:
+    """Return diagnostics with an error for each thing unseen, where it may name a part that would else go home."""
+    parts = setup.lab.inventory if setup else {}
+    if setup and state and all(part.home is None or name in state.components for name, part in parts.items()):
+        return list(found)
+    return [replace(d, severity="error") if d.code == UNSEEN else d for d in found]

@@ -1,0 +1,138 @@
+"""A manifest that was committed and is not read is an error that names it: its parts never go home in silence."""
+
+from __future__ import annotations
+
+import os
+import random
+import stat
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from omission_cases import AT_REVISION, DELETING, IN_FOLDER, WORKING, Box, at_revision, in_folder, read_lab
+
+from pico.diagnostics import PicoError
+from pico.history.folder import LabFolder
+
+ALL = frozenset({"p0", "p1", "p2", "p3"})
+
+
+@pytest.fixture(scope="module")
+def box() -> Iterator[Box]:
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        yield Box(Path(folder).resolve())
+
+
+def require_bound(box: Box, *kinds: str) -> None:
+    reached = all(folder.stat().st_mode & stat.S_IXOTH for folder in (box.folder, *box.folder.parents))
+    if os.geteuid() == 0 and not reached and any(IN_FOLDER[kind].bound for kind in kinds):
+        pytest.skip("permissions bind only who is not root, and nobody else may enter the temporary folder")
+
+
+@pytest.mark.parametrize("kind", IN_FOLDER)
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_left_out_of_the_working_tree_is_an_error(box: Box, kind: str, seed: int) -> None:
+    require_bound(box, kind)
+    found = in_folder(box, seed, (kind,))
+    assert found.state is None
+    assert not found.silent, found
+
+
+@pytest.mark.parametrize("kind", AT_REVISION)
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_left_out_of_a_revision_is_an_error(box: Box, kind: str, seed: int) -> None:
+    found = at_revision(box, seed, (kind,))
+    assert found.state is None
+    assert not found.silent, found
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_several_are_all_named(box: Box, seed: int) -> None:
+    kinds = random.Random(seed).sample([name for name, kind in IN_FOLDER.items() if not kind.modules], 2)
+    require_bound(box, *kinds)
+    found = in_folder(box, seed, tuple(kinds))
+    assert found.state is None
+    assert not found.silent, found
+
+
+@pytest.mark.parametrize("work", WORKING, ids=lambda work: work.__name__)
+@pytest.mark.parametrize("committed", [False, True])
+def test_who_leaves_nothing_out_is_not_troubled(box: Box, work: Callable[[Box], None], committed: bool) -> None:
+    box.begin(modules=False)
+    work(box)
+    if committed:
+        box.commit()
+        assert read_lab(box.lab, "HEAD").state == ALL
+    found = read_lab(box.lab)
+    assert (found.state, found.said) == (ALL, ())
+
+
+@pytest.mark.parametrize("delete", DELETING, ids=lambda delete: delete.__name__)
+def test_parts_of_a_deleted_file_go_home_and_a_note_says_so(box: Box, delete: Callable[[Box], None]) -> None:
+    box.begin(modules=False)
+    delete(box)
+    found = read_lab(box.lab)
+    assert found.state == ALL - {"p1"}
+    (said,) = found.said
+    assert said.severity == "note"
+    assert "optics/lenses.yaml" in said.summary and "p1" in said.summary
+
+
+def test_submodules_that_are_checked_out_are_read(box: Box) -> None:
+    box.begin(modules=True)
+    found = read_lab(box.lab)
+    assert (found.state, found.said) == (ALL, ())
+
+
+def test_where_every_part_is_named_elsewhere_what_nobody_can_look_at_is_a_warning(box: Box) -> None:
+    box.begin(modules=False)
+    table = box.lab / "top.yaml"
+    table.write_text(table.read_text() + "  p4:\n    slot: s4\n")
+    (box.lab / "data").symlink_to(box.folder / "not mounted")
+    box.commit()
+    for found in (read_lab(box.lab), read_lab(box.lab, "HEAD")):
+        assert found.state == ALL | {"p4"}
+        (said,) = found.said
+        assert said.severity == "warning" and "data" in said.summary and "not mounted" in said.summary
+
+
+def test_a_link_to_more_than_can_be_looked_at_is_told(
+    box: Box, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    box.begin(modules=False)
+    for number in range(12):
+        (tmp_path / f"{number}.txt").touch()
+    monkeypatch.setattr("pico.manifest.behind.MOST", 10)
+    (box.lab / "data").symlink_to(tmp_path)
+    found = read_lab(box.lab)
+    assert found.state == ALL
+    assert [d.severity for d in found.said] == ["warning"] and "data" in found.said[0].summary
+
+
+def test_two_files_that_differ_in_case_alone_where_case_does_not_count(
+    box: Box, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    box.begin(modules=False)
+    (box.lab / "State").mkdir()
+    (box.lab / "State" / "table.yaml").write_text((box.lab / "top.yaml").read_text().replace("p0", "p4"))
+    box.commit()
+    (box.lab / "State" / "table.yaml").unlink()
+    (box.lab / "State").rmdir()
+    (box.lab / "State").symlink_to("state")  # what a file system without case looks like
+    found = read_lab(box.lab)
+    assert found.state is None and "State/table.yaml" in str([d.summary for d in found.said])
+
+
+def test_history_is_shown_of_commits_that_can_not_be_read(box: Box) -> None:
+    box.begin(modules=False)
+    (box.lab / "state").rename(box.folder / "away" / "state")
+    (box.lab / "state").symlink_to(box.folder / "away" / "state")
+    box.commit()
+    folder = LabFolder(box.lab, history=True)
+    assert folder.wrong is not None
+    entry = folder.entry(folder.history().resolve("HEAD"))
+    assert not entry.changes and "state: a link" in entry.unreadable
+    with pytest.raises(PicoError, match="state: a link"):
+        folder.state_at("HEAD")
