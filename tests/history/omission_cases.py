@@ -7,6 +7,7 @@ import os
 import pickle
 import random
 import shutil
+import stat
 import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -60,6 +61,12 @@ class Box:
         done = subprocess.run(command, cwd=at or self.lab, env=self.env, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
+
+    @property
+    def binds(self) -> bool:
+        """Whether permissions can be tried: they don't bind root, and nobody must be able to come here."""
+        folders = (self.folder, *self.folder.parents)
+        return os.geteuid() != 0 or all(folder.stat().st_mode & stat.S_IXOTH for folder in folders)
 
     def commit(self, at: Path | None = None) -> None:
         self.git("add", "-A", at=at)
