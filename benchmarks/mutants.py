@@ -179,7 +179,7 @@ def mapped(workers: Workers, texts: dict[str, str], kept: Path | None) -> Tests:
     known = json.loads(kept.read_text()) if kept and kept.exists() else {}
     now = {file: _digest(ROOT / file) for file in sorted({name.partition("::")[0] for name in workers.names})}
     files = sorted(texts)
-    fresh = {f: k for f, k in known.items() if now.get(f) == k["digest"] and set(files) <= set(k["modules"])}
+    fresh = {f: k for f, k in known.items() if now.get(f) == k["digest"]}
     jobs = [{"file": file, "files": files} for file in now if file not in fresh]
     jobs.sort(key=lambda job: -(ROOT / str(job["file"])).stat().st_size)
     modules = {file: hashlib.sha256(text.encode()).hexdigest() for file, text in texts.items()}
@@ -190,7 +190,11 @@ def mapped(workers: Workers, texts: dict[str, str], kept: Path | None) -> Tests:
     if kept:
         kept.write_text(json.dumps(fresh))
     return {
-        name: {**test, "changed": {m for m, digest in modules.items() if entry["modules"].get(m) != digest}}
+        name: {
+            **test,
+            "changed": {m for m, digest in modules.items() if entry["modules"].get(m, digest) != digest},
+            "unknown": modules.keys() - entry["modules"].keys(),
+        }
         for entry in fresh.values()
         for name, test in entry["tests"].items()
     }
@@ -200,8 +204,15 @@ def _digest(file: Path) -> str:
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
+def _near(file: str) -> tuple[str, ...]:
+    """Return the test folders of the room that a module belongs to."""
+    room = room_of(file) or ""
+    return tuple(f"tests/{name}/" for name in (*ROOMS[room], *NEAR.get(room, ())))
+
+
 class Matching:
-    """Which tests execute a line. Where a module has changed since it was mapped, a test executes all or none of it."""
+    """Which tests execute a line. Where a module has changed since a test was mapped, it executes all or none of it;
+    where the module is new, all that are near execute it."""
 
     def __init__(self, tests: Tests, texts: dict[str, str]) -> None:
         self.tests, self.texts = tests, texts
@@ -215,12 +226,14 @@ class Matching:
                     self.of[file].add(name)
                 for line in lines:
                     self.at[file, line].add(name)
+            for file in test["unknown"]:
+                if name.startswith(_near(file)):
+                    self.of[file].add(name)
 
     def __call__(self, mutant: Mutant, budget: float) -> tuple[list[str], float]:
         """Return the tests that a mutant meets, in order, and their CPU seconds."""
         found = self._of_function(mutant) if mutant.function else self._of_name(mutant.name) or self.any[mutant.file]
-        room = room_of(mutant.file) or ""
-        near = tuple(f"tests/{name}/" for name in (*ROOMS[room], *NEAR.get(room, ())))
+        near = _near(mutant.file)
 
         def cost(name: str) -> tuple[float, str]:
             return (0.02 + float(self.tests[name]["seconds"])) * (1 if name.startswith(near) else 3), name

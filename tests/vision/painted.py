@@ -68,15 +68,31 @@ def picture(camera: CameraModel, plates: Sequence[Painted], rng: np.random.Gener
     return Frame(np.clip(np.round(image), 0, 255).astype(np.uint8), (0, 0), camera.name, 0.0)
 
 
-def _draw(image: np.ndarray, camera: CameraModel, plate: Painted, fine: int = 4) -> None:
+_DRAWN: dict[tuple[object, ...], tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None] = {}
+
+
+def _draw(image: np.ndarray, camera: CameraModel, plate: Painted) -> None:
+    lens = (camera.pixels, *(numbers.tobytes() for numbers in (camera.matrix, camera.distortion, camera.pose)))
+    key = (*lens, plate.number, plate.pose.tobytes(), plate.size, plate.covered)
+    if key not in _DRAWN:  # most pictures show the same plates, but for one
+        _DRAWN[key] = _drawn(image.shape, camera, plate)
+    found = _DRAWN[key]
+    if found is not None:
+        low, high, value, on = found
+        part = image[low[1] : high[1], low[0] : high[0]]
+        part[:] = part * (1 - on) + value
+
+
+def _drawn(size: tuple[int, ...], camera: CameraModel, plate: Painted, fine: int = 4):
+    """Return the corners of the part of a picture that a plate covers, its gray levels times cover, and its cover."""
     half = plate.size / 2 * 4 / 3
     corners = square(2 * half) @ plate.pose[:3, :3].T + plate.pose[:3, 3]
     seen = camera.project(corners)
-    height, width = image.shape
+    height, width = size
     low = np.maximum(np.floor(seen.min(axis=0)).astype(int) - 1, 0)
     high = np.minimum(np.ceil(seen.max(axis=0)).astype(int) + 2, (width, height))
     if np.any(high <= low):
-        return
+        return None
     steps = (np.arange(fine) + 0.5) / fine - 0.5
     u = (np.arange(low[0], high[0])[:, None] + steps).ravel()
     v = (np.arange(low[1], high[1])[:, None] + steps).ravel()
@@ -87,9 +103,7 @@ def _draw(image: np.ndarray, camera: CameraModel, plate: Painted, fine: int = 4)
     local = (start + way * (-start[2] / way[:, 2])[:, None])[:, :2]
     value, on = _paint(plate, local, half)
     shape = (len(v) // fine, fine, len(u) // fine, fine)
-    value, on = value.reshape(shape).mean(axis=(1, 3)), on.reshape(shape).mean(axis=(1, 3))
-    part = image[low[1] : high[1], low[0] : high[0]]
-    part[:] = part * (1 - on) + value
+    return low, high, value.reshape(shape).mean(axis=(1, 3)), on.reshape(shape).mean(axis=(1, 3))
 
 
 def _paint(plate: Painted, local: np.ndarray, half: float) -> tuple[np.ndarray, np.ndarray]:
