@@ -6,9 +6,10 @@ on, as a disk that is full or was mounted read-only, EIO once, as a bad sector. 
 with each fault, in a process and a lab of its own; with `--points` at so many of them, drawn by `--seed`.
 
 Afterwards: nobody speaks of a mistake in PICO; the message says which disk and why; no temporary file, lock or torn
-file is left (save one that a read-only disk did not let go of, and the journal that SQLite plays back: the next call
-must clear both); success was said only where the command did all of it; and the same command on the mended disk reaches
-what it reaches on a good one. Prints a table, and what was wrong; the exit code is 1 where anything was.
+file is left (save one that a read-only disk did not let go of, the journal that SQLite plays back, and the lock of what
+PICO says that it will end: the next call must clear them); success was said only where the command did all of it; and
+the same command on the mended disk reaches what it reaches on a good one. Prints a table, and what was wrong; the exit
+code is 1 where anything was.
 """
 
 from __future__ import annotations
@@ -81,7 +82,8 @@ class Case:
     """A command: how its lab comes about (words of PICO, or what is done to the folder), and what it writes (`out`).
 
     `looks`: it writes caches only, and must not fail. `adds`: called twice it does more than once. `new`: it wants a
-    place where nothing is, which a disk that became read-only can't give back.
+    place where nothing is, which a disk that became read-only can't give back. `porcelain`: git does it all, and what
+    it leaves half done on a disk that fails in between is git's to say.
     """
 
     words: tuple[str, ...]
@@ -90,6 +92,7 @@ class Case:
     looks: bool = False
     adds: bool = False
     new: bool = False
+    porcelain: bool = False
 
 
 @dataclass
@@ -176,7 +179,7 @@ def stranger(_: Any, lab: Path) -> None:
 
 NUDGED = ("sim", "nudge", "p2", "--dx", "5")
 RUN = (("set", "p1", "angle=12"), ("commit", "-m", "p1", "--capture"))
-SIGHT = edit("lab.yaml", "observe: exact", "observe: sight")
+SIGHT = edit("lab.yaml", "sim:\n", "sim:\n  observe: sight\n")
 
 MINE = edit("state/table.yaml", "x: 520", "x: 530")
 THEIRS = branch("left", "x: 290", "x: 300")
@@ -188,24 +191,24 @@ CASES: dict[str, Case] = {
     "capture": Case(("capture",), (NUDGED,)),
     "commit": Case(("commit", "-m", "bumped"), (NUDGED,)),
     "set": Case(("set", "p1", "angle=20")),
-    "move": Case(("move", "p2", "x=500")),
+    "move": Case(("move", "p2", "x=500"), adds=True),
     "fmt": Case(("fmt",), (edit("state/table.yaml", "    pose:\n", "    pose:  \n"),)),
     "init": Case(("init", "other"), new=True),
     "init --example": Case(("init", "--example", "minimal", "other"), new=True),
     "merge": Case(("merge", "left", "-m", "both"), (THEIRS, MINE, git("commit", "-qam", "mine"))),
-    "revert": Case(("revert", "HEAD"), (MINE, git("commit", "-qam", "mine"))),
+    "revert": Case(("revert", "mine"), (MINE, git("commit", "-qam", "mine"), git("tag", "mine"))),
     "cherry-pick": Case(("cherry-pick", "left"), (THEIRS,)),
     "checkout": Case(("checkout", "e2", "--auto-approve")),
     "checkout --": Case(("checkout", "e1", "--files-only", "--", "p2")),
-    "stash": Case(("stash",), (MINE,)),
-    "stash pop": Case(("stash", "pop"), (MINE, ("stash",))),
+    "stash": Case(("stash",), (MINE,), porcelain=True),
+    "stash pop": Case(("stash", "pop"), (MINE, ("stash",)), porcelain=True),
     "note": Case(("note", "p2", "scratched"), adds=True),
     "render --out": Case(("render", "--out", "bench.png", "--size", "160x120"), out="bench.png"),
     "render svg": Case(("render", "--out", "bench.svg"), out="bench.svg"),
     "graph --out": Case(("graph", "e1", "--out", "plan.dot"), out="plan.dot"),
     "runs show": Case(("runs", "show"), RUN, looks=True),
     "publish": Case(("publish", "--out", "crate.zip", "--pictures", "none"), RUN, out="crate.zip"),
-    "publish folder": Case(("publish", "--out", "crate", "--pictures", "none"), RUN),
+    "publish folder": Case(("publish", "--out", "../crate", "--pictures", "none"), RUN),
     "data push": Case(("data", "push", "../share"), (data_lab,)),
     "data pull": Case(("data", "pull", "../share"), (data_lab, ("data", "push", "../share"), emptied)),
     "data pointers": Case(("data", "pointers"), (data_lab,)),
@@ -362,10 +365,11 @@ def tried(judge: Judge, kept: Path, case: Case, fault: str, at: int, good: Good)
     wrong = [*answered(judge, case, fault, code, said, good)]
     if code == good.code and now != good.after:
         wrong.append("untrue success")
-    torn = now.get("out", "whole") != "whole"
-    if torn or (not control.stuck and any(not name.endswith("-journal") for name in left)):
+    torn, pending = now.get("out", "whole") != "whole", "is begun and not ended" in said
+    known = [name for name in left if name.endswith("-journal") or (pending and name.endswith(".git/index.lock"))]
+    if torn or (not control.stuck and len(known) < len(left)):
         wrong.append("left over")
-    if (now != good.after or left) and not (case.new and control.stuck):
+    if (now != good.after or left) and not case.porcelain and not (case.new and control.stuck):
         again, more = mended(judge, case, code, good)
         wrong, said = wrong + again, said + more
     if wrong:

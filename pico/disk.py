@@ -7,8 +7,8 @@ import glob
 import os
 import re
 import shutil
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error
@@ -49,6 +49,19 @@ def write_whole(
         replace_whole(path, (data,), beside(path), durable=durable)
 
 
+def write_all(files: Mapping[Path, bytes]) -> None:
+    """Write files that belong together: all are on their disks before the first takes its place. Raises PicoError."""
+    with ExitStack() as fresh:
+        for path, data in files.items():
+            with writing(path):
+                _sweep(path)
+                fresh.enter_context(removed(beside(path)))
+                _fill(beside(path), (data,), path)
+        for path in files:
+            with writing(path):
+                beside(path).replace(path)
+
+
 def beside(path: Path) -> Path:
     """Return where this process writes a file first that is to take the place of `path`."""
     return path.with_name(f".{path.name}.{os.getpid()}.tmp")
@@ -81,15 +94,20 @@ def replace_whole(path: Path, pieces: Iterable[bytes], fresh: Path, *, durable: 
     Raises OSError.
     """
     with removed(fresh):
-        fresh.unlink(missing_ok=True)
-        with fresh.open("xb") as file:
-            file.writelines(pieces)
-            file.flush()
-            if durable:
-                os.fsync(file.fileno())
-        if path.exists():
-            shutil.copymode(path, fresh)
+        _fill(fresh, pieces, path, durable=durable)
         fresh.replace(path)
+
+
+def _fill(fresh: Path, pieces: Iterable[bytes], path: Path, *, durable: bool = True) -> None:
+    """Write a file that is to take the place of `path`, with its mode."""
+    fresh.unlink(missing_ok=True)
+    with fresh.open("xb") as file:
+        file.writelines(pieces)
+        file.flush()
+        if durable:
+            os.fsync(file.fileno())
+    if path.exists():
+        shutil.copymode(path, fresh)
 
 
 @contextmanager

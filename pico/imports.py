@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.disk import write_whole
+from pico.disk import write_all
 from pico.manifest.adopt import Adopted, adopt
 from pico.manifest.catalog import catalog_names, packaged_type, read_type
 from pico.manifest.files import read_folder
@@ -90,8 +90,7 @@ def take_in(bench: AsyncBench, parts: Sequence[Adopted], *, write: bool = True) 
         return Imported()
     written = adopt(read_folder(bench.root)[0], parts)
     if write:
-        for path, data in written.items():
-            write_whole(Path(path), data)
+        write_all({Path(path): data for path, data in written.items()})
         bench.folder.reload()
     return Imported(parts=tuple(parts), files=tuple(sorted(written)))
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from pico.diagnostics import PicoError
-from pico.disk import mount_point, number_of, replace_whole, spoken, unwritable, write_whole
+from pico.disk import mount_point, number_of, replace_whole, spoken, unwritable, write_all, write_whole
 
 
 def names(folder: Path) -> list[str]:
@@ -85,3 +85,10 @@ def test_the_words_of_sqlite_and_git_are_known() -> None:
 def test_the_disk_of_a_file_that_is_not_there_yet_is_that_of_its_folder(tmp_path: Path) -> None:
     found = mount_point(tmp_path / "not" / "there")
     assert os.path.ismount(found) and tmp_path.resolve().is_relative_to(found)
+
+
+def test_of_files_that_belong_together_none_is_written_where_one_can_not_be(tmp_path: Path) -> None:
+    (tmp_path / "lab").write_text("old")
+    with pytest.raises(PicoError, match=r"can.t write .*state"):
+        write_all({tmp_path / "lab": b"new", tmp_path / "gone" / "state": b"new"})
+    assert (tmp_path / "lab").read_text() == "old" and names(tmp_path) == ["lab"]

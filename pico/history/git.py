@@ -99,7 +99,9 @@ def run(
         raise PicoError(error("git-missing", f"there is no `git` command to {doing}", hint=hint)) from None
     if done.returncode not in ends:
         words = "\n".join(t.decode(errors="replace") for t in (done.stderr, done.stdout) if t)
-        raise refusal(words.strip(), doing=doing, hook=_installed(root, hook), root=root, acted=not looking)
+        raise refusal(
+            words.strip(), doing=doing, hook=_installed(root, hook), root=root, acted=not looking or bool(extra)
+        )
     return done.stdout.decode(errors="surrogateescape")
 
 
@@ -240,8 +242,8 @@ def refusal(
     A lock that is in the way in the working tree `root` is named with who has it. `acted`: git was to write there; a
     full disk may then be the reason that its words do not name.
     """
-    if number := spoken(words):
-        return _on_disk(root or Path(), OSError(number, ""), words, doing)
+    if disk := _refused(root if acted else None, words):
+        return _on_disk(root or Path(), disk, words, doing)
     for pattern, code, hint in _KNOWN:
         found = re.search(pattern, words, re.IGNORECASE)
         lock = _LOCK.search(words) if found and code == "git-locked" else None
@@ -252,9 +254,26 @@ def refusal(
             return PicoError(error(code, f"git did not {doing}", detail=said, hint=hint))
     if hook:
         return PicoError(error("git-hook", f"git did not {doing}: its {hook} hook refused", detail=words))
-    if root is not None and acted and (disk := refusing(root)):
-        return _on_disk(root, disk, words, doing)
-    return PicoError(error("git", f"git did not {doing}", detail=words))
+    where = f" in {root.absolute()}" if acted and root else ""
+    if root and acted and (other := _in_the_way(root)):
+        return PicoError(replace(held(other, root), detail=f"so git did not {doing}"))
+    return PicoError(error("git", f"git did not {doing}{where}", detail=words))
+
+
+def _in_the_way(root: Path) -> Path | None:
+    """Return the lock of the index where it is there and not PICO's own: `git stash` says nothing of it."""
+    lock = root / answer(root, ["rev-parse", "--git-path", "index.lock"]).strip()
+    claim = lock.parent / "pico" / "index.claim"
+    return lock if lock.is_file() and not (claim.exists() and claim.samefile(lock)) else None
+
+
+def _refused(root: Path | None, words: str) -> OSError | None:
+    """Return what the disk of `root` has against being written, where git's words say so, or say nothing better: a lock
+    is in the way, too, that git could not take away on a disk that became read-only."""
+    if number := spoken(words):
+        return OSError(number, "")
+    told = next((code for pattern, code, _ in _KNOWN if re.search(pattern, words, re.IGNORECASE)), "git-locked")
+    return refusing(root) if root is not None and told == "git-locked" else None
 
 
 def _on_disk(root: Path, disk: OSError, words: str, doing: str) -> PicoError:

@@ -314,9 +314,15 @@ class Repository:
         with write_lock(self.common / "pico" / "write.lock", doing):
             self._writing = True
             try:
-                with disk_trouble(self.common, f"{doing} was not done"):
+                with disk_trouble(self.common, f"{doing} did not come to its end"):
                     self.noticed = recover(self._folders())
                     yield
+            except PicoError as exc:
+                if not self._folders().claim.exists():
+                    raise
+                text = f"{doing} is begun and not ended; files or index may be on their way"
+                left = warning("pending", text, hint="once the disk can be written, the next `pico` command ends it")
+                raise PicoError((*exc.diagnostics, left), exc.exit_code) from exc
             finally:
                 self._writing = False
 

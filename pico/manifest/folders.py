@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.disk import write_whole
+from pico.disk import write_all
 from pico.manifest.catalog import catalog_names, load_catalog, unknown_type
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files, load_folder
@@ -120,8 +120,7 @@ def format_folder(start: Path, files: Sequence[Path] = (), *, write: bool = True
     if found:
         raise PicoError(found)
     if write:
-        for path, text in changed.items():
-            write_whole(Path(path).resolve(), text.encode())
+        write_all({Path(path).resolve(): text.encode() for path, text in changed.items()})
     return tuple(sorted(shown_path(Path(path)) for path in changed))
 
 

@@ -154,3 +154,14 @@ def everything(shel: Path) -> str:
         ["git", "cat-file", "--batch"], cwd=shel, input=blobs, capture_output=True, text=True, check=True
     )
     return done.stdout
+
+
+def test_a_lock_that_git_stash_does_not_speak_of_is_named(shel: Path, pico: Pico) -> None:
+    table = shel / "state" / "table.yaml"
+    table.write_text(table.read_text().replace("x: 520", "x: 530"))
+    lock = shel / ".git" / "index.lock"
+    lock.touch()
+    answer = pico("stash")
+    assert answer.code == 1 and str(lock) in answer.err
+    lock.unlink()
+    assert pico("stash").code == 0
