@@ -9,7 +9,7 @@ from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.disk import disk_trouble
 from pico.history import git
 from pico.history.commit import Commit, Head
