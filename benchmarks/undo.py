@@ -36,8 +36,10 @@ if TYPE_CHECKING:
 
 STATE = Path("state") / "table.yaml"
 REVISIONS = ("E1-1", "E2-3", "E3-2")
-LONGEST = {"kinematic": 1.5, "physics": 10.0}
-"""Up to so long after its start a run is killed [s]; one with a part in the hand as long as it has it."""
+LONGEST = {"kinematic": 0.6, "physics": 6.0}
+"""Up to so long after its first record in the journal a run is killed [s]."""
+PATIENCE = 120.0
+"""So long a command may take to begin its run, or to take a part in the hand [s]."""
 NEAR = {"position": 0.1, "yaw": 0.1}
 """So near to where it was a part must be after a kinematic undo [mm, deg]; in physics its tolerance counts."""
 
@@ -80,6 +82,11 @@ class Bench:
     def moves(self, *words: str) -> tuple[str, ...]:
         """Return a command that moves the bench, with what it needs to do so."""
         return (*words, "--auto-approve", "--fidelity", self.fidelity)
+
+    def written(self) -> int:
+        """Return when the journal was written last [ns]."""
+        log = self.folder / ".pico" / "journal.sqlite-wal"
+        return log.stat().st_mtime_ns if log.exists() else 0
 
     def began(self) -> str:
         """Return the last run that began to move anything."""
@@ -168,17 +175,18 @@ def goal(bench: Bench, places: Mapping[str, Pose], world: World) -> tuple[str, .
 
 
 def killed(bench: Bench, held: bool, *words: str) -> None:
-    """Start a command and kill it: at any time, or as soon as a hand holds something, and then some."""
+    """Start a command and kill it: at any time of its run, or as soon as a hand holds something, and then some."""
     import os
     import signal
 
-    child, stored = forked(bench.folder, *words), bench.folder / ".pico" / "sim" / "world.json"
-    until = time.monotonic() + (120.0 if held else bench.draw.uniform(0.1, LONGEST[bench.fidelity]))
-    ended = False
+    stored, late = bench.folder / ".pico" / "sim" / "world.json", bench.draw.uniform(0.0, LONGEST[bench.fidelity])
+    written = bench.written()
+    child, until, ended, armed = forked(bench.folder, *words), time.monotonic() + PATIENCE, False, False
     while time.monotonic() < until and not ended:
-        if held and stored.exists() and '"presence":"held"' in stored.read_text():
-            time.sleep(bench.draw.uniform(0.0, LONGEST[bench.fidelity] / 10))
-            break
+        if not armed and held and stored.exists() and '"presence":"held"' in stored.read_text():
+            armed, until = True, time.monotonic() + late / 10
+        elif not armed and not held and bench.written() != written:
+            armed, until = True, time.monotonic() + late
         time.sleep(0.002)
         ended = os.waitpid(child, os.WNOHANG)[0] == child
     if ended:
