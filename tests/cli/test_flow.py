@@ -170,6 +170,21 @@ def test_capture_changes_the_lines_of_what_moved(shel: Path, pico: Pico) -> None
     assert "Nothing to capture" in pico("capture").out
 
 
+def test_capture_takes_a_nudge_inside_a_slot_where_the_manifest_has_a_pose(shel: Path, pico: Pico) -> None:
+    edit = Path("state/table.yaml")
+    head, rest = edit.read_text().split("  p2:\n")
+    edit.write_text(f"{head}  p2:\n    pose: {{x: 200, y: 215, yaw: 90}}\n{rest[rest.index('    angle') :]}")
+    assert pico("apply", "--auto-approve").code == 0
+    assert pico("plan", "--detailed-exitcode").code == 0
+    pico("sim", "nudge", "p2", "--dx", "4")
+    assert pico("plan", "--detailed-exitcode").code == 2
+    assert "p2" in pico("drift").out
+    assert "Captured 1 tunable" in pico("capture").out
+    assert "pose: {x: 204, y: 215, yaw: 90}" in edit.read_text()
+    assert pico("plan", "--detailed-exitcode").code == 0
+    assert "Nothing to capture" in pico("capture").out
+
+
 def test_commit_takes_the_bench_along_and_says_what_changed(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
     assert pico("set", "p1", "angle=3").code == 0
