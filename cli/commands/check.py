@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 
 import typer
 
-from pico.disk import beside, replace_whole, writing
+from pico.disk import write_whole, writing
 
 from ..arguments import Fidelity
 from ..output import write
@@ -100,9 +100,7 @@ def _write_files(session: Session, found: Checked, report: Path | None, junit: P
 
 def _write(path: Path, text: str) -> None:
     """Write a file anew; a link that a branch put in its place is not followed."""
-    with writing(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        replace_whole(path, (text.encode(),), beside(path))
+    write_whole(path, text.encode(), folders=True)
 
 
 def _show(session: Session, found: Checked, stream: TextIO) -> None:
