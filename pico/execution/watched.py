@@ -15,7 +15,7 @@ from pico.execution.result import RunResult
 from pico.execution.run import run
 from pico.journal import Journal
 from pico.model.diff import Change, diff_observed
-from pico.model.drift import uncertain
+from pico.model.drift import drift_of, uncertain
 from pico.model.event import Event
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
@@ -147,7 +147,7 @@ def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
     wanted = state_from_json(plan.lab.name, plan.target.state)
     asked = {(c.component, c.tunable) for c in plan.changes}
     parts = {component for component, _ in asked}
-    rest = [c for c in diff_observed(setup, seen, wanted) if not c.tolerated]
+    rest = [c for c in drift_of(setup, seen, wanted) if not c.tolerated]
     left = [c for c in rest if (c.component, c.tunable) not in asked]
     return tuple(sorted({f"{c.component}.{c.tunable}" if c.component in parts else c.component for c in left}))
 

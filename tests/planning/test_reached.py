@@ -64,6 +64,19 @@ def test_what_the_state_does_not_name_counts_where_it_lies_or_is_held() -> None:
     assert not planned(SETUP, held("b"), wanted).reached
 
 
+@pytest.mark.parametrize("b", [{"presence": "missing", "pose": None}, {"presence": "toppled"}])
+def test_a_plan_for_some_components_does_not_speak_for_what_nobody_sees(b: dict[str, object]) -> None:
+    before = seen("b", **b)
+    start = replace(
+        before, components={**before.components, "a": replace(SEEN.components["a"], pose=Pose(500, 250, 0))}
+    )
+    made = planned(SETUP, start, THERE, targets=("a",))
+    plan = replace(made, target=replace(made.target, only=("a",)))
+    report = run_report(SETUP, plan, RunResult(run="r", outcome="done"), before, wall=0.0, evidence="kinematic")
+    assert "will not equal" in view.text(plan)
+    assert report.left == ("b",) and "does not equal" in report_view.text(report)
+
+
 def test_a_pose_near_a_slot_is_reached_only_there() -> None:
     near = want({"a": (400, 250), "b": (166, 66, 45)})
     assert planned(SETUP, seen("b", pose=Pose(166, 66, 45)), near).reached
