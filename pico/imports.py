@@ -11,7 +11,7 @@ from pico.disk import write_all
 from pico.manifest.adopt import Adopted, adopt
 from pico.manifest.catalog import catalog_names, packaged_type, read_type
 from pico.manifest.files import read_folder
-from pico.manifest.kinds import NAME
+from pico.manifest.text.kinds import NAME
 from pico.model.catalog import ComponentType
 from pico.model.observation import Observation, slot_at
 from pico.model.pose import Pose

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from pico.model.expectation import Verified
+from pico.model.proof import Standing
 from pico.model.record import as_json
-from pico.model.standing import Standing
 
 from .diff import lines
 from .report import expectations

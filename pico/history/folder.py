@@ -32,10 +32,10 @@ from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
+from pico.model.proof import Standing
 from pico.model.record import record
 from pico.model.report import Captured, Committed
 from pico.model.run import RunDocument
-from pico.model.standing import Standing
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:

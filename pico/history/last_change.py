@@ -6,7 +6,7 @@ from typing import Any
 
 from pico.history.merge.leaves import Path, canonical
 from pico.manifest.files import decode
-from pico.manifest.tree import Document, Map, Node, parse
+from pico.manifest.text.tree import Document, Map, Node, parse
 
 
 def last_change(handle: Any, head: str, path: str, leaf: Path) -> str:

@@ -17,8 +17,8 @@ from pico.history.commit import Commit
 from pico.history.folder import LabFolder
 from pico.history.runs import CACHE, CarriedRun, files_at, places_in_history, read_carried, runs_added
 from pico.history.writing import trailers
+from pico.model.proof import Standing, Verdict
 from pico.model.run import STRENGTH, RunDocument
-from pico.model.standing import Standing, Verdict
 from pico.trace.run import intact
 
 

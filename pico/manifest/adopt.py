@@ -8,10 +8,10 @@ from typing import Any
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.edit import largest_state, set_values
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
 from pico.manifest.load import load_files
-from pico.manifest.splice import Editor, apply_splices
-from pico.manifest.tree import Document, Map, parse
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.splice import Editor, apply_splices
+from pico.manifest.text.tree import Document, Map, parse
 from pico.model.pose import Pose
 from pico.model.record import record
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
-from pico.manifest.kinds import NAME
-from pico.manifest.tree import Document, Map, Scalar
+from pico.manifest.text.kinds import NAME
+from pico.manifest.text.tree import Document, Map, Scalar
 from pico.model.catalog import Catalog, ComponentType
 from pico.model.lab import Setup
 

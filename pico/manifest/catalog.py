@@ -7,11 +7,11 @@ from functools import cache
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.manifest.component_checks import check_type
+from pico.manifest.checks.components import check_type
 from pico.manifest.files import decode, shown_path
-from pico.manifest.kinds import kind_of
 from pico.manifest.records import read_record
-from pico.manifest.tree import Document, parse
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.tree import Document, parse
 from pico.model.catalog import Catalog, ComponentType
 from pico.resources import catalog_dir
 

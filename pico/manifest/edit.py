@@ -9,10 +9,10 @@ from typing import Any
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.changes import Change, Changes, differences
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
-from pico.manifest.source import Source
-from pico.manifest.splice import Editor, apply_splices
-from pico.manifest.tree import Document, Map, Node, Scalar, parse, plain
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.source import Source
+from pico.manifest.text.splice import Editor, apply_splices
+from pico.manifest.text.tree import Document, Map, Node, Scalar, parse, plain
 from pico.model.address import Named
 from pico.model.lab import Setup
 from pico.model.pose import Pose

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.expressions import ExpressionError, Language
 from pico.manifest.load import Manifests
-from pico.manifest.places import find, where
-from pico.manifest.tree import Document, List, Scalar
+from pico.manifest.text.places import find, where
+from pico.manifest.text.tree import Document, List, Scalar
 from pico.model.lab import Setup
 from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of
 

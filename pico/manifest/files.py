@@ -10,7 +10,7 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.manifest.behind import behind, head_of
-from pico.manifest.source import Source
+from pico.manifest.text.source import Source
 from pico.manifest.which import MAX_BYTES, SUFFIX, about, alike, declared, hidden, misnamed
 
 MAX_LEVELS = 64

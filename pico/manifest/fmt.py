@@ -7,10 +7,10 @@ from collections import Counter
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.manifest.kinds import kind_of
-from pico.manifest.layout import Entry, Layout, comments
-from pico.manifest.source import Source
-from pico.manifest.tree import Document, List, Map, Node, Scalar, parse
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.layout import Entry, Layout, comments
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar, parse
 
 _HEADER = {"apiVersion": 0, "kind": 1, "metadata": 2}
 _STATE = {**_HEADER, "components": 3, "expect": 4}

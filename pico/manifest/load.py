@@ -11,14 +11,14 @@ from pathlib import Path
 from pico.diagnostics import Diagnostic, PicoError, SourceRange, error
 from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_broken
 from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
+from pico.manifest.checks.labs import check_lab, check_setup
 from pico.manifest.files import decode_all, read_folder, shown_path, shut
-from pico.manifest.kinds import kind_of
-from pico.manifest.lab_checks import check_lab, check_setup
-from pico.manifest.places import find, where, where_key
 from pico.manifest.records import read_record
-from pico.manifest.source import Source
 from pico.manifest.state import read_states
-from pico.manifest.tree import Document, Map, Scalar, parse
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.places import find, where, where_key
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Document, Map, Scalar, parse
 from pico.manifest.which import PASSED_OVER, alike, misnamed, weighed
 from pico.model.catalog import ComponentType
 from pico.model.lab import Lab, Setup

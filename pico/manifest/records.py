@@ -10,9 +10,9 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from pico.diagnostics import Diagnostic, did_you_mean, error
-from pico.manifest.kinds import METADATA
-from pico.manifest.scalars import resolve
-from pico.manifest.tree import Document, List, Map, Node, Scalar, plain, scalars
+from pico.manifest.text.kinds import METADATA
+from pico.manifest.text.scalars import resolve
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain, scalars
 from pico.manifest.wording import describe, expected_quantity, fields_of, inside, options, quantity, shown, unit_of
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from pico.manifest.kinds import API, KINDS, METADATA, NAME, PATH_NAME
+from pico.manifest.text.kinds import API, KINDS, METADATA, NAME, PATH_NAME
 from pico.resources import schemas_dir
 
 DRAFT = "http://json-schema.org/draft-07/schema#"

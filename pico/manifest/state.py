@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
 from pico.manifest.bench_view import BenchView
-from pico.manifest.lab_checks import off_table
-from pico.manifest.names import name_problem
-from pico.manifest.places import where, where_key
-from pico.manifest.tree import Document, List, Map, Node, Scalar, plain
+from pico.manifest.checks.labs import off_table
+from pico.manifest.text.names import name_problem
+from pico.manifest.text.places import where, where_key
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number, read_value
 from pico.manifest.wording import shown
 from pico.model.pose import Pose

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from pico.diagnostics import Diagnostic, did_you_mean, error
-from pico.manifest.source import Source
-from pico.manifest.tree import Node, Scalar, plain
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Node, Scalar, plain
 from pico.manifest.wording import expected_quantity, quantity, shown
 from pico.model.catalog import Tunable
 from pico.model.quantities import Value

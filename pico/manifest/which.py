@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import PurePosixPath
 
 from pico.diagnostics import Diagnostic, error
-from pico.manifest.source import Source
+from pico.manifest.text.source import Source
 from pico.model.lab import Setup
 from pico.model.state import LabState
 

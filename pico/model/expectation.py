@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pico.diagnostics import ExitCode
 from pico.model.diff import Change
+from pico.model.proof import Standing
 from pico.model.record import record
-from pico.model.standing import Standing
 
 
 @record

@@ -20,8 +20,8 @@ from pico.history.standing import Standings
 from pico.journal import Journal, RunRecord
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
+from pico.model.proof import Standing
 from pico.model.run import RunDocument
-from pico.model.standing import Standing
 from pico.model.state import LabState
 from pico.recording.document import Kept, Recorded, afterwards, read_plan, recorded
 from pico.trace.run import Keep, run_files

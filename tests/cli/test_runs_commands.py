@@ -13,7 +13,7 @@ from commanding import Pico
 from pico_cli.views.verified import proof
 
 from pico.bench import Bench
-from pico.model.standing import Standing
+from pico.model.proof import Standing
 
 
 @pytest.fixture(scope="module")

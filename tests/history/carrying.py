@@ -10,9 +10,9 @@ from pico.history.folder import LabFolder
 from pico.history.repository import Repository
 from pico.history.runs import places_in_history
 from pico.history.standing import Standings
+from pico.model.proof import Standing
 from pico.model.report import Committed
 from pico.model.run import RunDocument
-from pico.model.standing import Standing
 from pico.recording import standing_of, unrecorded
 
 

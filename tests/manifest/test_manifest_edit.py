@@ -13,8 +13,8 @@ from manifest_samples import GOOD, STATE
 from pico.diagnostics import PicoError
 from pico.manifest.edit import capture, set_values
 from pico.manifest.load import load_files
-from pico.manifest.source import Source
-from pico.manifest.tree import parse, plain
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import parse, plain
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState

@@ -13,11 +13,11 @@ from manifest_samples import GOOD, LAB, OWN_TYPE, STATE, USES_OWN
 
 from pico.diagnostics import PicoError
 from pico.manifest.catalog import catalog_names, load_catalog
-from pico.manifest.lab_checks import touches_aperture
+from pico.manifest.checks.labs import touches_aperture
 from pico.manifest.load import find_lab, load_files, load_folder
-from pico.manifest.scalars import resolve
-from pico.manifest.source import Source
-from pico.manifest.tree import parse, plain
+from pico.manifest.text.scalars import resolve
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import parse, plain
 from pico.model.lab import Fingers
 from pico.model.pose import Pose
 from pico.resources import catalog_dir, labs_dir, schemas_dir

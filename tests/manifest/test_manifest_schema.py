@@ -10,8 +10,8 @@ import pytest
 from manifest_samples import LAB, OWN_TYPE, STATE
 
 from pico.manifest.schema import outdated, schemas
-from pico.manifest.source import Source
-from pico.manifest.tree import parse, plain
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import parse, plain
 from pico.model.event import Event
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.resources import catalog_dir, labs_dir, schemas_dir

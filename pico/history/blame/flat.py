@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pico.history.blame.leaves import Leaf, leaves_of, place_of
 from pico.history.blame.lines import read_lines
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
-from pico.manifest.tree import Document, Map, Scalar, parse, plain
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.tree import Document, Map, Scalar, parse, plain
 
 
 @dataclass(frozen=True, slots=True)

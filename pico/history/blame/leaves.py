@@ -7,7 +7,7 @@ import json
 import math
 from typing import Any
 
-from pico.manifest.tree import Map, Node, Scalar, plain
+from pico.manifest.text.tree import Map, Node, Scalar, plain
 
 Leaf = str
 """A value as JSON text: `90`, `true`, `"open"`, `"1.2 cm"`, `[520,420,30]` (a pose: mm, mm, deg), `"storage/a1"`."""

@@ -11,10 +11,10 @@ from functools import lru_cache
 from typing import Any
 
 from pico.history.blame.leaves import POSE, Leaf, leaf_of, leaves_of, place_of, pose_of
-from pico.manifest.kinds import API
-from pico.manifest.scalars import resolve
-from pico.manifest.source import Source
-from pico.manifest.tree import Map, parse
+from pico.manifest.text.kinds import API
+from pico.manifest.text.scalars import resolve
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Map, parse
 
 _HEADER = (f"?apiVersion: {API}", "?kind: LabState", "metadata", "?components:")
 _NAME = r"[a-z][a-z0-9_]{0,63}"

@@ -13,10 +13,10 @@ from pico.history.trees import Odd, manifests, subtree
 from pico.history.unread import unread_at
 from pico.manifest.bench_view import BenchView, view_of
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
 from pico.manifest.load import load_files
 from pico.manifest.state import read_states
-from pico.manifest.tree import parse
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.tree import parse
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
 from pico.model.state import ComponentState, LabState

@@ -10,8 +10,8 @@ from typing import Any
 from pico.history.diff.surroundings import Surroundings, at, text
 from pico.history.merge.leaves import canonical, leaves, shown
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
-from pico.manifest.tree import Document, List, Map, Node, Scalar, parse, plain
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar, parse, plain
 from pico.model.catalog import Tunable
 from pico.model.diff import Change, describe_move, describe_value
 from pico.model.pose import Pose

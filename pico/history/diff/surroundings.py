@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pico.history.merge.groups import lab_around
 from pico.manifest.files import decode, read_folder
-from pico.manifest.tree import Document, Map, Node, Scalar, parse
+from pico.manifest.text.tree import Document, Map, Node, Scalar, parse
 from pico.resources import catalog_dir
 
 _KINDS = (b"inventory", b"ComponentType")

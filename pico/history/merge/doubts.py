@@ -12,7 +12,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.repository import Repository
 from pico.history.writing.trailers import STATE, values
 from pico.manifest.load import Manifests, load_files
-from pico.manifest.places import find
+from pico.manifest.text.places import find
 from pico.model.state import LabState
 
 

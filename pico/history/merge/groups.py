@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pico.history.merge.leaves import Groups
 from pico.manifest.files import decode_all, read_folder
-from pico.manifest.tree import Document, List, Map, Node, Scalar, parse, plain
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar, parse, plain
 from pico.resources import catalog_dir
 
 _IS_LAB = re.compile(rb"^kind:[ \t]*[\"']?Lab[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pico.history.merge.leaves import Conflict, Path
 from pico.history.merge.markers import CLOSE, MIDDLE, OPEN
 from pico.manifest.fmt import lines, stripped
-from pico.manifest.layout import Entry, Layout
-from pico.manifest.tree import Document
+from pico.manifest.text.layout import Entry, Layout
+from pico.manifest.text.tree import Document
 
 _STATE = frozenset({"components"})
 Version = tuple[str, Sequence[Document]]

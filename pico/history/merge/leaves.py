@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.manifest.splice import write_flow
-from pico.manifest.tree import List, Map, Node, Scalar, plain
+from pico.manifest.text.splice import write_flow
+from pico.manifest.text.tree import List, Map, Node, Scalar, plain
 
 Path = tuple[str, ...]
 Groups = Mapping[str, tuple[tuple[str, ...], ...]]

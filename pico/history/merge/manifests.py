@@ -18,11 +18,11 @@ from pico.history.merge.leaves import Conflict, Coupled, Groups, Outcome, Path, 
 from pico.history.merge.lines import merge_lines
 from pico.history.merge.markers import OPEN, Labels, has_token, token, view, written
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
-from pico.manifest.layout import comments
-from pico.manifest.source import Source
-from pico.manifest.splice import Splice, apply_splices
-from pico.manifest.tree import Document, List, Map, Node, Scalar, parse
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.layout import comments
+from pico.manifest.text.source import Source
+from pico.manifest.text.splice import Splice, apply_splices
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar, parse
 
 _BOM = "\ufeff"
 

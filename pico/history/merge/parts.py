@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from pico.manifest.files import decode
-from pico.manifest.kinds import kind_of
-from pico.manifest.splice import Editor, Splice, apply_splices, write_flow
-from pico.manifest.tree import Document, Map, Scalar, parse, plain
+from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.splice import Editor, Splice, apply_splices, write_flow
+from pico.manifest.text.tree import Document, Map, Scalar, parse, plain
 
 _BOM = "\ufeff"
 _COMPONENTS = "components"

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 
 from pico.diagnostics import Diagnostic, error
-from pico.manifest.names import check_names, check_own_name
-from pico.manifest.places import where, where_key
-from pico.manifest.tree import Document
+from pico.manifest.text.names import check_names, check_own_name
+from pico.manifest.text.places import where, where_key
+from pico.manifest.text.tree import Document
 from pico.model.catalog import Body, ComponentType, Footprint, Tunable
 from pico.model.setpoint import refusal
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
-from pico.manifest.places import where, where_key
-from pico.manifest.tree import Document
+from pico.manifest.text.places import where, where_key
+from pico.manifest.text.tree import Document
 from pico.model.lab import Camera, Lab, Setup
 
 MARKERS = 1000

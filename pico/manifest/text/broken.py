@@ -7,7 +7,7 @@ import re
 import yaml
 
 from pico.diagnostics import Diagnostic, error
-from pico.manifest.source import Source
+from pico.manifest.text.source import Source
 
 # What libyaml's scanner and parser say, to what it means for somebody who edits a manifest.
 _MEANINGS: tuple[tuple[str, str, str], ...] = (

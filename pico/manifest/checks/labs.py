@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
-from pico.manifest.camera_checks import check_cameras, check_view
-from pico.manifest.names import check_names, check_own_name
-from pico.manifest.places import where, where_key
-from pico.manifest.tree import Document
+from pico.manifest.checks.cameras import check_cameras, check_view
+from pico.manifest.text.names import check_names, check_own_name
+from pico.manifest.text.places import where, where_key
+from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType
 from pico.model.lab import Fingers, Lab, Robot, Setup
 

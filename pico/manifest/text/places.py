@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pico.diagnostics import SourceRange
-from pico.manifest.tree import Document, List, Map, Node, last_leaf
+from pico.manifest.text.tree import Document, List, Map, Node, last_leaf
 
 
 def find(document: Document, *path: str | int) -> tuple[Node, Node] | None:

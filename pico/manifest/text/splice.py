@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pico.manifest.scalars import resolve
-from pico.manifest.tree import Document, List, Map, Node, Scalar
+from pico.manifest.text.scalars import resolve
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar
 
 _BARE = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 _BREAK = re.compile(r"\r\n|\n|\r")

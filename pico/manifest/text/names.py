@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 
 from pico.diagnostics import Diagnostic, error
-from pico.manifest.kinds import NAME, PATH_NAME
-from pico.manifest.places import find
-from pico.manifest.tree import Document, Map, Scalar
+from pico.manifest.text.kinds import NAME, PATH_NAME
+from pico.manifest.text.places import find
+from pico.manifest.text.tree import Document, Map, Scalar
 
 
 def name_problem(name: str, *, path: bool = False) -> str:

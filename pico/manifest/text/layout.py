@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from pico.manifest.tree import Document, List, Map, Node, Scalar
+from pico.manifest.text.tree import Document, List, Map, Node, Scalar
 
 WIDEST = 120
 """A flow collection that was on several lines is put on one where it stays within this width."""

@@ -6,8 +6,8 @@ import re
 from typing import Literal
 
 from pico.diagnostics import Diagnostic, did_you_mean, error
-from pico.manifest.source import Source
-from pico.manifest.tree import Document, Map, Node, Scalar
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Document, Map, Node, Scalar
 
 API = "pico/v1"
 Kind = Literal["Lab", "LabState", "ComponentType"]
