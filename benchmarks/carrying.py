@@ -25,7 +25,7 @@ from startup import measure, write_lab
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from pico.trace.run import read_runs, run_files  # noqa: E402
+from pico.runs.files import read_runs, run_files  # noqa: E402
 
 BAR = 1.0
 PICO = str(Path(sysconfig.get_path("scripts")) / "pico")

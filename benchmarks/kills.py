@@ -83,8 +83,8 @@ def repeated(folder: Path) -> list[str]:
     """Return the operations that began though what they were to bring about was so, by the journal."""
     from pico.backends.recovery import arrived
     from pico.history.folder import LabFolder
-    from pico.journal import Journal, operation_from_json
     from pico.model.pose import Pose
+    from pico.runs.journal import Journal, operation_from_json
 
     setup = LabFolder(folder).setup
     journal, found = Journal(folder / ".pico" / "journal.sqlite"), []
@@ -100,7 +100,7 @@ def repeated(folder: Path) -> list[str]:
 
 def moved(folder: Path, before: dict[str, object]) -> list[str]:
     """Return the parts that are elsewhere than `before` though the journal holds no start of an operation on them."""
-    from pico.journal import Journal
+    from pico.runs.journal import Journal
 
     journal = Journal(folder / ".pico" / "journal.sqlite")
     begun = {r.component for r in journal.records() if r.kind == "started"}
@@ -120,13 +120,6 @@ def places(folder: Path) -> dict[str, object]:
 def preload() -> None:
     """Load what a run needs, once, before processes are forked."""
     import mujoco  # noqa: F401
-
-    import pico.bench
-    import pico.execution
-    import pico.journal
-    import pico.motion.moves
-    import pico.motion.recheck
-    import pico.planning  # noqa: F401
 
 
 def applies(kills: int, fidelity: str) -> int:

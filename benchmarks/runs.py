@@ -159,7 +159,7 @@ def pairs(trials: int) -> int:
 
     from pico.backends.sim.session import Session
     from pico.bench import new_lab
-    from pico.journal import Journal
+    from pico.runs.journal import Journal
 
     tell = Session._tell
 
@@ -198,9 +198,9 @@ def journal_cost(operations: int) -> None:
     from killing import Table
 
     from pico.backends.attempt import Attempts
-    from pico.journal import Journal
     from pico.model.operation import Operation, Reason
     from pico.model.pose import Pose
+    from pico.runs.journal import Journal
 
     class Unwritten(CutJournal):
         """A journal that writes nothing."""

@@ -90,7 +90,7 @@ class Bench:
 
     def began(self) -> str:
         """Return the last run that began to move anything."""
-        from pico.journal import Journal
+        from pico.runs.journal import Journal
 
         journal = Journal(self.folder / ".pico" / "journal.sqlite")
         moving = journal.moving()

@@ -13,7 +13,6 @@ from typing import Literal
 
 from pico import recording
 from pico.diagnostics import PicoError, error
-from pico.evidence import changed_by, evidence, never_here, stands
 from pico.history.folder import LabFolder
 from pico.history.writing.contents import Contents, contents, nothing
 from pico.history.writing.message import default_message
@@ -25,6 +24,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
 from pico.model.state import LabState, home_state
 from pico.model.status import refuse_unapplied
+from pico.runs.evidence import changed_by, evidence, never_here, stands
 
 CommitMode = Literal["strict", "capture", "planned"]
 

@@ -17,8 +17,8 @@ from pico.planning.phrases import listed
 
 if TYPE_CHECKING:
     from pico.async_bench import AsyncBench
-    from pico.journal import Journal, RunRecord
     from pico.model.operation import Outcome
+    from pico.runs.journal import Journal, RunRecord
 
 
 async def resume_plan(bench: AsyncBench) -> tuple[Plan, str]:

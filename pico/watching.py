@@ -17,8 +17,8 @@ from pico.model.record import record
 
 if TYPE_CHECKING:
     from pico.async_bench import AsyncBench
-    from pico.journal import JournalRecord
     from pico.model.plan import Plan
+    from pico.runs.journal import JournalRecord
 
 Who = Literal["operation", "person", "unknown"]
 ALIKE = 0.3
@@ -228,7 +228,7 @@ def _as_left(setup: Setup, change: Change, part: ObservedComponent, after: Mappi
 
 def _records(bench: AsyncBench) -> Sequence[JournalRecord]:
     """Return what the journal knows; nothing where there is none, or it can't be read: looking must not fail for it."""
-    from pico.journal import Journal
+    from pico.runs.journal import Journal
 
     path = bench_folder(bench.root) / "journal.sqlite"
     if not path.exists():

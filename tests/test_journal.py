@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from pico.diagnostics import PicoError, error
-from pico.journal import Journal
 from pico.model.observation import ObservedComponent, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
+from pico.runs.journal import Journal
 
 MOVE = Operation(
     id="op1", primitive="move", component="p1", arguments={"to": {"pose": {"x": 1.0}}}, reason=Reason(kind="changed")

@@ -14,7 +14,7 @@ from ..session import Session
 from ..views import stopped as view
 
 if TYPE_CHECKING:
-    from pico.journal import RunRecord
+    from pico.runs.journal import RunRecord
 
 PATIENCE = 60.0
 """Seconds that are waited for the run to end."""
@@ -51,7 +51,7 @@ def stop(context: typer.Context, now: Now = False) -> int:
 
 def _last_run(root: Path) -> RunRecord | None:
     from pico.attachment import bench_folder
-    from pico.journal import Journal
+    from pico.runs.journal import Journal
 
     journal = Journal(bench_folder(root) / "journal.sqlite", looking=True)
     try:

@@ -16,7 +16,7 @@ _HASH = re.compile(r"[0-9a-f]{40,64}")
 
 if TYPE_CHECKING:
     from pico.recording.comparing import Comparison, Pair
-    from pico.trace.operations import OperationRun
+    from pico.runs.operations import OperationRun
 
 
 def text(found: Comparison) -> str:

@@ -14,7 +14,7 @@ from .style import columns, count, number, paint, place, seconds
 
 if TYPE_CHECKING:
     from pico.recording.loading import Loaded
-    from pico.trace.operations import OperationRun
+    from pico.runs.operations import OperationRun
 
 PROVES = {
     "kinematic": "kinematic: simulated, never hardware",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from pico.backends.lease import Holder
-from pico.journal import RunRecord
 from pico.model.record import as_json
+from pico.runs.journal import RunRecord
 
 
 def text(holder: Holder | None, run: RunRecord | None) -> str:

@@ -10,9 +10,9 @@ from collections.abc import Callable, Generator, Mapping
 from typing import Any, Protocol
 
 from pico.diagnostics import Diagnostic
-from pico.journal import Journal
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Outcome
+from pico.runs.journal import Journal
 
 Progress = Generator[float, None, Mapping[str, Any]]
 """Something in progress: yields the seconds until it wants to be resumed, returns the data of its result."""

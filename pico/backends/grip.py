@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from pico.journal import Journal
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.pose import Pose
+from pico.runs.journal import Journal
 
 SAME_WIDTH = 1.0
 """Pads that are this much wider or narrower apart than a part is wide do not hold it [mm]."""

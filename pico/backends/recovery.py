@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, error
-from pico.journal import Journal, Unsettled
 from pico.model.diff import deviation, value_distance
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Outcome
 from pico.model.pose import Pose
 from pico.model.record import record
+from pico.runs.journal import Journal, Unsettled
 
 BY_OBSERVATION = "observation"
 

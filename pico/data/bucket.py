@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pico.data.needs import Needs
 from pico.data.places import Heard, pieces
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 
 class Bucket:

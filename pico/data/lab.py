@@ -12,7 +12,7 @@ from pico.data.transfer import Holdings, Moved, Shared, holdings, pull, push
 from pico.data.upkeep import Checked, Garbage, check, garbage, remove
 from pico.diagnostics import PicoError, error
 from pico.history.repository import Repository
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 GRACE = 14 * 86400.0
 """Seconds for which what nothing needs is kept: a run that is recorded right now has no commit yet."""

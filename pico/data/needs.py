@@ -15,7 +15,7 @@ from pico.model.record import as_json, record
 
 _RUN = re.compile(r"(?:.*/)?runs/\d{4}/\d{2}/([^/]+)/run\.json")
 LARGEST = 16 << 20
-"""Bytes above which nothing is the document of a run; `pico.trace.read` is stricter."""
+"""Bytes above which nothing is the document of a run; `pico.runs.reading` is stricter."""
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 # What Git does not know: files of runs that were not committed yet, and the journal of a bench.
 _LOOSE = (":(glob)**/runs/*/*/*/run.json", ":(glob)**/.pico/journal.sqlite")
@@ -82,7 +82,7 @@ def _committed(repository: Repository, revisions: tuple[str, ...]) -> Iterator[t
 def _needed_by(run: str, document: bytes) -> tuple[Need, ...]:
     """Return what a run needs as its document says; nothing where that is no document of a run.
 
-    Read more generously than `pico.trace.read` does: what the run of a newer PICO needs must be kept, too.
+    Read more generously than `pico.runs.reading` does: what the run of a newer PICO needs must be kept, too.
     """
     try:
         artifacts = json.loads(document).get("artifacts", ())

@@ -11,7 +11,7 @@ from pico.diagnostics import PicoError, error
 from pico.disk import beside, replace_whole, writing
 from pico.history import git
 from pico.history.repository import Repository
-from pico.trace.store import CHUNK, Store
+from pico.runs.store import CHUNK, Store
 
 SETTING = "pico.data.remote"
 """What `git config` calls the place; local, for a repository must not say where somebody's data goes."""

@@ -11,9 +11,9 @@ from pico.disk import disk_trouble, write_whole
 from pico.history.repository import Repository
 from pico.model.record import record
 from pico.model.run import RunDocument
-from pico.trace.artifacts import artifact_paths
-from pico.trace.run import read_runs
-from pico.trace.store import Store
+from pico.runs.artifacts import artifact_paths
+from pico.runs.files import read_runs
+from pico.runs.store import Store
 
 ATTRIBUTES = "runs/**/artifacts/** filter=lfs diff=lfs merge=lfs -text"
 """What `.gitattributes` must say, so that git-lfs puts the data in the place of pointers where it is installed."""

@@ -9,7 +9,7 @@ from pico.data.needs import Need, Needs
 from pico.data.places import Heard, Place
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.record import record
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 Shared = Callable[[float], None]
 """Is told which share of the bytes is through, 0 to 1."""

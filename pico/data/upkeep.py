@@ -5,7 +5,7 @@ from __future__ import annotations
 from pico.data.needs import Need, Needs
 from pico.data.transfer import Shared
 from pico.model.record import record
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 
 @record

@@ -10,10 +10,10 @@ from pico.backends.protocol import Backend
 from pico.execution.about import about_run
 from pico.execution.checks import require_allowed, require_applicable, require_current
 from pico.execution.walk import Walk
-from pico.journal import Journal
 from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.plan import Plan
+from pico.runs.journal import Journal
 
 
 async def run(

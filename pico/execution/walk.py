@@ -11,11 +11,11 @@ from typing import Any
 from pico.backends.protocol import Backend, Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.execution.executor import Dispatch, Executor
-from pico.journal import Journal, RunOutcome
 from pico.model.event import Event, EventKind
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Plan
 from pico.model.record import as_json
+from pico.runs.journal import Journal, RunOutcome
 
 
 class Walk:

@@ -13,7 +13,6 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.execution.about import seen_after
 from pico.execution.result import RunResult
 from pico.execution.run import run
-from pico.journal import Journal
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of, uncertain
 from pico.model.event import Event
@@ -23,6 +22,7 @@ from pico.model.observation import Observation, ObservedComponent
 from pico.model.plan import Plan
 from pico.model.report import RunReport
 from pico.model.state import place_of, state_from_json
+from pico.runs.journal import Journal
 
 
 class AsyncRun:

@@ -18,7 +18,7 @@ from pico.history.blame.cache import Cache
 from pico.history.commit import Commit
 from pico.history.repository import Repository
 from pico.model.run import RunDocument
-from pico.trace.read import read_document
+from pico.runs.reading import read_document
 
 _PLACE = re.compile(r"\d{4}/\d{2}/")
 CACHE = "pico/runs.sqlite"

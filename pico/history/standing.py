@@ -19,7 +19,7 @@ from pico.history.runs import CACHE, CarriedRun, files_at, places_in_history, re
 from pico.history.writing import trailers
 from pico.model.proof import Standing, Verdict
 from pico.model.run import STRENGTH, RunDocument
-from pico.trace.run import intact
+from pico.runs.files import intact
 
 
 @dataclass(frozen=True)

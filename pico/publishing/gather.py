@@ -16,7 +16,7 @@ from pico.model.state import LabState, home_state
 from pico.publishing.computed import pictures_of, plan_between, states, types
 from pico.publishing.parts import File, Revision, file
 from pico.publishing.run_files import chosen_runs, published_runs
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 _BESIDE = re.compile(r"(?:README|LICEN[SC]E|COPYING|CITATION)(?:\.[a-z]+)?|calibration\.json|notes/[^/]+\.md")
 _LICENSE = re.compile(r"lab/(?:LICEN[SC]E|COPYING)(?:\.[a-z]+)?")

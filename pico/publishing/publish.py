@@ -12,7 +12,7 @@ from pico.publishing import crate
 from pico.publishing.gather import gather
 from pico.publishing.parts import File, Revision, file
 from pico.publishing.write import write
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 
 @record

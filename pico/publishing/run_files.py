@@ -11,9 +11,9 @@ from pico.history.folder import LabFolder
 from pico.history.runs import CarriedRun, files_at, runs_added, runs_at
 from pico.model.run import Artifact, RunDocument
 from pico.publishing.parts import File, PublishedRun, file
-from pico.trace.artifacts import artifact_paths
-from pico.trace.run import intact, run_folder
-from pico.trace.store import Store, missing
+from pico.runs.artifacts import artifact_paths
+from pico.runs.files import intact, run_folder
+from pico.runs.store import Store, missing
 
 _SAID = {"run.json": "what the run was", "trace.jsonl": "what it did", "measurements.jsonl": "what it measured"}
 

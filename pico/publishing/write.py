@@ -13,7 +13,7 @@ from typing import BinaryIO
 from pico.diagnostics import PicoError, error
 from pico.disk import writing
 from pico.publishing.parts import File
-from pico.trace.store import CHUNK, Store
+from pico.runs.store import CHUNK, Store
 
 
 def write(files: Iterable[File], store: Store, out: Path, moment: datetime) -> None:

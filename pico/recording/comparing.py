@@ -12,8 +12,8 @@ from pico.model.record import as_json, record
 from pico.model.run import RunDocument
 from pico.model.state import LabState
 from pico.recording.loading import Loaded
-from pico.recording.states import changes, state_seen
-from pico.trace.operations import OperationRun
+from pico.runs.operations import OperationRun
+from pico.runs.states import changes, state_seen
 
 
 @record

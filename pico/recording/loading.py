@@ -11,12 +11,12 @@ from pico.history.folder import LabFolder
 from pico.history.runs import RunPlace, files_at, places_in_history, read_carried, read_place
 from pico.model.record import record
 from pico.model.run import Artifact, RunDocument, TraceEvent
-from pico.recording.document import Recorded
 from pico.recording.uncommitted import unrecorded
-from pico.trace.operations import OperationRun, operations
-from pico.trace.read import read_events
-from pico.trace.run import MEASUREMENTS, TRACE, intact, run_folder
-from pico.trace.store import Store
+from pico.runs.document import Recorded
+from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
+from pico.runs.operations import OperationRun, operations
+from pico.runs.reading import read_events
+from pico.runs.store import Store
 
 LARGEST = 256 << 20
 """Bytes above which no packed file of a run is unpacked."""

@@ -17,14 +17,14 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.history.folder import LabFolder
 from pico.history.runs import find_runs, read_place
 from pico.history.standing import Standings
-from pico.journal import Journal, RunRecord
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.proof import Standing
 from pico.model.run import RunDocument
 from pico.model.state import LabState
-from pico.recording.document import Kept, Recorded, afterwards, read_plan, recorded
-from pico.trace.run import Keep, run_files
+from pico.runs.document import Kept, Recorded, afterwards, read_plan, recorded
+from pico.runs.files import Keep, run_files
+from pico.runs.journal import Journal, RunRecord
 
 
 def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
@@ -127,7 +127,7 @@ def _committed(folder: LabFolder, run: Recorded, seen: Observation, state: LabSt
 
 def _keep(folder: LabFolder) -> Keep | None:
     """Return what takes large data: the store that all worktrees of the repository share."""
-    from pico.trace.store import Store
+    from pico.runs.store import Store
 
     return Store(folder.repository.common / "pico" / "cas").put if folder.repository else None
 

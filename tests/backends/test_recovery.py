@@ -11,10 +11,10 @@ from benches import shel
 
 from pico.backends.recovery import open_questions, settle, verdict
 from pico.diagnostics import ExitCode, PicoError
-from pico.journal import Journal
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, Reason
 from pico.model.pose import Pose
+from pico.runs.journal import Journal
 
 SETUP, _ = shel("gantry")
 HERE, THERE = {"pose": {"x": 300, "y": 420, "yaw": 0}}, {"pose": {"x": 520, "y": 420, "yaw": 0}}

@@ -167,7 +167,7 @@ def test_on_a_terminal_git_shows_its_progress_itself(shel: Path, origin: Path) -
 def test_runs_and_their_data_go_through_a_bare_repository_and_survive_rebase_and_squash(
     shel: Path, origin: Path, share: Path, tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("pico.trace.run.INLINE", 1000)  # bytes: every trace is large then
+    monkeypatch.setattr("pico.runs.files.INLINE", 1000)  # bytes: every trace is large then
     git("switch", "-q", "-c", "work")
     assert pico("apply", "--auto-approve").code == 0
     assert pico("set", "p1", "angle=12").code == 0

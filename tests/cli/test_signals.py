@@ -19,8 +19,8 @@ from test_stopping_commands import PROGRAM, moving, started
 from pico.async_bench import AsyncBench
 from pico.bench import Bench
 from pico.execution.attending import attend
-from pico.journal import Journal
 from pico.model.event import Event
+from pico.runs.journal import Journal
 
 APPLY = ("apply", "e1", "--auto-approve")
 SCRIPT = PROGRAM.replace("from pico_cli.main import main\nsys.exit(main(sys.argv[1:]))", "import pico\n") + (

@@ -14,7 +14,7 @@ import pytest
 from commanding import Pico
 
 from pico.bench import Bench
-from pico.journal import Journal
+from pico.runs.journal import Journal
 
 PROGRAM = """
 import sys, time

@@ -26,13 +26,13 @@ from pico.backends.protocol import Capabilities, Lease
 from pico.backends.recovery import settle
 from pico.diagnostics import PicoError
 from pico.execution import run
-from pico.journal import Journal
 from pico.model.event import Event
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Base, LabRef, Plan
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.runs.journal import Journal
 
 DIGEST = SETUP.digest()
 WRONG = 3

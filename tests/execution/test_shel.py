@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from benches import apply, changed, plan_to, shel, sim
 
-from pico.journal import Journal
 from pico.model.diff import diff_observed
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.model.state import LabState, place_of
+from pico.runs.journal import Journal
 
 TILTED = {"p2": {"pose": Pose(520, 420, 30)}, "p1": {"values": {"angle": 1.0}}}
 

@@ -34,7 +34,7 @@ from pico.model.lab import Setup
 from pico.model.plan import LabRef
 from pico.model.run import Cause, RunDocument
 from pico.model.state import LabState, place_of
-from pico.trace.run import run_files
+from pico.runs.files import run_files
 
 Git = Any
 HEAD = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: t}\ncomponents:\n"

@@ -28,9 +28,9 @@ from pico.history.example import make_example
 from pico.history.folder import LabFolder
 from pico.history.repository import Repository
 from pico.history.runs import runs_added, runs_at
-from pico.journal import Journal
 from pico.model.run import RunDocument
 from pico.recording.loading import load_run
+from pico.runs.journal import Journal
 
 
 @pytest.fixture(scope="module")
@@ -328,7 +328,7 @@ def test_a_commit_that_leaves_the_state_alone_is_as_proven_as_before(lab: Path) 
 def test_a_simulation_never_counts_as_hardware_and_hardware_counts_more(lab: Path) -> None:
     from dataclasses import replace
 
-    from pico.trace.run import run_files
+    from pico.runs.files import run_files
 
     run, _ = turned(lab, "p1", 5)
     assert (standing(lab).evidence, standing(lab).simulated) == ("kinematic", True)
@@ -430,7 +430,7 @@ def test_a_run_that_moved_nothing_is_not_carried(lab: Path) -> None:
 
 
 def test_what_is_too_big_for_a_commit_goes_to_the_content_store(lab: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pico.trace.run.INLINE", 500)
+    monkeypatch.setattr("pico.runs.files.INLINE", 500)
     run, _ = turned(lab, "p1", 5)
     assert [Path(path).name for path in files_of(lab, run)] == ["run.json"]
     found = load_run(LabFolder(lab), run)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pico.model.run import TraceEvent
-from pico.trace.operations import operations
+from pico.runs.operations import operations
 
 
 def event(kind: str, t: float, data: dict[str, Any], attempt: int = 1, operation: str = "op1") -> TraceEvent:

@@ -14,8 +14,8 @@ from run_documents import DOCUMENTS, EVENTS, run_document
 
 from pico.diagnostics import Diagnostic
 from pico.model.run import RunDocument, TraceEvent
-from pico.trace.read import read_events
-from pico.trace.run import INLINE, intact, read_runs, run_files, run_folder
+from pico.runs.files import INLINE, intact, read_runs, run_files, run_folder
+from pico.runs.reading import read_events
 
 FOLDER = "runs/2026/11/20261121T101155Z-af9bba"
 

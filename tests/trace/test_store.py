@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
-from pico.trace.store import Store
+from pico.runs.store import Store
 
 
 def sha(data: bytes) -> str:
@@ -158,7 +158,7 @@ def test_many_writers_and_a_remover_at_once_never_leave_half_an_object(tmp_path:
 _WRITER = """
 import os, sys
 from pathlib import Path
-from pico.trace.store import Store
+from pico.runs.store import Store
 store, number = Store(Path(sys.argv[1])), 0
 while True:
     store.put(b"%d" % number * 20_000)

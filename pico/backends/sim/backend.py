@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.session import Session
     from pico.backends.sim.world import World
-    from pico.journal import Journal
+    from pico.runs.journal import Journal
     from pico.twin.snapshot import Snapshot
 
 PRIMITIVES: frozenset[Primitive] = frozenset({"move", "stow", "set", "home", "park"})
@@ -80,7 +80,7 @@ class SimBackend:
     def journal(self) -> Journal:
         """The journal of the bench, opened when it is first needed; raises PicoError."""
         if self._journal is None:
-            from pico.journal import Journal
+            from pico.runs.journal import Journal
 
             self._journal = Journal(bench_folder(self.root) / "journal.sqlite", self._clock)
         return self._journal

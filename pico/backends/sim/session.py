@@ -22,7 +22,6 @@ from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World, observe
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.journal import Journal, run_of
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent, ObservedValue, slot_at
@@ -33,6 +32,7 @@ from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.motion.types import Blocked, Joints, Motion, MovePath
 from pico.motion.zones import enters, shared_zones
+from pico.runs.journal import Journal, run_of
 from pico.twin.snapshot import Snapshot
 
 PROGRESS = 0.25

@@ -100,7 +100,7 @@ class Walker:
         return found
 
     def _brief(self, path: str, name: str) -> RunBrief | None:
-        from pico.trace.read import read_document
+        from pico.runs.reading import read_document
 
         document = read_document(path, self._content(name), PurePosixPath(path).parent.name)
         return brief_of(document) if isinstance(document, RunDocument) else None

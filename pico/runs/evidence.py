@@ -15,7 +15,6 @@ from datetime import datetime
 from pathlib import Path
 
 from pico.attachment import bench_folder
-from pico.journal import Journal
 from pico.model.diff import deviation, diff_observed, value_deviation
 from pico.model.drift import drift_of
 from pico.model.lab import Setup
@@ -23,6 +22,7 @@ from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, place_of
+from pico.runs.journal import Journal
 
 Tunables = Collection[tuple[str, str]]
 """Tunables by component and name; `pose` for where it stands."""

@@ -16,7 +16,7 @@ from pathlib import PurePosixPath
 from pico.diagnostics import Diagnostic, warning
 from pico.model.record import canonical
 from pico.model.run import Artifact, FileRef, RunDocument, TraceEvent
-from pico.trace.read import read_document
+from pico.runs.reading import read_document
 
 DOCUMENT, TRACE, MEASUREMENTS = "run.json", "trace.jsonl", "measurements.jsonl"
 INLINE = 64 << 10

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from pico.model.run import Artifact, RunDocument
-from pico.trace.run import run_folder
+from pico.runs.files import run_folder
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 

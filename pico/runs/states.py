@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from pico.journal import JournalRecord, observed_from_json
 from pico.model.diff import (
     Change,
     describe_move,
@@ -20,6 +19,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, live_state, slot_at
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState, place_of
+from pico.runs.journal import JournalRecord, observed_from_json
 
 
 def state_seen(setup: Setup, components: Mapping[str, Any]) -> LabState:

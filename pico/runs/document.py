@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.journal import JournalRecord, RunRecord
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
@@ -15,8 +14,9 @@ from pico.model.plan import LabRef
 from pico.model.record import digest
 from pico.model.run import STRENGTH, Cause, Evidence, RunDocument, RunEnd, Seen, TraceEvent
 from pico.model.state import LabState, state_from_json
-from pico.recording.states import changes, digest_of, state_left, state_seen, touched
-from pico.recording.trace import busy, measured, tally, trace_events
+from pico.runs.journal import JournalRecord, RunRecord
+from pico.runs.states import changes, digest_of, state_left, state_seen, touched
+from pico.runs.trace import busy, measured, tally, trace_events
 
 ASKED = ("asked", "parked", "interlock", "held")
 

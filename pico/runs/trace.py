@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pico.journal import JournalRecord
 from pico.model.run import TraceEvent
-from pico.trace.run import numbered
+from pico.runs.files import numbered
+from pico.runs.journal import JournalRecord
 
 ENDS = ("done", "failed", "unknown")
 
