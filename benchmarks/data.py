@@ -69,7 +69,7 @@ def timed(what: str, size: float, work: Callable[[], Any]) -> Any:
 
 def walked(folder: Path, commits: int) -> None:
     """Print how long it takes to tell what a long history needs."""
-    from pico.data.lab import LabData
+    from pico.history.data.lab import LabData
 
     history(folder, [[b"%d" % n] for n in range(commits)], [f"run-{n:06d}" for n in range(commits)])
     data = LabData.discover(folder)
@@ -79,7 +79,7 @@ def walked(folder: Path, commits: int) -> None:
 
 def moved(top: Path, objects: int, size: float) -> None:
     """Print how fast objects go to a folder and come back."""
-    from pico.data.lab import LabData
+    from pico.history.data.lab import LabData
 
     contents = [random.Random(n).randbytes(int(size * MEGABYTE)) for n in range(objects)]
     lab, clone, share, total = top / "lab", top / "clone", top / "share", objects * size
@@ -104,7 +104,7 @@ def moved(top: Path, objects: int, size: float) -> None:
 
 def killed(top: Path, kills: int) -> int:
     """Kill pushes at random instants and return how often something was wrong afterwards."""
-    from pico.data.lab import LabData
+    from pico.history.data.lab import LabData
     from pico.runs.store import Store
 
     draw, wrong = random.Random(1), 0
@@ -114,7 +114,7 @@ def killed(top: Path, kills: int) -> int:
     data = LabData.discover(lab)
     for content in contents:
         data.store.put(content)
-    code = "import sys; from pico.data.lab import LabData; from pathlib import Path; print();"
+    code = "import sys; from pico.history.data.lab import LabData; from pathlib import Path; print();"
     code += "sys.stdout.flush(); LabData.discover(Path(sys.argv[1])).push(sys.argv[2])"
     for number in range(kills):
         share = top / f"share-{number}"

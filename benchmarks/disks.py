@@ -157,7 +157,7 @@ def held(bench: Judge, lab: Path) -> None:
 
 def data_lab(bench: Any, lab: Path) -> None:
     """Let a commit carry a run with data."""
-    from pico.data.lab import LabData
+    from pico.history.data.lab import LabData
 
     for words in RUN:
         bench.do(words)
@@ -260,8 +260,8 @@ class Judge:
 
     def prepare(self, case: Case) -> Path:
         """Make the lab that a command works in, and return what was kept of the whole area."""
-        from pico.history.attributes import install
-        from pico.history.example import make_example
+        from pico.history.examples.example import make_example
+        from pico.history.git.attributes import install
 
         shutil.rmtree(self.area, ignore_errors=True)
         self.area.mkdir()

@@ -73,8 +73,8 @@ def said(folder: Path, *words: str) -> str:
 
 def make_origin(folder: Path) -> Path:
     """Write the repository that trials copy: branches `ours` (checked out), `theirs`, and `ahead` of ours."""
-    from pico.history.attributes import install
-    from pico.history.example import make_example
+    from pico.history.examples.example import make_example
+    from pico.history.git.attributes import install
 
     root = make_example("shel", folder).root
     install(root)

@@ -82,7 +82,7 @@ def command(folder: Path, *words: str, kill_after: float = 0.0) -> int | None:
 def repeated(folder: Path) -> list[str]:
     """Return the operations that began though what they were to bring about was so, by the journal."""
     from pico.backends.recovery import arrived
-    from pico.history.folder import LabFolder
+    from pico.history.lab.folder import LabFolder
     from pico.model.pose import Pose
     from pico.runs.journal import Journal, operation_from_json
 
@@ -111,7 +111,7 @@ def moved(folder: Path, before: dict[str, object]) -> list[str]:
 def places(folder: Path) -> dict[str, object]:
     """Return where the parts of the simulated bench are."""
     from pico.backends.sim.store import load_world
-    from pico.history.folder import LabFolder
+    from pico.history.lab.folder import LabFolder
 
     world, _ = load_world(LabFolder(folder).setup, folder)
     return {n: (body.presence, body.pose) for n, body in world.components.items()}
@@ -124,7 +124,7 @@ def preload() -> None:
 
 def applies(kills: int, fidelity: str) -> int:
     """Kill whole commands; return how many were wrong."""
-    from pico.history.example import make_example
+    from pico.history.examples.example import make_example
 
     preload()
     draw, count = random.Random(1), Counter[str]()

@@ -23,7 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from pico.history.example import make_example  # noqa: E402
+from pico.history.examples.example import make_example  # noqa: E402
 from pico.manifest.load import load_files, load_folder  # noqa: E402
 from pico.model.lab import Setup  # noqa: E402
 from pico.model.observation import Observation, ObservedComponent, ObservedValue  # noqa: E402

@@ -30,14 +30,14 @@ from merging_cases import Case, case, faults, losses  # noqa: E402
 from moving_cases import Files, Moved, mistakes, moved_case, stated  # noqa: E402
 
 from pico.diagnostics import ExitCode, PicoError  # noqa: E402
-from pico.history.attributes import GITATTRIBUTES, command, install  # noqa: E402
-from pico.history.example import make_example  # noqa: E402
-from pico.history.folder import LabFolder  # noqa: E402
+from pico.history.examples.example import make_example  # noqa: E402
+from pico.history.git.attributes import GITATTRIBUTES, command, install  # noqa: E402
+from pico.history.lab.folder import LabFolder  # noqa: E402
 from pico.history.merge.doubts import unsettled  # noqa: E402
 from pico.history.merge.manifests import merge  # noqa: E402
 from pico.history.merge.markers import Labels  # noqa: E402
 from pico.history.merge.trees import contents, opened, unite_commits  # noqa: E402
-from pico.history.repository import Repository  # noqa: E402
+from pico.history.repository.repository import Repository  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 
 AUTHOR, TIME = ("A Physicist", "physicist@localhost"), datetime(2026, 1, 5, tzinfo=UTC)
@@ -274,7 +274,7 @@ def impossible(folder: Path, count: int) -> int:
     `pico check` let through, or refused without naming both."""
     from pico.bench import Bench
     from pico.checking import check
-    from pico.merging import merge as merge_checked
+    from pico.history.merge.checked import merge as merge_checked
 
     root = make_example("shel", folder / "shel").root
     rng, through, git, commanded = random.Random(1), 0, ["git", "-C", str(root)], 0
@@ -330,7 +330,7 @@ Place = tuple[str, tuple[float, float]]
 
 def _two_places(root: Path, rng: random.Random) -> tuple[Place, Place]:
     """Return two parts, each with a free place on the beam, that have no room beside each other."""
-    from pico.merging import overlapping
+    from pico.history.merge.checked import overlapping
 
     while True:
         a, b = rng.sample(("p1", "p2", "lx_100", "lx_125", "ly_150", "ly_200"), 2)

@@ -56,7 +56,7 @@ class Bench:
 
     @cached_property
     def setup(self) -> Setup:
-        from pico.history.folder import LabFolder
+        from pico.history.lab.folder import LabFolder
 
         return LabFolder(self.folder).setup
 
@@ -278,7 +278,7 @@ def cycles(bench: Bench, wanted: int, held: int, keep: Path | None = None) -> in
 
 def main() -> int:
     """Undo."""
-    from pico.history.example import make_example
+    from pico.history.examples.example import make_example
 
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cycles", type=int, default=500)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
-from pico.history import git
+from pico.history.git import command as git
 
 if TYPE_CHECKING:
     from pico.bench import Bench

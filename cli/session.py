@@ -69,7 +69,7 @@ class Session:
 
     def wire(self, folder: Path) -> None:
         """Let git merge the manifests by PICO where the repository asks for it; said once."""
-        from pico.history.attributes import wire
+        from pico.history.git.attributes import wire
 
         if wire(folder):
             from .views.wired import SET

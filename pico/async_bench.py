@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.drawings import Drawings
 from pico.execution.watched import AsyncRun
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
 from pico.model.address import read_addresses
 from pico.model.diff import Change
 from pico.model.drift import drift_of
@@ -28,7 +28,7 @@ from pico.vision.calibration import calibration_digest
 if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
-    from pico.history.taken import Taken
+    from pico.history.restoring.selected import Taken
     from pico.manifest.load import Manifests
     from pico.model.state import LabState
     from pico.planning.explain import Explanation
@@ -168,7 +168,7 @@ class AsyncBench(Drawings):
         return self.judged(found, seen)
 
     def _goal(self, manifests: Manifests, revision: str | None, targets: Collection[str]) -> LabState:
-        from pico.history.taken import state_for
+        from pico.history.restoring.selected import state_for
 
         return state_for(self.folder, manifests, revision, targets) if revision and targets else manifests.require()[1]
 
@@ -332,7 +332,7 @@ class AsyncBench(Drawings):
     async def verify(self, revision: str | None = None) -> Verified:
         """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
         whether any bench ever stood as that commit (HEAD for the manifest) says."""
-        from pico import recording
+        from pico.history import runs as recording
         from pico.policy.expectations import check_expectations
 
         wanted = self.state_at(revision) if revision else self.state
@@ -384,7 +384,7 @@ class AsyncBench(Drawings):
         from pico.committing import Asked, commit
 
         if mode == "planned":
-            from pico.merging import overlapping
+            from pico.history.merge.checked import overlapping
 
             if found := overlapping(self.folder.manifests):
                 raise PicoError(found, ExitCode.IMPOSSIBLE)

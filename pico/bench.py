@@ -26,18 +26,18 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
     from pico.bisecting import Bisection
-    from pico.data.lab import LabData
-    from pico.history.carry import Carried
+    from pico.history.data.lab import LabData
     from pico.history.merge.commits import MergeMade
-    from pico.history.stash import Stash
-    from pico.history.taken import Taken
+    from pico.history.restoring.selected import Taken
+    from pico.history.restoring.stash import Stash
+    from pico.history.restoring.transplant import Carried
+    from pico.history.runs.comparing import Comparison
+    from pico.history.runs.listing import Listed
+    from pico.history.runs.loading import Loaded
     from pico.imports import Imported
     from pico.planning.explain import Explanation
     from pico.planning.request import Preference
     from pico.publishing import Published
-    from pico.recording.comparing import Comparison
-    from pico.recording.listing import Listed
-    from pico.recording.loading import Loaded
     from pico.twin.film import Caption
     from pico.twin.picture import Image, View
     from pico.twin.ruler import Measured
@@ -142,8 +142,8 @@ class Bench(Reader):
         return self._bench.explain(plan, component)
 
     def taken(self, revision: str, names: Sequence[str]) -> Taken:
-        """Return what the manifests must say for parts of a state to be as in a revision; see `pico.restoring`."""
-        from pico import restoring
+        """Return what the manifests must say for parts of a state to be as in a revision; see `restoring.checked`."""
+        from pico.history.restoring import checked as restoring
 
         return restoring.take(self.folder, revision, names)
 
@@ -164,20 +164,20 @@ class Bench(Reader):
         return self._thread.wait(self._bench.place(component, after=after, distance=distance))
 
     def runs(self, revision: str | None = None, **options: Any) -> tuple[Listed, ...]:
-        """Return the runs that commits carry, and those that none has yet; see `pico.recording.listing.list_runs`."""
-        from pico.recording.listing import list_runs
+        """Return the runs that commits carry, and those that none has yet; see `runs.listing.list_runs`."""
+        from pico.history.runs.listing import list_runs
 
         return list_runs(self.folder, revision, **options)
 
     def recorded_run(self, word: str | None = None) -> Loaded:
-        """Return a run by the beginning of its id, the last one for None; see `pico.recording.loading.load_run`."""
-        from pico.recording.loading import load_run
+        """Return a run by the beginning of its id, the last one for None; see `pico.history.runs.loading.load_run`."""
+        from pico.history.runs.loading import load_run
 
         return load_run(self.folder, word)
 
     def compare_runs(self, a: str, b: str) -> Comparison:
-        """Return two runs side by side; see `pico.recording.comparing`."""
-        from pico.recording.comparing import compare_runs
+        """Return two runs side by side; see `pico.history.runs.comparing`."""
+        from pico.history.runs.comparing import compare_runs
 
         return compare_runs(self.setup, self.recorded_run(a), self.recorded_run(b))
 
@@ -301,15 +301,15 @@ class Bench(Reader):
         return bisecting.under_way(self, **options)
 
     def merge(self, revision: str, message: str = "") -> MergeMade:
-        """Merge a revision into what is checked out, where the result can stand on the table; see `pico.merging`."""
-        from pico.merging import merge
+        """Merge a revision into what is checked out, where the result can stand on the table; see `merge.checked`."""
+        from pico.history.merge.checked import merge
 
         return merge(self.folder, revision, message)
 
     @property
     def data(self) -> LabData:
-        """The large data of the lab's runs: what is needed, here and where copies are kept; see `pico.data.lab`."""
-        from pico.data.lab import LabData
+        """The large data of the lab's runs: what is needed, here and where copies are kept; see `history.data.lab`."""
+        from pico.history.data.lab import LabData
 
         return LabData(self.folder.history())
 
@@ -320,23 +320,23 @@ class Bench(Reader):
         return publish(self.folder, revision, out, **options)
 
     def revert(self, revision: str, message: str = "", *, mainline: int | None = None, commit: bool = True) -> Carried:
-        """Take back what a revision changed, in the manifests; see `pico.restoring`."""
-        from pico import restoring
+        """Take back what a revision changed, in the manifests; see `pico.history.restoring.checked`."""
+        from pico.history.restoring import checked as restoring
 
         return restoring.revert(self.folder, revision, message=message, mainline=mainline, commit=commit)
 
     def cherry_pick(
         self, revisions: Sequence[str], *, mainline: int | None = None, commit: bool = True
     ) -> tuple[Carried, ...]:
-        """Do once more what revisions changed, in the manifests; see `pico.restoring`."""
-        from pico import restoring
+        """Do once more what revisions changed, in the manifests; see `pico.history.restoring.checked`."""
+        from pico.history.restoring import checked as restoring
 
         return restoring.cherry_pick(self.folder, revisions, mainline=mainline, commit=commit)
 
     @property
     def stash(self) -> Stash:
-        """The stash of the repository: edits of the manifests that are shelved; see `pico.history.stash`."""
-        from pico.history.stash import Stash
+        """The stash of the repository: edits of the manifests that are shelved; see `pico.history.restoring.stash`."""
+        from pico.history.restoring.stash import Stash
 
         return Stash(self.folder)
 
@@ -381,7 +381,7 @@ def new_lab(folder: Path, example: str | None = None) -> tuple[Diagnostic, ...]:
 
     Returns what is worth knowing: an example is a repository of its own, also inside another one.
     """
-    from pico.history.example import init_empty, make_example, nested
+    from pico.history.examples.example import init_empty, make_example, nested
 
     if example is None:
         init_empty(folder)

@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Literal
 
-from pico import recording
 from pico.diagnostics import PicoError, error
-from pico.history.folder import LabFolder
-from pico.history.writing.contents import Contents, contents, nothing
-from pico.history.writing.message import default_message
-from pico.history.writing.trailers import EVIDENCE, LAB, STATE, require_meta, values
+from pico.history import runs as recording
+from pico.history.lab.contents import Contents, contents, nothing
+from pico.history.lab.folder import LabFolder
+from pico.history.messages.default import default_message
+from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
 from pico.history.writing.underway import message_of, require_resolved
 from pico.model.address import Named, read_addresses
 from pico.model.diff import Change, diff_states

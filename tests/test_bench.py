@@ -11,7 +11,7 @@ import pytest
 import pico
 from pico.bench import AsyncBench, Bench
 from pico.diagnostics import ExitCode, PicoError
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 from pico.model.plan import plan_from_json
 from pico.model.pose import Pose
 

@@ -16,7 +16,7 @@ import pytest
 import yaml
 from pico_cli.app import build
 
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 
 ROOT = Path(__file__).resolve().parent.parent
 CI = ROOT / "examples" / "ci"

@@ -13,7 +13,7 @@ import pico
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
 from pico.bench import Bench
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 from pico.pictures import goals, marks, places
 from pico.twin.marks import Mark
 

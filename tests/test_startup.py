@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 
 HEAVY = (
     "rich", "pydantic", "numpy", "mujoco", "cv2", "networkx", "pygit2", "scipy", "typer", "yaml", "pint", "asyncio",

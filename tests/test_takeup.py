@@ -10,7 +10,7 @@ import pytest
 
 from pico.bench import Bench
 from pico.diagnostics import PicoError
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 from pico.model.plan import plan_from_json
 from pico.model.pose import Pose
 from pico.runs.journal import Journal

@@ -18,7 +18,7 @@ from ..views import taken as taken_view
 
 if TYPE_CHECKING:
     from pico.bench import Bench
-    from pico.history.taken import Taken
+    from pico.history.restoring.selected import Taken
     from pico.model.plan import Plan
 
 FilesOnly = Annotated[bool, typer.Option("--files-only", help="Only the files; the bench stays as it is.")]

@@ -57,7 +57,7 @@ def commit(
 
 def _recorded(meta: list[str]) -> dict[str, str]:
     """Return what `--meta` gave; raises PicoError for what can't be recorded, before anything else happens."""
-    from pico.history.writing.trailers import require_meta
+    from pico.history.messages.trailers import require_meta
 
     for word in meta:
         if "=" not in word:

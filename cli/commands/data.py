@@ -16,8 +16,8 @@ from ..views import data as view
 from ..waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.data.lab import LabData
-    from pico.data.transfer import Moved, Shared
+    from pico.history.data.lab import LabData
+    from pico.history.data.transfer import Moved, Shared
 
 app = typer.Typer(
     rich_markup_mode=None,
@@ -108,7 +108,7 @@ def pointers(
 
 
 def _data(session: Session) -> LabData:
-    from pico.data.lab import LabData
+    from pico.history.data.lab import LabData
 
     return LabData.discover(session.folder)
 

@@ -12,8 +12,8 @@ from ..views import doctor as view
 
 def doctor(context: typer.Context) -> int:
     """Check that git, its merge driver and the manifests are as PICO needs them."""
-    from pico.history.attributes import checkup
-    from pico.history.withheld import withheld
+    from pico.history.git.attributes import checkup
+    from pico.history.lab.withheld import withheld
     from pico.manifest.folders import check_folder
 
     session = Session.of(context)

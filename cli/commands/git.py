@@ -16,7 +16,7 @@ app = typer.Typer(
 @app.command()
 def install(context: typer.Context) -> int:
     """Tell git about PICO's merge driver, in this repository only. The first command in a lab does that by itself."""
-    from pico.history.attributes import install
+    from pico.history.git.attributes import install
 
     session = Session.of(context)
     install(session.folder)
@@ -41,7 +41,7 @@ def attach(context: typer.Context) -> int:
 @app.command()
 def uninstall(context: typer.Context) -> int:
     """Take PICO's merge driver out of this repository's configuration; it is then not set again by itself."""
-    from pico.history.attributes import uninstall
+    from pico.history.git.attributes import uninstall
 
     session = Session.of(context)
     uninstall(session.folder)

@@ -37,7 +37,7 @@ def publish(
 
     The same commit gives the same bytes. Refused where an artifact of a run is not here.
     """
-    from pico.history.folder import LabFolder
+    from pico.history.lab.folder import LabFolder
     from pico.publishing import publish
 
     session = Session.of(context)

@@ -17,8 +17,8 @@ from .push import Words
 
 def pull(context: typer.Context, words: Words = None) -> int:
     """Get commits with `git pull`, then the large data of their runs. Moves nothing."""
-    from pico.data.lab import LabData
-    from pico.history.remote import pull
+    from pico.history.data.lab import LabData
+    from pico.history.repository.remote import pull
 
     session = Session.of(context)
     session.wire(session.folder)

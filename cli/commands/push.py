@@ -15,8 +15,8 @@ from ..views import pushed as view
 from ..waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.data.lab import LabData
-    from pico.data.transfer import Moved
+    from pico.history.data.lab import LabData
+    from pico.history.data.transfer import Moved
 
 Words = Annotated[list[str] | None, typer.Argument(metavar="REMOTE|REF", help="For git, as it is; git's options, too.")]
 
@@ -29,8 +29,8 @@ def push(
     ] = False,
 ) -> int:
     """Send the large data of runs to where it is kept, then the commits with `git push`."""
-    from pico.data.lab import LabData
-    from pico.history.remote import push
+    from pico.history.data.lab import LabData
+    from pico.history.repository.remote import push
 
     session = Session.of(context)
     data = LabData.discover(session.folder)

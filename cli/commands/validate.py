@@ -21,9 +21,9 @@ def validate(
 
     All errors at once, each with its place. Does not ask the bench; asks Git only what it keeps out of the folder.
     """
-    from pico.history.withheld import withheld
+    from pico.history.lab.withheld import withheld
+    from pico.history.merge.checked import overlapping
     from pico.manifest.folders import check_files, check_folder
-    from pico.merging import overlapping
 
     session = Session.of(context)
     where, asked = session.folder, (overlapping, withheld)

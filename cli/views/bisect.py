@@ -9,7 +9,7 @@ from pico.bisecting.records import Outcome, Proposal
 from pico.bisecting.records import Tried as TriedRecord
 from pico.bisecting.search import Bisection
 from pico.bisecting.step import Step as StepRecord
-from pico.history.folder import Entry
+from pico.history.lab.folder import Entry
 from pico.model.record import as_json
 
 from .diff import brief, lines

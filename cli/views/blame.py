@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.history.blame.blamed import Blamed, BlamedLeaf, Turn
 from pico.history.blame.how import How
-from pico.history.notes import Note
+from pico.history.lab.notes import Note
 from pico.model.record import as_json
 
 from .style import WIDTH, columns, count, paint, place, shorten, width

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.history.carry import Carried
+from pico.history.restoring.transplant import Carried
 from pico.model.record import as_json
 
 from .diff import lines

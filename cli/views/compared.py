@@ -15,7 +15,7 @@ from .style import columns, count, paint, seconds, shorten
 _HASH = re.compile(r"[0-9a-f]{40,64}")
 
 if TYPE_CHECKING:
-    from pico.recording.comparing import Comparison, Pair
+    from pico.history.runs.comparing import Comparison, Pair
     from pico.runs.operations import OperationRun
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.data.needs import Need
-from pico.data.pointers import Pointed
-from pico.data.transfer import Holdings, Moved
-from pico.data.upkeep import Checked, Garbage
+from pico.history.data.needs import Need
+from pico.history.data.pointers import Pointed
+from pico.history.data.transfer import Holdings, Moved
+from pico.history.data.upkeep import Checked, Garbage
 from pico.model.record import as_json
 
 from .style import columns, count, listed, paint

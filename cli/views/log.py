@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
-from pico.history.commit import Commit
-from pico.history.folder import Entry
-from pico.history.graph import Row, lanes
-from pico.history.writing.trailers import meta, without_trailers
+from pico.history.git.commit import Commit
+from pico.history.git.lanes import Row, lanes
+from pico.history.lab.folder import Entry
+from pico.history.messages.trailers import meta, without_trailers
 from pico.model.record import as_json
 from pico.model.run import RunDocument
 
@@ -18,8 +18,8 @@ from .runs import shown
 from .style import WIDTH, columns, count, pad, paint, printable, seconds, width, wrap
 
 if TYPE_CHECKING:
+    from pico.history.lab.notes import Note
     from pico.history.log import Log
-    from pico.history.notes import Note
 
 
 def text(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> str:

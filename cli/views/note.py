@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.history.notes import Note
+from pico.history.lab.notes import Note
 from pico.model.record import as_json
 
 from .style import paint

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.data.transfer import Moved
+from pico.history.data.transfer import Moved
 from pico.model.record import as_json
 
 from . import data as said

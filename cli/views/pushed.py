@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.data.transfer import Moved
-from pico.history.remote import Pushed
+from pico.history.data.transfer import Moved
+from pico.history.repository.remote import Pushed
 from pico.model.record import as_json
 
 from . import data as said

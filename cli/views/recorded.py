@@ -13,7 +13,7 @@ from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
 
 if TYPE_CHECKING:
-    from pico.recording.loading import Loaded
+    from pico.history.runs.loading import Loaded
     from pico.runs.operations import OperationRun
 
 PROVES = {

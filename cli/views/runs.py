@@ -12,7 +12,7 @@ from pico.model.run import RunDocument
 from .style import columns, count, paint, plain, seconds, shorten
 
 if TYPE_CHECKING:
-    from pico.recording.listing import Listed
+    from pico.history.runs.listing import Listed
 
 COLORS = {"done": "green", "failed": "red", "interrupted": "yellow", "killed": "red"}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.history.stash import Shelf
+from pico.history.restoring.stash import Shelf
 from pico.model.record import as_json
 
 from .diff import brief, lines

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.history.taken import Taken
+from pico.history.restoring.selected import Taken
 from pico.model.record import as_json
 
 from .diff import lines

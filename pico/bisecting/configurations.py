@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pico.bisecting.costs import Leaves, PlanSeconds, leaves
 from pico.diagnostics import PicoError
 from pico.history.bisect.choice import Choice, Suspects, choices, halfway
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.state import LabState

@@ -13,7 +13,7 @@ from pico.bisecting.records import End, Outcome, Proposal, Task, Tried
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.history.bisect.choice import Choice
 from pico.history.bisect.kept import Ends, GitBisect, Verdict
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
@@ -166,7 +166,7 @@ class Bisection:
         return self.bench.folder.history().resolve(commit).summary
 
     def _runs(self, commit: str) -> tuple[str, ...]:
-        from pico.history.runs import runs_added
+        from pico.history.runs.committed import runs_added
 
         folder = self.bench.folder
         return tuple(run.id for run in runs_added(folder.history(), commit, folder.root))

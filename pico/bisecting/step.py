@@ -8,9 +8,9 @@ from pathlib import Path
 from pico.bisecting.judging import impossible, require_known, verdict
 from pico.bisecting.search import Builder
 from pico.diagnostics import PicoError
-from pico.history import git
 from pico.history.bisect.kept import HEAD, GitBisect, Verdict
-from pico.history.folder import LabFolder
+from pico.history.git import command as git
+from pico.history.lab.folder import LabFolder
 from pico.model.plan import Plan
 from pico.model.record import record
 from pico.model.state import Expectation

@@ -7,14 +7,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.against import Against
+from pico.history.lab.withheld import withheld
+from pico.history.merge.checked import overlapping
 from pico.history.merge.doubts import unsettled
-from pico.history.repository import Repository
-from pico.history.withheld import withheld
+from pico.history.repository.against import Against
+from pico.history.repository.repository import Repository
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
-from pico.merging import overlapping
 from pico.model.lab import Setup
 from pico.model.record import as_json
 from pico.model.stale import differing

@@ -11,8 +11,8 @@ from pico.checking.candidate import Candidate, Origin, in_folder, in_memory, ori
 from pico.checking.steps import check_lab
 from pico.checking.verdict import Checked, LabChecked
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.history.against import Against, against
-from pico.history.repository import Repository
+from pico.history.repository.against import Against, against
+from pico.history.repository.repository import Repository
 from pico.manifest.load import find_lab, labs_below
 
 
@@ -27,7 +27,7 @@ def check(
 ) -> Checked:
     """Check the lab that `path` lies in, or every lab below it that differs from the base, and return what was found.
 
-    `revision`: what to compare with, see `pico.history.against.against`. `merging`: check what HEAD would be once this
+    `revision`: what to compare with, see `repository.against.against`. `merging`: check what HEAD would be once this
     revision is merged into it, instead of the files as they are, against that revision where no other is named.
     `pictures`: the folder for pictures of what changes. Raises PicoError where there is no lab or no such revision,
     and for a merge with conflicts.

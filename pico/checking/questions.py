@@ -11,8 +11,8 @@ from pico.checking import trial
 from pico.checking.candidate import Candidate
 from pico.checking.verdict import Check, Verdict
 from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
+from pico.history.merge.checked import overlapping
 from pico.manifest.text.places import find, where
-from pico.merging import overlapping
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.lab import Setup

@@ -11,7 +11,7 @@ from pico.checking import questions, trial
 from pico.checking.candidate import Candidate, Origin, bench_changes, start
 from pico.checking.questions import Case
 from pico.checking.verdict import QUESTIONS, Check, LabChecked
-from pico.history.folder import between
+from pico.history.lab.folder import between
 from pico.model.plan import Plan
 
 T = TypeVar("T")

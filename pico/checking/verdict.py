@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
-from pico.history.against import Against
+from pico.history.repository.against import Against
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.plan import Plan

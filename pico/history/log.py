@@ -8,15 +8,15 @@ from functools import cached_property
 from itertools import chain, islice
 
 from pico.diagnostics import PicoError
-from pico.history import git
-from pico.history.commit import Commit
 from pico.history.diff.commits import CommitDiffs
-from pico.history.folder import Entry, LabFolder
-from pico.history.notes import Note, note_path, notes, read_note
-from pico.history.ranges import for_rev_list
-from pico.history.runs import runs_added
-from pico.history.scope import Scope, unknown_parts
-from pico.history.standing import Standings
+from pico.history.git import command as git
+from pico.history.git.commit import Commit
+from pico.history.lab.folder import Entry, LabFolder
+from pico.history.lab.notes import Note, note_path, notes, read_note
+from pico.history.lab.scope import Scope, unknown_parts
+from pico.history.repository.ranges import for_rev_list
+from pico.history.runs.committed import runs_added
+from pico.history.runs.proof import Standings
 from pico.model.diff import Change
 
 _BATCHES = (1, 8, 64)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
-from pico.history.folder import Entry, LabFolder
-from pico.history.notes import Note
+from pico.history.lab.folder import Entry, LabFolder
+from pico.history.lab.notes import Note
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.plan import Plan, plan_from_json
@@ -57,7 +57,7 @@ class Reader:
         `names`: of these components and files alone, paths relative to `at` (the lab). Raises PicoError.
         """
         from pico.history.diff.states import compare
-        from pico.history.scope import read_scope
+        from pico.history.lab.scope import read_scope
 
         scope = read_scope(self.folder, names, at or self.root, past=True)
         return compare(self.folder, a, b, scope)
@@ -77,8 +77,8 @@ class Reader:
         `revisions`: also ranges, HEAD for none. `names`: only those that changed these components or files, paths
         relative to `at` (the lab). `options` are those of `git rev-list`. Raises PicoError, also while it is read.
         """
+        from pico.history.lab.scope import read_scope
         from pico.history.log import Asked, Log
-        from pico.history.scope import read_scope
 
         scope = read_scope(self.folder, names, at or self.root, past=True)
         asked = Asked(

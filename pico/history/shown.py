@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.history.folder import Entry, LabFolder
-from pico.history.notes import Note, note_path, notes
-from pico.history.runs import runs_added
-from pico.history.standing import Standings
+from pico.history.lab.folder import Entry, LabFolder
+from pico.history.lab.notes import Note, note_path, notes
+from pico.history.runs.committed import runs_added
+from pico.history.runs.proof import Standings
 from pico.model.lab import Setup
 from pico.model.record import record
 from pico.model.state import LabState

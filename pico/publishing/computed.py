@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from pico.history.commit import Commit
+from pico.history.git.commit import Commit
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.record import canonical

@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import Any
 
 from pico.diagnostics import PicoError
-from pico.history.folder import LabFolder
-from pico.history.runs import CarriedRun
+from pico.history.lab.folder import LabFolder
+from pico.history.runs.committed import CarriedRun
 from pico.model.lab import Setup
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, home_state

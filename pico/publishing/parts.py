@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 
-from pico.history.commit import Commit
+from pico.history.git.commit import Commit
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.record import record

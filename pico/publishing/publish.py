@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
 from pico.model.record import record
 from pico.publishing import crate
 from pico.publishing.gather import gather

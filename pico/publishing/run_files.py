@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import PurePosixPath
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.history.folder import LabFolder
-from pico.history.runs import CarriedRun, files_at, runs_added, runs_at
+from pico.history.lab.folder import LabFolder
+from pico.history.runs.committed import CarriedRun, files_at, runs_added, runs_at
 from pico.model.run import Artifact, RunDocument
 from pico.publishing.parts import File, PublishedRun, file
 from pico.runs.artifacts import artifact_paths

@@ -10,7 +10,7 @@ from pico.bench import Bench
 from pico.bisecting import configurations
 from pico.bisecting.configurations import Configurations
 from pico.bisecting.costs import PlanSeconds, leaves
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 from pico.model.state import ComponentState, LabState
 
 

@@ -8,8 +8,8 @@ import pytest
 from changing import Lab
 
 from pico.diagnostics import PicoError
-from pico.history.against import against
-from pico.history.repository import Repository
+from pico.history.repository.against import against
+from pico.history.repository.repository import Repository
 
 
 def base(lab: Lab, revision: str | None = None, *, edited: bool = False, **environment: str) -> tuple[str | None, str]:

@@ -10,8 +10,8 @@ import pytest
 from commanding import Answer, Pico
 from pico_cli.main import main
 
-from pico.history.attributes import install
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
+from pico.history.git.attributes import install
 
 
 @pytest.fixture(scope="session")

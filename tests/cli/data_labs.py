@@ -7,7 +7,7 @@ import json
 import subprocess
 from pathlib import Path
 
-from pico.data.lab import LabData
+from pico.history.data.lab import LabData
 
 
 def git(*words: str, at: Path | str = ".") -> str:

@@ -17,7 +17,7 @@ from pico_cli.views.markdown import fenced, prose
 
 from pico.checking import Check, Checked, LabChecked
 from pico.diagnostics import error
-from pico.history.against import Against
+from pico.history.repository.against import Against
 from pico.model.diff import Change
 
 STATE = "state/table.yaml"

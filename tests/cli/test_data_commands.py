@@ -13,7 +13,7 @@ import pytest
 from commanding import Pico
 from data_labs import commit_run, damage, git, put, sha, write_run
 
-from pico.data.lab import LabData
+from pico.history.data.lab import LabData
 
 
 def stored(folder: Path) -> set[str]:

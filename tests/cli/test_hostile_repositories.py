@@ -14,8 +14,8 @@ from pico_cli.complete import candidates
 from pico_cli.paging import _pager
 from pico_cli.session import Session
 
-from pico.history import trees
-from pico.history.repository import Repository
+from pico.history.git import trees
+from pico.history.repository.repository import Repository
 
 LOOKING = (
     ("status",), ("plan", "e2"), ("drift",), ("log",), ("log", "--graph", "--all"), ("diff", "e1", "e2"), ("diff",),

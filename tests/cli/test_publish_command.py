@@ -15,7 +15,7 @@ import pytest
 from commanding import Pico
 from data_labs import git
 
-from pico.data.lab import LabData
+from pico.history.data.lab import LabData
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from commanding import Pico
 from data_labs import commit_run, damage, git
 
-from pico.data.lab import LabData
+from pico.history.data.lab import LabData
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from pico.history.repository import Repository
+from pico.history.repository.repository import Repository
 from pico.manifest.load import load_folder
 from pico.model.lab import Setup
 from pico.model.pose import Pose

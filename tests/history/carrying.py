@@ -6,14 +6,14 @@ import subprocess
 from pathlib import Path
 
 from pico.bench import Bench
-from pico.history.folder import LabFolder
-from pico.history.repository import Repository
-from pico.history.runs import places_in_history
-from pico.history.standing import Standings
+from pico.history.lab.folder import LabFolder
+from pico.history.repository.repository import Repository
+from pico.history.runs import standing_of, unrecorded
+from pico.history.runs.committed import places_in_history
+from pico.history.runs.proof import Standings
 from pico.model.proof import Standing
 from pico.model.report import Committed
 from pico.model.run import RunDocument
-from pico.recording import standing_of, unrecorded
 
 
 def git(folder: Path, *arguments: str, code: int = 0) -> str:

@@ -10,8 +10,8 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from pico.history import git
-from pico.history.writing import files as write_files
+from pico.history.git import command as git
+from pico.history.lab import files as write_files
 from pico.history.writing import index_lock, under
 
 Watched = Sequence[tuple[object, str]]

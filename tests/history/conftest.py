@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from giving import Git
 
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 
 
 @pytest.fixture(autouse=True)

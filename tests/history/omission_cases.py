@@ -16,7 +16,7 @@ from pathlib import Path
 import pygit2
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
 from pico.model.state import LabState
 
 UNITS = ("top.yaml", "optics/lenses.yaml", "state/table.yaml", "deep/er/camera.yaml")

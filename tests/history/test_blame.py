@@ -18,7 +18,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
-from pico.history.blame import cache as blame_cache
 from pico.history.blame.answer import answer, dumps, loads
 from pico.history.blame.blamed import Blamed, blame
 from pico.history.blame.flat import flatten, parsed
@@ -26,9 +25,10 @@ from pico.history.blame.follow import Blame, Step, walk
 from pico.history.blame.leaves import shown
 from pico.history.blame.lines import read_lines
 from pico.history.blame.walk import CACHE, Walker, packaged_units
-from pico.history.example import example_names, make_example
-from pico.history.folder import LabFolder
-from pico.history.repository import Repository
+from pico.history.examples.example import example_names, make_example
+from pico.history.git import cache as blame_cache
+from pico.history.lab.folder import LabFolder
+from pico.history.repository.repository import Repository
 from pico.model.diff import Change, place_json
 from pico.model.lab import Setup
 from pico.model.plan import LabRef

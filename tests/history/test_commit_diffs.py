@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from pico.history.diff.commits import CommitDiffs
-from pico.history.example import make_example
-from pico.history.folder import LabFolder
+from pico.history.examples.example import make_example
+from pico.history.lab.folder import LabFolder
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.history.writing.message import WIDTH, default_message
+from pico.history.messages.default import WIDTH, default_message
 from pico.model.diff import Change
 
 MOVED = Change(

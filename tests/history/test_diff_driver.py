@@ -13,10 +13,10 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.history.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
 from pico.history.diff.driver import FAILED, drive
 from pico.history.diff.manifests import diff_files
-from pico.history.diff.wrappers import ALONE, SUMMARY
+from pico.history.git.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
+from pico.history.git.diff_wrapper import ALONE, SUMMARY
 
 LAB = """apiVersion: pico/v1
 kind: Lab

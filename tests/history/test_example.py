@@ -9,9 +9,9 @@ import pytest
 
 from pico.bench import new_lab
 from pico.diagnostics import PicoError
-from pico.history.example import example_names, init_empty, make_example
-from pico.history.graph import lanes
-from pico.history.repository import Repository
+from pico.history.examples.example import example_names, init_empty, make_example
+from pico.history.git.lanes import lanes
+from pico.history.repository.repository import Repository
 from pico.manifest.load import load_files, load_folder
 from pico.model.lab import Setup
 from pico.model.state import LabState, place_of

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.history.commit import Commit
-from pico.history.graph import lanes, topological
+from pico.history.git.commit import Commit
+from pico.history.git.lanes import lanes, topological
 
 
 def commits(text: str) -> list[Commit]:

@@ -12,7 +12,7 @@ import pytest
 from commit_steps import forked, kill_at
 
 from pico.diagnostics import PicoError
-from pico.history.repository import Repository
+from pico.history.repository.repository import Repository
 from pico.history.writing.lock import write_lock
 
 Git = Callable[..., str]

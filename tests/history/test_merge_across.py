@@ -12,14 +12,14 @@ from moving_cases import LAB, Files, mistakes, moved_case
 from pico.bench import Bench
 from pico.checking import check
 from pico.diagnostics import PicoError
-from pico.history.carry import cherry_pick, revert
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
+from pico.history.merge.checked import merge
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import contents, opened, unite_trees
-from pico.history.repository import Repository
-from pico.history.stash import Stash
+from pico.history.repository.repository import Repository
+from pico.history.restoring.stash import Stash
+from pico.history.restoring.transplant import cherry_pick, revert
 from pico.manifest.folders import check_folder
-from pico.merging import merge
 
 TABLE, OTHER, THIRD = "state/table.yaml", "state/other.yaml", "state/third.yaml"
 HEAD = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: shel}\ncomponents:\n"

@@ -10,8 +10,8 @@ import pytest
 from giving import Git
 
 from pico.diagnostics import ExitCode, PicoError
-from pico.history.folder import LabFolder
-from pico.merging import merge
+from pico.history.lab.folder import LabFolder
+from pico.history.merge.checked import merge
 
 Edit = tuple[str, str, str]
 """A component, and a line of it before and after."""

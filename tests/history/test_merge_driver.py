@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from pico.history.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
+from pico.history.git.attributes import GITATTRIBUTES, checkup, install, uninstall, wire, wiring
+from pico.history.git.merge_fallback import merge_lines
 from pico.history.merge.driver import CLEAN, CONFLICT, drive
-from pico.history.merge.fallback import merge_lines
 from pico.history.merge.groups import groups_near, groups_of
 
 BASE = """apiVersion: pico/v1

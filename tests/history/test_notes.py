@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from pico.history.attributes import GITATTRIBUTES
-from pico.history.notes import Note, notes, with_note
+from pico.history.git.attributes import GITATTRIBUTES
+from pico.history.lab.notes import Note, notes, with_note
 
 Git = Callable[..., str]
 

@@ -11,7 +11,7 @@ import pytest
 from omission_cases import AT_REVISION, DELETING, IN_FOLDER, WORKING, Box, at_revision, in_folder, read_lab
 
 from pico.diagnostics import PicoError
-from pico.history.folder import LabFolder
+from pico.history.lab.folder import LabFolder
 
 ALL = frozenset({"p0", "p1", "p2", "p3"})
 

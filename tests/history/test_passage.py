@@ -12,13 +12,13 @@ import pytest
 from commit_steps import EVERY, forked, guards_ended, kill_at
 
 from pico.diagnostics import PicoError
-from pico.history.example import make_example
-from pico.history.folder import LabFolder
-from pico.history.repository import Repository
-from pico.history.stash import Stash
+from pico.history.examples.example import make_example
+from pico.history.lab.folder import LabFolder
+from pico.history.merge.checked import merge
+from pico.history.repository.repository import Repository
+from pico.history.restoring.checked import cherry_pick, revert
+from pico.history.restoring.stash import Stash
 from pico.history.writing import guard, index_lock
-from pico.merging import merge
-from pico.restoring import cherry_pick, revert
 
 TABLE = "state/table.yaml"
 

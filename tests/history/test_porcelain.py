@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from pico.diagnostics import PicoError
-from pico.history.repository import Repository
+from pico.history.repository.repository import Repository
 
 Git = Callable[..., str]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.repository import Repository
+from pico.history.repository.repository import Repository
 
 Git = Callable[..., str]
 
@@ -224,5 +224,5 @@ def test_a_lab_elsewhere_is_not_taken_for_the_repository_of_a_hook(
 
 
 def test_importing_history_does_not_import_libgit2() -> None:
-    code = "import sys, pico.history.repository, pico.history.graph; sys.exit('pygit2' in sys.modules)"
+    code = "import sys, pico.history.repository.repository, pico.history.git.lanes; sys.exit('pygit2' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

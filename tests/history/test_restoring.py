@@ -16,14 +16,14 @@ from merging_cases import Case, Leaf, case
 from merging_cases import state_of as state
 
 from pico.diagnostics import ExitCode, PicoError
-from pico.history.carry import Carried
-from pico.history.example import make_example
-from pico.history.folder import LabFolder
-from pico.history.last_change import last_change
+from pico.history.examples.example import make_example
+from pico.history.lab.folder import LabFolder
+from pico.history.merge.checked import merge
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_trees
-from pico.merging import merge
-from pico.restoring import cherry_pick, revert, take
+from pico.history.restoring.checked import cherry_pick, revert, take
+from pico.history.restoring.last_change import last_change
+from pico.history.restoring.transplant import Carried
 
 State = dict[Leaf, float | str]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pico.diagnostics import PicoError
-from pico.history.writing.run_files import run_trailers, write_once
+from pico.history.lab.run_files import run_trailers, write_once
 
 PATH = "runs/2026/11/r1/run.json"
 

@@ -24,12 +24,12 @@ from carrying import (
 from pico.backends.lease import BenchLock
 from pico.bench import Bench
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.example import make_example
-from pico.history.folder import LabFolder
-from pico.history.repository import Repository
-from pico.history.runs import runs_added, runs_at
+from pico.history.examples.example import make_example
+from pico.history.lab.folder import LabFolder
+from pico.history.repository.repository import Repository
+from pico.history.runs.committed import runs_added, runs_at
+from pico.history.runs.loading import load_run
 from pico.model.run import RunDocument
-from pico.recording.loading import load_run
 from pico.runs.journal import Journal
 
 

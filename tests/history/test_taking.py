@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pico.history.taken import entries
+from pico.history.restoring.selected import entries
 from pico.manifest.edit import set_values
 from pico.manifest.load import load_files, load_folder
 from pico.model.address import holds, read_addresses

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
-from pico.history.writing.trailers import meta, require_meta, trailers, values, with_trailers, without_trailers
+from pico.history.messages.trailers import meta, require_meta, trailers, values, with_trailers, without_trailers
 
 OURS = [("Pico-State", "sha256:1"), ("Pico-Evidence", "physics")]
 

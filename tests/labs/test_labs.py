@@ -11,7 +11,7 @@ import pytest
 import shapely
 from shapely import affinity
 
-from pico.history.example import example_names, make_example
+from pico.history.examples.example import example_names, make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.lab import Fingers, Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedValue

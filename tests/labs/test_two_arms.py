@@ -16,7 +16,7 @@ from checker import check
 
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.bench import Bench
-from pico.history.example import make_example
+from pico.history.examples.example import make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue

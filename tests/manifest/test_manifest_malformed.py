@@ -10,9 +10,9 @@ import pytest
 from manifest_samples import BYTES, GOOD, LAB, OWN_TYPE, STATE, USES_OWN, malformed
 
 from pico.diagnostics import PicoError
+from pico.history.merge.checked import overlapping
 from pico.manifest.fmt import format_text
 from pico.manifest.load import load_files, load_folder
-from pico.merging import overlapping
 
 CASES = malformed()
 JARGON = re.compile(r"\b(pydantic|Input should|Field required|dataclass|NoneType|dict|str)\b")

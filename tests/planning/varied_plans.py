@@ -20,8 +20,8 @@ sys.path[:0] = [str(HERE.parent.parent), str(HERE.parent), str(HERE)]
 from disc_labs import disc_case, random_places  # noqa: E402
 from random_labs import Case, random_case  # noqa: E402
 
-from pico.history.example import example_names, make_example  # noqa: E402
-from pico.history.folder import LabFolder  # noqa: E402
+from pico.history.examples.example import example_names, make_example  # noqa: E402
+from pico.history.lab.folder import LabFolder  # noqa: E402
 from pico.model.lab import Setup  # noqa: E402
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state  # noqa: E402
 from pico.model.plan import Base, Plan, Target  # noqa: E402

@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from pico.diagnostics import PicoError, error
 from pico.disk import writing
-from pico.history import git
+from pico.history.git import command as git
 
 Verdict = Literal["good", "bad", "skip"]
 NOTE = "# pico: "

@@ -14,9 +14,9 @@ from pico.history.blame.follow import Address, Node
 from pico.history.blame.how import How, how
 from pico.history.blame.leaves import POSE, Leaf, canonical, shown
 from pico.history.blame.walk import Walker
-from pico.history.commit import Commit
-from pico.history.notes import Note, note_path, notes
-from pico.history.repository import Repository
+from pico.history.git.commit import Commit
+from pico.history.lab.notes import Note, note_path, notes
+from pico.history.repository.repository import Repository
 from pico.manifest.which import MAX_BYTES
 from pico.model.catalog import Tunable
 from pico.model.diff import describe_move, describe_value

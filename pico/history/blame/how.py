@@ -8,8 +8,8 @@ from functools import lru_cache
 from typing import Any, Literal
 
 from pico.history.blame.follow import Address
-from pico.history.commit import Commit
-from pico.history.writing.trailers import EVIDENCE, LAB, values
+from pico.history.git.commit import Commit
+from pico.history.messages.trailers import EVIDENCE, LAB, values
 from pico.model.record import record
 from pico.model.run import RunDocument
 

@@ -13,12 +13,12 @@ from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.history.blame.answer import Answer, Unread, answer, dumps, loads
-from pico.history.blame.cache import VERSION, Cache
 from pico.history.blame.flat import Flat, flatten
 from pico.history.blame.flat import loads as flat_from
 from pico.history.blame.follow import Blame, Delta, Step, walk
 from pico.history.blame.how import RunBrief, brief_of
-from pico.history.repository import Repository
+from pico.history.git.cache import VERSION, Cache
+from pico.history.repository.repository import Repository
 from pico.manifest.which import MAX_BYTES, is_manifest
 from pico.model.run import RunDocument
 from pico.resources import catalog_dir

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.commit import Commit
-from pico.history.folder import STATE_ONLY, Entry, LabFolder, between
-from pico.history.trees import Odd, manifests, subtree
-from pico.history.unread import unread_at
+from pico.history.git.commit import Commit
+from pico.history.git.trees import Odd, manifests, subtree
+from pico.history.git.unread import unread_at
+from pico.history.lab.folder import STATE_ONLY, Entry, LabFolder, between
 from pico.manifest.bench_view import BenchView, view_of
 from pico.manifest.files import decode
 from pico.manifest.load import load_files

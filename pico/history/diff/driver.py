@@ -1,6 +1,6 @@
 """What git's diff says of one manifest before its lines: `python -P -m pico.history.diff.driver COLOR MODE PATH ...`.
 
-The wrapper in git's configuration (`pico.history.diff.wrappers`) shows its lines only if it ends with SUMMARY or ALONE;
+The wrapper in git's configuration (`history.git.diff_wrapper`) shows its lines only if it ends with SUMMARY or ALONE;
 the ordinary diff comes from git in any case, unless `git config pico.diff summary` asks for these lines alone.
 """
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError
 from pico.history.diff.manifests import FileDiff, diff_files
-from pico.history.diff.wrappers import ALONE, SUMMARY
+from pico.history.git.diff_wrapper import ALONE, SUMMARY
 from pico.manifest.which import MAX_BYTES
 from pico.model.diff import Change
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.diff.manifests import diff_files
 from pico.history.diff.surroundings import components_in
-from pico.history.folder import STATE_ONLY, LabFolder, between
-from pico.history.ranges import ends_of
-from pico.history.scope import Scope
+from pico.history.lab.folder import STATE_ONLY, LabFolder, between
+from pico.history.lab.scope import Scope
+from pico.history.repository.ranges import ends_of
 from pico.manifest.files import read_folder
 from pico.model.diff import Change
 from pico.model.record import record

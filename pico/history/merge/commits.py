@@ -6,15 +6,15 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
-from pico.history import git
-from pico.history.commit import Commit
-from pico.history.folder import LabFolder, edited
+from pico.history.git import command as git
+from pico.history.git.commit import Commit
+from pico.history.git.unread import read_tree
+from pico.history.lab.folder import LabFolder, edited
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_commits
-from pico.history.unread import read_tree
+from pico.history.messages.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.history.writing.claim import Goal
 from pico.history.writing.made import Step
-from pico.history.writing.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change

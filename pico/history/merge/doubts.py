@@ -9,8 +9,8 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.history.repository import Repository
-from pico.history.writing.trailers import STATE, values
+from pico.history.messages.trailers import STATE, values
+from pico.history.repository.repository import Repository
 from pico.manifest.load import Manifests, load_files
 from pico.manifest.text.places import find
 from pico.model.state import LabState

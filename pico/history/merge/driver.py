@@ -1,7 +1,7 @@
 """What git runs to merge one manifest:
 `python -P -m pico.history.merge.driver OURS OUT BASE THEIRS SIZE PATH [NAMES...]`.
 
-The wrapper in git's configuration (`pico.history.attributes`) takes its result only if it ends with CLEAN or CONFLICT,
+The wrapper in git's configuration (`history.git.attributes`) takes its result only if it ends with CLEAN or CONFLICT,
 codes that nothing else ends with by accident; on anything else git's own merge of lines takes its place.
 """
 
@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pico.diagnostics import PicoError
-from pico.history.attributes import CLEAN, CONFLICT, FAILED
+from pico.history.git.attributes import CLEAN, CONFLICT, FAILED
 from pico.history.merge.groups import groups_near
 from pico.history.merge.manifests import Merged, merge
 from pico.history.merge.markers import Labels

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
+from pico.history.git.unread import read_tree
 from pico.history.merge.commits import label_of, refusals
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_commits
-from pico.history.repository import Repository
-from pico.history.unread import read_tree
+from pico.history.repository.repository import Repository
 
 
 def merged_files(repository: Repository, folder: Path, revision: str) -> dict[str, bytes]:

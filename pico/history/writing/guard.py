@@ -49,7 +49,7 @@ def guarded(claim: Path, root: Path) -> Iterator[None]:
 def main() -> None:
     """Clear up in the working tree that the command line names."""
     from pico.diagnostics import PicoError
-    from pico.history.repository import Repository
+    from pico.history.repository.repository import Repository
 
     with suppress(PicoError):
         repository = Repository.discover(Path(sys.argv[1]))

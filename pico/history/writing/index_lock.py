@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
-from pico.history.holders import held
+from pico.history.git.holders import held
 from pico.history.writing.claim import Claim, GitFolders
 from pico.history.writing.guard import guarded
 

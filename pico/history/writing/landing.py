@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pico.diagnostics import PicoError
-from pico.history import git
+from pico.history.git import command as git
 from pico.history.writing.claim import GitFolders
 from pico.history.writing.index_lock import index_lock
 from pico.history.writing.under import Under, copy_index, list_of, listed

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from pico.diagnostics import PicoError, error
-from pico.history import git
+from pico.history.git import command as git
 from pico.history.writing.under import Under
 
 

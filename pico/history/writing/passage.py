@@ -17,7 +17,7 @@ from functools import partial
 from pathlib import Path
 
 from pico.diagnostics import PicoError
-from pico.history import git
+from pico.history.git import command as git
 from pico.history.writing.claim import Claim, GitFolders, Goal, Said
 from pico.history.writing.index_lock import index_lock
 from pico.history.writing.made import Step, make

@@ -11,8 +11,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.history import git
-from pico.history.places import places
+from pico.history.git import command as git
+from pico.history.git.places import places
 from pico.history.writing import index_lock
 from pico.history.writing.claim import Claim, GitFolders, Said
 from pico.history.writing.passage import settle

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pico.diagnostics import PicoError
-from pico.history import git
+from pico.history.git import command as git
 from pico.history.writing.claim import Claim, GitFolders, Goal
 from pico.history.writing.under import Under, listed
 

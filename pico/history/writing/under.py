@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
-from pico.history import git
+from pico.history.git import command as git
 from pico.history.writing.claim import Claim, GitFolders
 
 _SAFE = ("-c", "core.fsync=committed,loose-object,index,reference", "-c", "core.filesRefLockTimeout=5000")
@@ -37,7 +37,7 @@ class Under:
         self, *arguments: str, doing: str, stdin: str = "", hook: str | None = None, ends: Sequence[int] = (0,),
         extra: Mapping[str, str] = MappingProxyType({}),
     ) -> str:  # fmt: skip
-        """Run `git ARGUMENTS` and return what it says; raises PicoError as `pico.history.git.run` does."""
+        """Run `git ARGUMENTS` and return what it says; raises PicoError as `pico.history.git.command.run` does."""
         return git.run(
             self.at.root, [*_SAFE, *arguments], doing=doing, stdin=stdin, hook=hook, ends=ends,
             extra={**extra, "GIT_INDEX_FILE": str(self.index)}, inherit=(self.claim.file,),

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from pico.diagnostics import PicoError, error
-from pico.history import git
+from pico.history.git import command as git
 
 Underway = Literal["", "merge", "cherry-pick", "revert", "rebase"]
 

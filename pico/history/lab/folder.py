@@ -1,0 +1,410 @@
+"""A lab's folder: its manifests as they are in the working tree, and its states at any revision."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from pico.attachment import own_folder
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.history.git import command as git
+from pico.history.git.commit import Commit, Head
+from pico.history.lab.contents import contents, nothing
+from pico.history.lab.files import write_file
+from pico.history.lab.notes import Note, note_path, notes, read_note, require_part, with_note
+from pico.history.lab.run_files import run_trailers, write_once
+from pico.history.lab.withheld import withheld
+from pico.history.messages.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
+from pico.history.writing.lock import write_lock
+from pico.history.writing.recovery import anything_left
+from pico.history.writing.underway import require_resolved
+from pico.manifest.edit import capture
+from pico.manifest.files import read_folder, shown_path
+from pico.manifest.load import Manifests, find_lab, load_files
+from pico.model.address import Named
+from pico.model.diff import Change, diff_states
+from pico.model.lab import Setup
+from pico.model.proof import Standing
+from pico.model.record import record
+from pico.model.report import Captured, Committed
+from pico.model.run import RunDocument
+from pico.model.state import LabState, home_state
+
+if TYPE_CHECKING:
+    from pico.history.repository.repository import Repository
+
+STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
+"""Matches the content of a file that holds states alone, nothing of the bench."""
+
+FULL = 40
+"""Digits of the whole id of a commit."""
+
+
+@record
+class Entry:
+    """One commit with what it changed on the table against its first parent, or why that can't be told.
+
+    Where the history was asked for it: the `runs` that it carries, and how far its state is proven (`standing`; None
+    where nothing claims to prove it). `first`: no commit before it has the lab.
+    """
+
+    commit: Commit
+    changes: tuple[Change, ...] = ()
+    unreadable: str = ""
+    runs: tuple[RunDocument, ...] = ()
+    first: bool = False
+    standing: Standing | None = None
+
+    @property
+    def evidence(self) -> str:
+        """What proves its state: `kinematic`, `physics`, `emulated` or `hardware`; `planned`; empty for nothing."""
+        if self.standing is None:
+            return ""
+        return self.standing.evidence or ("planned" if self.standing.verdict == "planned" else "")
+
+
+class LabFolder:
+    """The lab that `path` lies in. Raises PicoError where there is none, or where its manifests are wrong.
+
+    For its `history` alone, wrong manifests (a merge may be going on) are no reason to refuse: bench and state are then
+    those of HEAD, and `wrong` says what is wrong.
+    """
+
+    def __init__(self, path: Path, *, history: bool = False) -> None:
+        self.root = find_lab(path)
+        own_folder(self.root)
+        self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
+        self._files: dict[str, bytes] = {}
+        self._historic: dict[str, tuple[Setup, LabState]] = {}
+        self._writing = False
+        self.wrong: PicoError | None = None
+        self.recovered = self._recovered()
+        try:
+            self.reload()
+        except PicoError as exc:
+            self.wrong = exc
+            if not history or not self._stand_in():
+                raise
+
+    def _recovered(self) -> tuple[Diagnostic, ...]:
+        """Bring to its end what a killed command left half written here, and return what that was."""
+        if not anything_left(self.root) or self.repository is None:
+            return ()
+        with self.repository.writing("pico recover"):
+            return self.repository.noticed
+
+    def reload(self) -> None:
+        """Read the manifests again, after somebody wrote them; raises PicoError where they are wrong.
+
+        `setup`: the bench as it is now, with its types; `state`: the desired state, what the working tree says.
+        """
+        files, found = read_folder(self.root)
+        if files == self._files and not found:
+            return
+        found += withheld(self.root, files, found, lambda: self.repository)
+        shown = shown_path(self.root)
+        bench = _bench_of({os.path.relpath(p, shown): data for p, data in files.items()})
+        known = self._benches.get(bench) if self._files and not found else None
+        self._adopt(files, self._read(files, known) if known else load_files(files, found, root=shown))
+        self._benches[bench] = self.setup
+
+    def state_now(self) -> LabState | None:
+        """Return what the manifests say now of this bench, which stays as it was read; None where they are wrong."""
+        files, found = read_folder(self.root)
+        if files == self._files and not found:
+            return self.state
+        read = load_files(files, setup=self.setup)
+        return None if any(d.severity == "error" for d in (*found, *read.diagnostics)) else read.state
+
+    def _read(self, files: Mapping[str, bytes], setup: Setup) -> Manifests:
+        """Return manifests of which only states may have changed since the last time."""
+        read = load_files(files, setup=setup)
+        states = {p for p, data in files.items() if STATE_ONLY.search(data)}
+        kept = tuple(d for d in self.manifests.diagnostics if d.source is None or d.source.path not in states)
+        return replace(read, diagnostics=(*kept, *read.diagnostics))
+
+    def _adopt(self, files: dict[str, bytes], manifests: Manifests) -> None:
+        self.manifests = manifests
+        self.setup, self.state = manifests.require()
+        self._files = files
+
+    def _stand_in(self) -> bool:
+        """Take bench and state from HEAD, and return whether that was possible."""
+        try:
+            self.manifests = load_files(_named("HEAD", self.history().files("HEAD", self.root, [])))
+            self.setup, self.state = self.manifests.require()
+        except PicoError:
+            return False
+        return True
+
+    @cached_property
+    def repository(self) -> Repository | None:
+        """The Git repository around the lab, or None."""
+        from pico.history.repository.repository import Repository
+
+        return Repository.discover(self.root)
+
+    def history(self) -> Repository:
+        """Return the repository; raises PicoError that says how to get one."""
+        if self.repository is None:
+            hint = 'make one here: `git init && git add . && git commit -m "the lab as it is"`'
+            raise PicoError(
+                error("git-none", f"{self.root} is in no Git repository, so there is no history", hint=hint)
+            )
+        return self.repository
+
+    def head(self) -> Head | None:
+        """Return what is checked out; None outside a repository."""
+        return self.repository.head() if self.repository else None
+
+    def state_at(self, revision: str) -> LabState:
+        """Return the state that a revision holds, read against the bench as it is now.
+
+        Raises PicoError for an unknown revision and for manifests that don't fit this bench.
+        """
+        return self.manifests_at(revision).require()[1]
+
+    def manifests_at(self, revision: str) -> Manifests:
+        """Return the manifests of a revision, its states read against the bench as it is now."""
+        found: list[Diagnostic] = []
+        try:
+            files = self.history().files(revision, self.root, found)
+        except PicoError as exc:
+            raise PicoError([_no_revision(d, revision, self.setup) for d in exc.diagnostics]) from exc
+        manifests = load_files(_named(revision, files), found, setup=self.setup)
+        return replace(manifests, diagnostics=tuple(_at_revision(d, revision) for d in manifests.diagnostics))
+
+    def historic(self, revision: str) -> tuple[Setup, LabState]:
+        """Return the bench and the state as a revision holds them, both as they were then; raises PicoError.
+
+        A revision without a Lab of its own is read against the bench as it is now.
+        """
+        if revision in self._historic:
+            return self._historic[revision]
+        unread: list[Diagnostic] = []
+        files = self.history().files(revision, self.root, unread)
+        bench = _bench_of(files)
+        if bench not in self._benches:
+            self._benches[bench] = load_files(_named(revision, files)).setup
+        setup = self._benches[bench]
+        found = load_files(_named(revision, files), unread, setup=setup or self.setup).require()
+        if setup and len(revision) == FULL:  # the whole id of a commit means the same for ever
+            self._historic = {**dict([*self._historic.items()][-3:]), revision: found}
+        return found
+
+    def committed(self) -> LabState | None:
+        """Return the state at HEAD, as far as the bench as it is now has its parts and slots.
+
+        None outside a repository, before the first commit of the lab, or where it can't be read.
+        """
+        head = self.head()
+        if head is None or head.commit is None:
+            return None
+        try:
+            _, state = self.historic(head.commit)
+        except PicoError:
+            return None
+        lab = self.setup.lab
+        fitting = {
+            name: part
+            for name, part in state.components.items()
+            if name in lab.inventory and (part.slot is None or part.slot in lab.slots)
+        }
+        return replace(state, components=fitting)
+
+    def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
+        """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
+        return between(self.historic(a or "HEAD"), self.historic(b) if b else (self.setup, self.state))
+
+    def entry(self, commit: Commit) -> Entry:
+        """Return a commit with its physical diff. What a first commit is compared with is every part at home."""
+        try:
+            after = self.historic(commit.id)
+        except PicoError as exc:
+            return Entry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
+        return Entry(commit=commit, changes=self._since(commit.parents[0] if commit.parents else None, after))
+
+    def _since(self, commit: str | None, after: tuple[Setup, LabState]) -> tuple[Change, ...]:
+        """Return what changed on the table since a commit; since every part was at home, where there is none."""
+        try:
+            before = self.historic(commit) if commit else None
+        except PicoError:
+            before = None
+        return between(before or (after[0], home_state(after[0])), after)
+
+    def refuse_edits(self) -> None:
+        """Raise PicoError where the manifests hold edits that a checkout would lose."""
+        paths = self.history().changed(self.root)
+        if paths:
+            raise PicoError(edited(paths))
+
+    @contextmanager
+    def writing(self, doing: str) -> Iterator[None]:
+        """Be the only one who by PICO writes files of this lab and its repository; they are read anew.
+
+        Who is inside may enter again. Raises PicoError where another one takes too long (`Repository.writing`).
+        """
+        if self._writing:
+            yield
+            return
+        here = write_lock(self.root / ".pico" / "write.lock", doing)
+        with self.repository.writing(doing) if self.repository else here:
+            self._writing = True
+            try:
+                self.reload()
+                yield
+            finally:
+                self._writing = False
+
+    def capture(self, live: LabState, named: Named | None = None, *, write: bool = True) -> Captured:
+        """Write what `live` says otherwise than the manifests, beyond tolerance, into them; raises PicoError.
+
+        `named`: only these tunables. Without `write`, say what would be written.
+        """
+        if not write:
+            return self.preview(live, named)[0]
+        with self.writing("pico capture"):
+            spliced = self._spliced(live, named)
+            found, manifests = self._captured(spliced, written=True)
+            for name, data in sorted(spliced.items()):
+                write_file(Path(name), data, self.root / ".pico")
+            self._adopt({**self._files, **spliced}, manifests)
+            return found
+
+    def preview(self, live: LabState, named: Named | None = None) -> tuple[Captured, LabState]:
+        """Return what a capture would write, and the state that the manifests would then hold; raises PicoError."""
+        captured, manifests = self._captured(self._spliced(live, named), written=False)
+        return captured, manifests.require()[1]
+
+    def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
+        return capture(self._files, self.setup, self.state, live, named)
+
+    def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
+        manifests = self._read({**self._files, **spliced}, self.setup) if spliced else self.manifests
+        after = manifests.require()[1]
+        captured = Captured(
+            changes=diff_states(self.setup, self.state, after),
+            files=tuple(sorted(spliced)),
+            written=written,
+            patch="".join(_patch(name, self._files[name], spliced[name]) for name in sorted(spliced)),
+        )
+        return captured, manifests
+
+    def notes(self, part: str) -> tuple[Note, ...]:
+        """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
+        require_part(self.setup, part)
+        return notes({note_path(part): read_note(self.root, part)}, part)
+
+    def note(self, part: str, text: str) -> Note:
+        """Note something on a part; its author and day are those that git would give a commit. Raises PicoError."""
+        require_part(self.setup, part)
+        author, day = git.author(self.root)
+        with self.writing("pico note"):
+            path = self.root / note_path(part)
+            before = read_note(self.root, part)
+            write_file(path, with_note(before, day, author, text), self.root / ".pico")
+        return self.notes(part)[-1]
+
+    def commit(
+        self,
+        message: str,
+        captured: tuple[Change, ...],
+        evidence: str,
+        *,
+        runs: Mapping[str, bytes] = MappingProxyType({}),
+        meta: Mapping[str, str] = MappingProxyType({}),
+        named: Named | None = None,
+    ) -> Committed:
+        """Commit the manifests as they are, with notes and the files of runs, and return the commit; raises PicoError.
+
+        `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
+        `meta`: what `--meta key=value` gave. `named`: only files that hold these components. Trailers say the digest of
+        the state and of the lab, the `evidence`, the runs with their plans, and `meta`; they go into the block of
+        trailers that `message` has. Where a merge is under way, this ends it.
+        """
+        require_meta(meta)
+        repository = self.history()
+        with self.writing("pico commit"):
+            ending = require_resolved(repository.root, repository.own)
+            content = contents(self, None if ending else named)
+            if not content.paths and not runs and not ending:
+                raise PicoError([*repository.noticed, nothing(named)])
+            written = [write_once(self.root, path, data) for path, data in sorted(runs.items())]
+            digest, lab = content.state.digest(), self.setup.lab
+            added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
+            added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
+            text = with_trailers(message, added)
+            before = repository.head().commit
+            made = repository.commit(content.paths, text, ignored=written, whole=bool(ending))
+        return Committed(
+            commit=made.id,
+            message=message.strip(),
+            branch=repository.head().branch,
+            state=digest,
+            changes=self._since(before, (self.setup, content.state)),
+            captured=captured,
+            realized=evidence != "planned",
+            evidence=evidence,
+            runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
+            meta=meta,
+            diagnostics=repository.noticed,
+        )
+
+
+def _bench_of(files: Mapping[str, bytes]) -> tuple[tuple[str, bytes], ...]:
+    """Return the files that describe the bench: all that may hold more than states."""
+    return tuple(sorted((p, data) for p, data in files.items() if not STATE_ONLY.search(data)))
+
+
+def _named(revision: str, files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files by the names that diagnostics show: `e1:state/table.yaml`."""
+    return {f"{revision}:{path}": data for path, data in files.items()}
+
+
+def _no_revision(d: Diagnostic, revision: str, setup: Setup) -> Diagnostic:
+    """Return a diagnostic of a revision that there is not; a component may have been meant."""
+    if revision not in setup.lab.inventory:
+        return d
+    return replace(d, hint=f"{revision} is a component, and goes after `--`: `-- {revision}`, or `REV -- {revision}`")
+
+
+def _at_revision(d: Diagnostic, revision: str) -> Diagnostic:
+    """Return a diagnostic of a state from history: what the bench lacks now, it may have had then."""
+    if d.code != "unknown-component":
+        return d
+    hint = f"{revision} was made when the bench had it: take it into `inventory` again, or go to another revision"
+    return replace(d, hint=hint)
+
+
+def between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Change, ...]:
+    """Return what differs between two states, each with its own bench; where the benches differ, the later counts."""
+    (bench_a, state_a), (bench_b, state_b) = a, b
+    lab = replace(
+        bench_b.lab,
+        inventory={**bench_a.lab.inventory, **bench_b.lab.inventory},
+        slots={**bench_a.lab.slots, **bench_b.lab.slots},
+    )
+    return diff_states(Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog}), state_a, state_b)
+
+
+def _patch(name: str, before: bytes, after: bytes) -> str:
+    old, new = (data.decode(errors="replace").splitlines(keepends=True) for data in (before, after))
+    lines = difflib.unified_diff(old, new, f"a/{name}", f"b/{name}", n=1)
+    return "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
+
+
+def edited(paths: tuple[str, ...]) -> Diagnostic:
+    """Return that files are edited, and what can be done with the edits."""
+    return error(
+        "edited",
+        f"edits that are not committed: {', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''}",
+        hint='`pico commit -m "why"` keeps the edits, `pico stash` shelves them, `git restore .` drops them',
+    )

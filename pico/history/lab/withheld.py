@@ -1,0 +1,130 @@
+"""What HEAD has of a lab and its folder has not: what somebody deleted, and what git keeps out of the folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import Diagnostic, PicoError
+from pico.history.git import command as git
+from pico.history.git.trees import Odd, manifests
+from pico.history.git.unread import content_of, submodule
+from pico.manifest.edit import components_of
+from pico.manifest.files import shown_path
+from pico.manifest.which import GONE, about, declared
+
+if TYPE_CHECKING:
+    from pico.history.repository.repository import Repository
+
+_GOES = "if its parts are to go home: `git rm --cached --sparse {0}`, and commit"
+_SPARSE = f"bring it back: `git sparse-checkout disable`, or `git update-index --no-skip-worktree {{0}}`; {_GOES}"
+_ASSUMED = f"bring it back: `git update-index --no-assume-unchanged {{0}}` and `git restore {{0}}`; {_GOES}"
+
+
+def withheld(
+    root: Path,
+    files: Mapping[str, bytes],
+    found: Sequence[Diagnostic],
+    around: Callable[[], Repository | None] | None = None,
+) -> list[Diagnostic]:
+    """Return an error for each manifest that HEAD has and git keeps out of the lab's folder `root`, and for submodules
+    that are not checked out; a note for what somebody deleted, of the parts that go home by that.
+
+    `files` were read, by shown path; of the paths in `found` an error is told already. Nothing without Git, or where
+    the repository (`around` it) can't be read.
+    """
+    from pico.history.repository.repository import Repository
+
+    try:
+        repository = around() if around else Repository.discover(root)
+    except PicoError:
+        return []
+    tree = repository.tree_at("HEAD", root) if repository and repository.head().commit else None
+    return _missing(repository, root, tree, files, found) if repository and tree else []
+
+
+def _missing(
+    repository: Repository, root: Path, tree: Any, files: Mapping[str, bytes], found: Sequence[Diagnostic]
+) -> list[Diagnostic]:
+    from pygit2.enums import FileMode
+
+    shown = shown_path(root)
+    read = {os.path.relpath(path, shown) for path in files}
+    told = [os.path.relpath(d.source.path, shown) for d in found if d.source and d.severity == "error"]
+    odd: list[Odd] = []
+    there = dict(manifests(tree, odd))
+    away = {p: e for p, e in there.items() if p not in read and not any(f"{p}/".startswith(f"{t}/") for t in told)}
+    modules = {p: e for p, e in odd if e.filemode == FileMode.COMMIT and _empty(root / p)}
+    if not (away or modules):
+        return []
+    lead = f"{inside}/" if (inside := repository.relative(root)) else ""
+    tags = {p.removeprefix(lead): tag for p, tag in _tags(repository, inside).items()}
+    lost = [(path, content_of(entry) or b"") for path, entry in sorted(away.items())]
+    lost = [(path, data) for path, data in lost if declared(data)]
+    said = [_kept_out(root, path, tags.get(path, ""), there.keys()) for path, _ in lost]
+    gone = {path: components_of(data) for (path, data), d in zip(lost, said, strict=True) if d is None}
+    said += [submodule(repository, lead + p, str(e.id), _shown(root, p)) for p, e in modules.items() if p in tags]
+    return [*(d for d in said if d), *_gone(root, gone, files)]
+
+
+def _empty(folder: Path) -> bool:
+    try:
+        return not any(folder.iterdir())
+    except FileNotFoundError:
+        return True
+    except OSError:  # no folder, or one that is told to be unreadable
+        return False
+
+
+def _tags(repository: Repository, inside: str) -> dict[str, str]:
+    """Return what git holds of each file that it knows in a folder: `H`, `S` where sparse checkout leaves it out, in
+    lower case where it is taken for unchanged."""
+    arguments = ["ls-files", "-v", "-z", "--", inside or "."]
+    extra = {"GIT_LITERAL_PATHSPECS": "1"}
+    listed = git.run(repository.root, arguments, doing="list the files that it knows", extra=extra)
+    return {line[2:]: line[0] for line in listed.split("\0") if line}
+
+
+def _kept_out(root: Path, path: str, tag: str, there: Iterable[str]) -> Diagnostic | None:
+    """Return why a manifest of HEAD is not in the folder; None where somebody deleted it."""
+    shown = _shown(root, path)
+    if tag in ("S", "s"):
+        return about(shown, "withheld", "HEAD has it, and sparse checkout leaves it out", _SPARSE.format(path))
+    if tag.islower():
+        text = "HEAD has it, and git is told to take it for unchanged; but it is not there"
+        return about(shown, "withheld", text, _ASSUMED.format(path))
+    if tag and any(p != path and p.lower() == path.lower() for p in there) and os.path.lexists(root / path):
+        hint = "rename one of the two, where case counts, and commit"
+        return about(shown, "withheld", "HEAD has another file that differs in case alone", hint)
+    return None
+
+
+def _gone(root: Path, gone: Mapping[str, frozenset[str]], files: Mapping[str, bytes]) -> list[Diagnostic]:
+    """Return a note for each file of HEAD that is not there, of its parts that no other file names; an error where a
+    link may hide it."""
+    if not any(gone.values()):
+        return []
+    named = frozenset().union(*(components_of(data) for data in files.values()))
+    found = []
+    for path, parts in gone.items():
+        if homeless := ", ".join(sorted(parts - named)):
+            text = f"deleted since HEAD, and no other file names {homeless}: not wanted on the table"
+            said = about(_shown(root, path), GONE, text, f"`git restore --staged --worktree {path}` brings it back")
+            found.append(_hidden(root, path) or replace(said, severity="note"))
+    return found
+
+
+def _hidden(root: Path, path: str) -> Diagnostic | None:
+    """Return what to say of a file of HEAD where a link is in place of a folder above it."""
+    above = [root.joinpath(*Path(path).parts[:n]) for n in range(1, len(Path(path).parts))]
+    link = next((folder for folder in above if folder.is_symlink()), None)
+    hint = f"put the folder itself there: `git restore {path}`"
+    text = "HEAD has it, and it is not read: {} is a link"
+    return about(_shown(root, path), "withheld", text.format(link.name), hint) if link else None
+
+
+def _shown(root: Path, path: str) -> str:
+    return str(Path(shown_path(root)) / path)

@@ -1,0 +1,115 @@
+"""Two runs side by side: where they ended, how long each operation took, and what was otherwise about them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from pico.history.runs.loading import Loaded
+from pico.model.diff import Change, show_value
+from pico.model.lab import Setup
+from pico.model.record import as_json, record
+from pico.model.run import RunDocument
+from pico.model.state import LabState
+from pico.runs.operations import OperationRun
+from pico.runs.states import changes, state_seen
+
+
+@record
+class Pair:
+    """One operation in both runs, the last attempt of each; None where the other alone has it. `to`: the value set."""
+
+    primitive: str
+    address: str
+    to: str = ""
+    a: OperationRun | None = None
+    b: OperationRun | None = None
+
+
+@record
+class Differing:
+    """Something about two runs that is not the same, by name; None where one does not say it."""
+
+    name: str
+    a: Any = None
+    b: Any = None
+
+
+@record
+class Comparison:
+    """Two runs. `same`: they led to the same state. `changes`: from where the first ended to where the second did, as
+    observed, None where one of them was not observed; `differing`: outcome, goal, evidence, calibration, versions..."""
+
+    a: RunDocument
+    b: RunDocument
+    same: bool
+    changes: tuple[Change, ...] | None = None
+    operations: tuple[Pair, ...] = ()
+    differing: tuple[Differing, ...] = ()
+
+
+def compare_runs(setup: Setup, a: Loaded, b: Loaded) -> Comparison:
+    """Return two runs side by side; `setup`: the bench as it is now, whose tolerances count."""
+    ends = [_end(setup, run) for run in (a, b)]
+    found = None
+    if ends[0] is not None and ends[1] is not None:
+        found = changes(setup, ends[0], ends[1], ends[0].components.keys() | ends[1].components.keys())
+    return Comparison(
+        a=a.document,
+        b=b.document,
+        same=a.document.state_after == b.document.state_after,
+        changes=found,
+        operations=tuple(_pairs(a.operations, b.operations)),
+        differing=tuple(_differing(_facts(a.document), _facts(b.document))),
+    )
+
+
+def _end(setup: Setup, run: Loaded) -> LabState | None:
+    """Return the bench as it was observed after a run; None where nobody looked, or what was seen is not here."""
+    seen = {e.component: e.data for e in run.measurements if e.kind == "observation" and e.component}
+    try:
+        return state_seen(setup, seen) if seen else None
+    except (KeyError, TypeError, ValueError):  # written by another program
+        return None
+
+
+def _pairs(a: Iterable[OperationRun], b: Iterable[OperationRun]) -> Iterator[Pair]:
+    """Yield the operations that both have, matched by what they do, then those of one alone."""
+    first, second = _by_deed(a), _by_deed(b)
+    for key in dict.fromkeys((*first, *second)):
+        yield Pair(primitive=key[0], address=key[1], to=key[2], a=first.get(key), b=second.get(key))
+
+
+def _by_deed(found: Iterable[OperationRun]) -> dict[tuple[str, str, str, int], OperationRun]:
+    """Return the last attempt of each operation by primitive, address, value to set, and the how-manieth such it is."""
+    last: dict[str, OperationRun] = {}
+    for op in found:
+        if op.id not in last or op.attempt > last[op.id].attempt:
+            last[op.id] = op
+    counted: Counter[tuple[str, str, str]] = Counter()
+    keyed = {}
+    for op in last.values():
+        deed = (op.primitive, op.address, show_value(op.arguments.get("to")) if op.primitive == "set" else "")
+        counted[deed] += 1
+        keyed[*deed, counted[deed]] = op
+    return keyed
+
+
+def _facts(run: RunDocument) -> dict[str, Any]:
+    """Return what is compared of two documents besides states and operations."""
+    facts: dict[str, Any] = {
+        "outcome": run.outcome, "goal": run.goal, "cause": run.cause.kind, "evidence": run.evidence, "seed": run.seed,
+        "seconds": round(run.seconds, 3), "operator": run.operator, "parent": run.parent, "plan": run.plan,
+        "state before": run.state_before, "lab": run.lab.digest, "calibration": run.calibration,
+    }  # fmt: skip
+    facts |= {kind: number for kind, number in run.tally.items() if kind != "done" or number}
+    facts |= {f"environment {name}": value for name, value in run.environment.items()}
+    facts |= {f"version of {name}": value for name, value in run.versions.items()}
+    return facts | {f"expectation `{e.that}`": as_json(e.holds) for e in run.expectations}
+
+
+def _differing(a: Mapping[str, Any], b: Mapping[str, Any]) -> Iterator[Differing]:
+    for name in dict.fromkeys((*a, *b)):
+        if a.get(name) != b.get(name):
+            yield Differing(name=name, a=a.get(name), b=b.get(name))

@@ -1,0 +1,81 @@
+"""The runs that there are: those that commits carry, and those of this bench that none has yet."""
+
+from __future__ import annotations
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.history.git.commit import Commit
+from pico.history.lab.folder import LabFolder
+from pico.history.repository.ranges import read_range
+from pico.history.repository.repository import Repository
+from pico.history.runs.committed import CarriedRun, places_in_history, read_carried
+from pico.history.runs.uncommitted import unrecorded
+from pico.model.record import record
+from pico.model.run import RunDocument
+
+
+@record
+class Listed:
+    """One run: its document, and the oldest commit that carries it; None where no commit has it yet."""
+
+    document: RunDocument
+    commit: Commit | None = None
+
+
+def list_runs(
+    folder: LabFolder,
+    revision: str | None = None,
+    *,
+    every: bool = False,
+    component: str | None = None,
+    diagnostics: list[Diagnostic] | None = None,
+) -> tuple[Listed, ...]:
+    """Return the runs in the history of a revision (HEAD), of a range `A..B`, or of `every` branch and tag.
+
+    The newest comes first. Unless a revision is named, those that this bench alone knows yet count, too. `component`:
+    only what changed that one. Damaged files are warnings in `diagnostics`. Raises PicoError for what there is not.
+    """
+    own = [] if revision else [CarriedRun(run.document) for run in unrecorded(folder, diagnostics)]
+    carried = _carried(folder, revision, every, diagnostics)
+    known = {run.document.id for run in carried}
+    found = [*carried, *(run for run in own if run.document.id not in known)]
+    if component is not None:
+        found = _of_component(folder, component, found)
+    commits = folder.history().commits({r.place.commit for r in found if r.place}) if carried else {}
+    listed = [Listed(document=r.document, commit=commits[r.place.commit] if r.place else None) for r in found]
+    return tuple(sorted(listed, key=lambda one: one.document.order, reverse=True))
+
+
+def _carried(
+    folder: LabFolder, revision: str | None, every: bool, diagnostics: list[Diagnostic] | None
+) -> list[CarriedRun]:
+    if every and revision:
+        hint = "leave out one of them"
+        raise PicoError(error("usage", "--all is every branch and tag, and a revision is one", hint=hint))
+    repository = folder.history() if revision else folder.repository
+    if repository is None:
+        return []
+    tips, hidden = (None, ()) if every else _span(repository, revision)
+    places = places_in_history(repository, folder.root, tips, hidden=hidden)
+    return list(read_carried(repository, places.values(), diagnostics))
+
+
+def _span(repository: Repository, revision: str | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the commits whose history is meant, and those whose history is not."""
+    span = read_range(revision) if revision else None
+    if span is None:
+        known = revision or repository.head().commit
+        return ((repository.resolve(known).id,) if known else ()), ()
+    if span.sign == "...":
+        hint = f"`{span.a}..{span.b}`: what the second has and the first has not"
+        raise PicoError(error("range", "runs are listed of `A..B`", hint=hint))
+    a, b = (repository.resolve(name or "HEAD").id for name in (span.a, span.b))
+    return (b,), (a,)
+
+
+def _of_component(folder: LabFolder, component: str, runs: list[CarriedRun]) -> list[CarriedRun]:
+    """Return the runs that changed a component; raises PicoError for one that neither the bench nor a run knows."""
+    found = [run for run in runs if any(c.component == component for c in run.document.changes)]
+    if not found and component not in folder.setup.lab.inventory:
+        hint = did_you_mean(component, folder.setup.lab.inventory)
+        raise PicoError(error("unknown-component", f"there is no component `{component}`", hint=hint))
+    return found

@@ -1,0 +1,126 @@
+"""One run with everything that is known of it."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Mapping, Sequence
+
+from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.history.git.commit import Commit
+from pico.history.lab.folder import LabFolder
+from pico.history.runs.committed import RunPlace, files_at, places_in_history, read_carried, read_place
+from pico.history.runs.uncommitted import unrecorded
+from pico.model.record import record
+from pico.model.run import Artifact, RunDocument, TraceEvent
+from pico.runs.document import Recorded
+from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
+from pico.runs.operations import OperationRun, operations
+from pico.runs.reading import read_events
+from pico.runs.store import Store
+
+LARGEST = 256 << 20
+"""Bytes above which no packed file of a run is unpacked."""
+
+
+@record
+class Here:
+    """An artifact of a run, and whether the content store of this repository has it."""
+
+    artifact: Artifact
+    present: bool
+
+
+@record
+class Loaded:
+    """A run: its document, the commit that carries it (None: none yet), its operations, what was measured, its
+    artifacts; and what is wrong with its files."""
+
+    document: RunDocument
+    commit: Commit | None = None
+    operations: tuple[OperationRun, ...] = ()
+    measurements: tuple[TraceEvent, ...] = ()
+    artifacts: tuple[Here, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def load_run(folder: LabFolder, word: str | None = None) -> Loaded:
+    """Return the run whose id begins or ends with `word`, the last one where None.
+
+    Raises PicoError for one that there is not, for a word that fits several, and for a document that is damaged.
+    """
+    wrong: list[Diagnostic] = []
+    own = {run.document.id: run for run in unrecorded(folder, wrong)}
+    places = places_in_history(folder.repository, folder.root) if folder.repository else {}
+    name = _last(folder, own, places) if word is None else _chosen(word, sorted({*own, *places}))
+    return _own(own[name]) if name in own else _carried(folder, places[name], wrong)
+
+
+def _last(folder: LabFolder, own: Mapping[str, Recorded], places: Mapping[str, RunPlace]) -> str:
+    """Return the run that started last; what no commit has yet comes after what commits have."""
+    if own:
+        return list(own)[-1]
+    if not places:
+        raise PicoError(error("no-run", "no run of this lab has moved anything yet", hint="`pico apply` runs a plan"))
+    day = max(places)[:8]  # a name begins with the time
+    late = read_carried(folder.history(), (place for name, place in places.items() if name >= day))
+    return late[-1].document.id if late else max(places)
+
+
+def _chosen(word: str, names: Sequence[str]) -> str:
+    """Return the one name that a word is, begins, or ends: tables show the last six characters."""
+    found = [name for name in names if name.startswith(word) or (word and name.endswith(f"-{word}"))]
+    if word in names:
+        return word
+    if len(found) == 1:
+        return found[0]
+    if found:
+        some = ", ".join(f"`{name}`" for name in found[:4])
+        raise PicoError(error("run", f"{len(found)} runs begin or end with `{word}`", hint=f"write more of it: {some}"))
+    inside = [name for name in names if word and word in name]
+    hint = f"did you mean `{inside[-1]}`?" if inside else "`pico runs list --all` shows them"
+    raise PicoError(error("run", f"there is no run `{word[:60]}`", hint=hint))
+
+
+def _own(run: Recorded) -> Loaded:
+    return Loaded(document=run.document, operations=operations(run.trace), measurements=tuple(run.measurements))
+
+
+def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> Loaded:
+    repository = folder.history()
+    document = read_place(repository, place)
+    if isinstance(document, Diagnostic):
+        raise PicoError(error(document.code, document.summary, detail=document.detail, hint=document.hint))
+    store = Store(repository.common / "pico" / "cas")
+    files = files_at(repository, place)
+    intact(document, files, wrong)
+    return Loaded(
+        document=document,
+        commit=repository.commits([place.commit])[place.commit],
+        operations=operations(_events(document, files, store, TRACE, wrong)),
+        measurements=_events(document, files, store, MEASUREMENTS, wrong),
+        artifacts=tuple(Here(artifact=a, present=store.has(a.sha256)) for a in document.artifacts),
+        diagnostics=tuple(wrong),
+    )
+
+
+def _events(
+    document: RunDocument, files: Mapping[str, bytes], store: Store, name: str, wrong: list[Diagnostic]
+) -> tuple[TraceEvent, ...]:
+    """Return the events of a file of a run, from the commit or from the content store."""
+    path = f"{run_folder(document)}/{name}"
+    if path in files:
+        return read_events(path, files[path], wrong)
+    packed = next((a for a in document.artifacts if a.name == f"{name}.gz"), None)
+    if packed is None:
+        return ()
+    try:
+        return read_events(path, _unpacked(store.get(packed.sha256)), wrong)
+    except PicoError as exc:
+        wrong += [warning(d.code, f"{path}.gz: {d.summary}", hint=d.hint) for d in exc.diagnostics]
+    except zlib.error:
+        wrong.append(warning("run-file", f"{path}.gz can't be unpacked"))
+    return ()
+
+
+def _unpacked(data: bytes) -> bytes:
+    return zlib.decompressobj(wbits=zlib.MAX_WBITS | 16).decompress(data, LARGEST)

@@ -1,0 +1,145 @@
+"""Whether the state of a commit was ever on a bench, judged by what the commit holds and by the runs in history.
+
+Trailers are copied by `git cherry-pick`, go with `git merge --squash`, and anybody can write them: they count only
+where the digest that they say is that of the commit's own state. A run counts wherever it is in history, for it says
+itself to which state it led.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from pico.diagnostics import Diagnostic, PicoError
+from pico.history.git.cache import Cache
+from pico.history.git.commit import Commit
+from pico.history.lab.folder import LabFolder
+from pico.history.messages import trailers
+from pico.history.runs.committed import CACHE, CarriedRun, files_at, places_in_history, read_carried, runs_added
+from pico.model.proof import Standing, Verdict
+from pico.model.run import STRENGTH, RunDocument
+from pico.runs.files import intact
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What a commit holds and says: the digest of its state, the runs that it added, its message, how many parents."""
+
+    commit: str
+    state: str
+    message: str = ""
+    added: tuple[str, ...] = ()
+    parents: int = 1
+    carries: bool = False
+
+
+@dataclass
+class Standings:
+    """The standings of the commits of one lab. The history is looked through once, when the first one is asked for.
+
+    `own`: runs of this bench that no commit has yet.
+    """
+
+    folder: LabFolder
+    own: Sequence[RunDocument] = ()
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    _cache: Cache | None = None
+
+    @cached_property
+    def runs(self) -> Mapping[str, Sequence[CarriedRun]]:
+        """The runs by the digest of the state that they led to, the strongest evidence first, then the latest."""
+        places = places_in_history(self.folder.history(), self.folder.root)
+        carried = read_carried(self.folder.history(), places.values(), self.diagnostics)
+        found: dict[str, list[CarriedRun]] = {}
+        for run in (*carried, *(CarriedRun(document) for document in self.own)):
+            found.setdefault(run.document.state_after, []).append(run)
+        for runs in found.values():
+            runs.sort(key=lambda r: (STRENGTH[r.document.evidence], r.document.ended_at), reverse=True)
+        return found
+
+    def at_a_glance(self, commit: Commit, added: Sequence[RunDocument]) -> Standing | None:
+        """Return the standing of a commit of which the runs that it `added` are known, for a list of many; None where
+        nothing claims, and nothing proves, that its state was ever on a bench."""
+        claimed = any(trailers.values(commit.message, key) for key in (trailers.EVIDENCE, trailers.RUN))
+        if not (claimed or added or self.runs):
+            return None
+        found = self.of(commit)
+        return found if claimed or added or found.verdict != "planned" else None
+
+    def _state(self, commit: Commit) -> str:
+        """Return the digest of the state of a commit; what was found once is remembered, for this bench (a commit may
+        not say itself of which it is)."""
+        if self._cache is None:
+            self._cache = Cache(self.folder.history().common / CACHE)
+        key = f"{self._bench} {commit.id}"
+        known = self._cache.get(key)
+        if known is None:
+            known = self.folder.historic(commit.id)[1].digest()
+            self._cache.put(key, known)
+            self._cache.flush()
+        return known
+
+    @cached_property
+    def _bench(self) -> str:
+        from pico import __version__
+
+        return f"{__version__} {self.folder.history().relative(self.folder.root)} {self.folder.setup.digest()}"
+
+    def of(self, commit: Commit, state: str | None = None) -> Standing:
+        """Return the standing of a commit; `state`: the digest of its state, where that is known already."""
+        try:
+            state = state or self._state(commit)
+        except PicoError as exc:
+            return Standing(verdict="unknown", commit=commit.id, why=exc.diagnostics[0].summary)
+        wrong: list[Diagnostic] = []
+        for run in self.runs.get(state, ()):
+            if run.place is None or intact(run.document, files_at(self.folder.history(), run.place), wrong):
+                return _verified(commit.id, state, run, tuple(wrong))
+        if wrong:
+            why = f"the run {self.runs[state][0].document.id} led to it, but its files are damaged: they prove nothing"
+            return Standing(verdict="inherited", commit=commit.id, state=state, why=why, diagnostics=tuple(wrong))
+        added = runs_added(self.folder.history(), commit, self.folder.root, wrong)
+        carries = len(commit.parents) > 1 and bool(self.runs)
+        claim = Claim(commit.id, state, commit.message, tuple(d.id for d in added), len(commit.parents), carries)
+        return unproven(claim, tuple(wrong))
+
+
+def standing(folder: LabFolder, commit: Commit) -> Standing:
+    """Return the standing of one commit; for many, `Standings` looks through the history once."""
+    return Standings(folder).of(commit)
+
+
+def unproven(claim: Claim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:
+    """Return the standing of a commit to whose state no run led."""
+
+    def judged(verdict: Verdict, why: str, evidence: str | None = None) -> Standing:
+        return Standing(
+            verdict=verdict, commit=claim.commit, state=claim.state, evidence=evidence, why=why, diagnostics=diagnostics
+        )
+
+    told = trailers.values(claim.message, trailers.STATE)
+    evidence = next(iter(trailers.values(claim.message, trailers.EVIDENCE)), "planned")
+    named = trailers.values(claim.message, trailers.RUN)
+    seen = STRENGTH.get(evidence, 0) > 0
+    if seen and claim.state in told and not named:
+        return judged("verified", "it was taken from the bench as it stood; no run led there", evidence)
+    if claim.added:
+        names = f"the run {claim.added[0]}" if len(claim.added) == 1 else f"{len(claim.added)} runs"
+        return judged("inherited", f"{names} that came with it led to another state")
+    if claim.state in told and named:
+        return judged("inherited", f"the run {named[-1][:40]} that its message names is not there, or damaged")
+    if seen or named:
+        return judged("inherited", "its message speaks of another state: it was copied or edited")
+    if claim.parents > 1 and claim.carries:
+        return judged("inherited", "a merge: its sides may have been on a bench, the two together were not")
+    return judged("planned", "no run in this history led to it")
+
+
+def _verified(commit: str, state: str, run: CarriedRun, diagnostics: tuple[Diagnostic, ...]) -> Standing:
+    document = run.document
+    return Standing(
+        verdict="verified", commit=commit, state=state, evidence=document.evidence, run=document.id,
+        at=document.ended_at, carried=run.place.commit if run.place else None,
+        why=f"the run {document.id} led to exactly this state", diagnostics=diagnostics,
+    )  # fmt: skip

@@ -1,0 +1,151 @@
+"""The files of the runs of a bench that no commit has yet.
+
+Which runs: those that began to move something, are over, and that no commit has yet which a branch or tag reaches. So
+a run is carried by the commit of the state that it led to, or by the next one where that failed or was thrown away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import closing
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+from pico.backends.lease import BenchLock
+from pico.diagnostics import Diagnostic, PicoError
+from pico.history.lab.folder import LabFolder
+from pico.history.runs.committed import find_runs, read_place
+from pico.history.runs.proof import Standings
+from pico.model.drift import drift_of
+from pico.model.observation import Observation, live_state
+from pico.model.proof import Standing
+from pico.model.run import RunDocument
+from pico.model.state import LabState
+from pico.runs.document import Kept, Recorded, afterwards, read_plan, recorded
+from pico.runs.files import Keep, run_files
+from pico.runs.journal import Journal, RunRecord
+
+
+def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
+    """Return the files of the runs that no commit has yet, by path relative to the lab; raises PicoError.
+
+    `seen`: the bench as it is, which makes the `state` that is to be committed (None: that of the manifests) the one to
+    which the last run led, where it stands so (see `RunDocument.state_after`). What is too big for a commit goes to the
+    content store of the repository. What a commit that failed left of them in the working tree goes.
+    """
+    runs = unrecorded(folder)
+    here = [i for i, run in enumerate(runs) if seen and run.document.environment.get("backend") in (None, seen.backend)]
+    if here and seen is not None:  # what moved a simulated bench says nothing of a real one, and the other way around
+        runs[here[-1]] = _committed(folder, runs[here[-1]], seen, state or folder.state)
+    files: dict[str, bytes] = {}
+    for run in runs:
+        files |= run_files(run.document, run.trace, run.measurements, keep=_keep(folder))
+    _clear(folder.root, files)
+    return files
+
+
+def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -> list[Recorded]:
+    """Return the runs of this bench that no commit has yet, in the order in which they began.
+
+    A journal that can't be read raises PicoError; where there are `diagnostics`, that is appended to them, and there
+    are no runs: looking must not fail for it.
+    """
+    try:
+        return _unrecorded(folder)
+    except PicoError as exc:
+        if diagnostics is None:
+            raise
+        diagnostics += exc.diagnostics
+        return []
+
+
+def _unrecorded(folder: LabFolder) -> list[Recorded]:
+    path = folder.root / ".pico" / "journal.sqlite"
+    if not path.exists():
+        return []
+    with closing(Journal(path, looking=True)) as journal:
+        moving = journal.moving()
+        over = [run for run in journal.runs() if run.run in moving and not _goes_on(folder.root, run)]
+        return [recorded(folder.setup, kept) for kept in _kept(folder, journal, over)]
+
+
+def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | None:
+    """Return the standing of a revision, HEAD where None, with what this bench alone knows yet; None where there is no
+    commit. Raises PicoError for an unknown revision."""
+    head = folder.head()
+    if revision is None and (head is None or head.commit is None):
+        return None
+    wrong: list[Diagnostic] = []
+    own = [run.document for run in unrecorded(folder, wrong)]
+    found = Standings(folder, own, wrong).of(folder.history().resolve(revision or "HEAD"))
+    return replace(found, diagnostics=(*wrong, *found.diagnostics))
+
+
+def _kept(folder: LabFolder, journal: Journal, over: list[RunRecord]) -> Iterator[Kept]:
+    """Yield what no commit has of some runs; of one that was taken up again since, what came then."""
+    carried = _carried(folder, over)
+    for run in over:
+        part = carried.get(run.run, -1) + 1
+        document = journal.document(run.run) if part <= run.resumed else None
+        if document is None:  # carried, or of a PICO that did not keep plans
+            continue
+        about, seen = journal.about(run.run)
+        kept = Kept(run, read_plan(document), about, seen, journal.records(run=run.run), part)
+        if any(r.kind == "started" for r in kept.own):
+            yield kept
+
+
+def _carried(folder: LabFolder, runs: list[RunRecord]) -> dict[str, int]:
+    """Return the runs that commits have, each with how often it had been taken up again by then."""
+    if folder.repository is None:
+        return {}
+    of = {name: run for run in runs for name in _names(run)}
+    places = find_runs(folder.repository, folder.root, {name: _seconds(run.started_at) for name, run in of.items()})
+    found: dict[str, int] = {}
+    for name, place in places.items():
+        run = of[name]
+        document = read_place(folder.repository, place) if run.resumed else None
+        resumed = document.resumed if isinstance(document, RunDocument) else run.resumed
+        found[run.run] = max(found.get(run.run, 0), resumed)
+    return found
+
+
+def _names(run: RunRecord) -> list[str]:
+    """Return what the documents of a run may be called: once it was carried, what came later has names of its own."""
+    return [run.run, *(f"{run.run}-r{n}" for n in range(1, run.resumed + 1))]
+
+
+def _committed(folder: LabFolder, run: Recorded, seen: Observation, state: LabState) -> Recorded:
+    """Return the last run, as leading to the `state` that is committed, where the bench stands so."""
+    live = live_state(folder.setup, seen)
+    document = replace(run.document, afterwards=afterwards(folder.setup, run, live))
+    if not any(not c.tolerated for c in drift_of(folder.setup, seen, state)):
+        document = replace(document, state_after=state.digest())
+    return replace(run, document=document)
+
+
+def _keep(folder: LabFolder) -> Keep | None:
+    """Return what takes large data: the store that all worktrees of the repository share."""
+    from pico.runs.store import Store
+
+    return Store(folder.repository.common / "pico" / "cas").put if folder.repository else None
+
+
+def _goes_on(root: Path, run: RunRecord) -> bool:
+    return run.finished_at is None and BenchLock(root).holder() is not None
+
+
+def _seconds(moment: str) -> float:
+    try:
+        return datetime.fromisoformat(moment).timestamp()
+    except ValueError:
+        return 0.0
+
+
+def _clear(root: Path, files: Mapping[str, bytes]) -> None:
+    """Take away what a commit that failed left of runs that no commit has; they may now have led to another state."""
+    for path, data in files.items():
+        left = root / path
+        if left.is_file() and not left.is_symlink() and left.read_bytes() != data:
+            left.unlink()

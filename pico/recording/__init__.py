@@ -1,5 +1,0 @@
-"""From the journal of a bench to the runs that commits carry, and back to what is known of each."""
-
-from pico.recording.uncommitted import pending, standing_of, unrecorded
-
-__all__ = ["pending", "standing_of", "unrecorded"]
