@@ -27,9 +27,9 @@ sys.path.insert(0, str(ROOT))
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
-from pico.planning.sequencing import Effort, Sequence, best_order  # noqa: E402
-from pico.planning.sequencing.nearest import nearest_order  # noqa: E402
-from pico.planning.sequencing.problem import read_tour  # noqa: E402
+from pico.staging.sequencing import Effort, Sequence, best_order  # noqa: E402
+from pico.staging.sequencing.nearest import nearest_order  # noqa: E402
+from pico.staging.sequencing.problem import read_tour  # noqa: E402
 
 Point = tuple[float, float]
 """A place in shares of the square's side; storage and the arm's rest lie outside of it."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from pico.planning.conflicts import FEW, Conflicts, sum_of
-from pico.planning.feedback import Limit, Staging
-from pico.planning.feedback import solve as fewest_staged
 from pico.planning.realize import realized, slots_needed
 from pico.planning.relaxed import relaxation, staging_cost
 from pico.planning.search import Configuration, Effort, Found, Step, search
+from pico.staging.feedback import Limit, Staging
+from pico.staging.feedback import solve as fewest_staged
 
 COMPLETE = FEW
 """Up to so many movers nothing solvable is refused: the last search prunes nothing."""

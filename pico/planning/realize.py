@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from pico.planning.conflicts import Conflicts
-from pico.planning.feedback import Choice, Event, Problem, Staging
 from pico.planning.search import Step, ranked_storage
+from pico.staging.feedback import Choice, Event, Problem, Staging
 
 TRIES = 2000
 """Moves tried in all to find slots for one order."""

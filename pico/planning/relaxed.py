@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from pico.planning.conflicts import Conflicts
-from pico.planning.feedback import Arc, Component, Event, Option, Problem, arrives, leaves
 from pico.planning.movers import Hold, Mover
+from pico.staging.feedback import Arc, Component, Event, Option, Problem, arrives, leaves
 
 
 def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Problem:

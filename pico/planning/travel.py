@@ -13,9 +13,9 @@ from pico.planning.conflicts import Conflicts
 from pico.planning.movers import Place
 from pico.planning.order import arranged, precedence
 from pico.planning.search import Step
-from pico.planning.sequencing import Effort, best_order
 from pico.planning.shorten import valid
 from pico.planning.together import handed, shared_out, work_of
+from pico.staging.sequencing import Effort, best_order
 
 SPEED = 300.0
 """What the hand travels at where no motion is asked for [mm/s]."""

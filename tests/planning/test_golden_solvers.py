@@ -16,11 +16,11 @@ from feedback_cases import random_digraph, random_problem  # noqa: E402
 from sequencing_cases import instance  # noqa: E402
 
 from pico.planning.arms import least, soonest, timed  # noqa: E402
-from pico.planning.feedback import Limit, fewest_vertices, solve  # noqa: E402
-from pico.planning.sequencing.cuts import cut_bound  # noqa: E402
-from pico.planning.sequencing.nearest import nearest_order  # noqa: E402
-from pico.planning.sequencing.problem import Effort  # noqa: E402
-from pico.planning.sequencing.solve import best_order  # noqa: E402
+from pico.staging.feedback import Limit, fewest_vertices, solve  # noqa: E402
+from pico.staging.sequencing.cuts import cut_bound  # noqa: E402
+from pico.staging.sequencing.nearest import nearest_order  # noqa: E402
+from pico.staging.sequencing.problem import Effort  # noqa: E402
+from pico.staging.sequencing.solve import best_order  # noqa: E402
 
 LIMITS = (Limit(), Limit(solves=0, exchanges=0), Limit(solves=2, nodes=5, exchanges=20), Limit(exchanges=0))
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from graphlib import CycleError, TopologicalSorter
 from itertools import combinations, product
 
-from pico.planning.feedback import Arc, Choice, Component, Cycle, Event, Option, Problem, arrives, leaves
+from pico.staging.feedback import Arc, Choice, Component, Cycle, Event, Option, Problem, arrives, leaves
 
 
 def acyclic(vertices: Iterable[object], arcs: Iterable[tuple[object, object]]) -> bool:

@@ -9,7 +9,7 @@ import sys
 import pytest
 from feedback_cases import all_choices, closes, holding, least_staging, possible, random_problem, weight_of
 
-from pico.planning.feedback import (
+from pico.staging.feedback import (
     Arc,
     Component,
     Limit,
@@ -130,7 +130,7 @@ def test_an_arc_to_nobody_is_refused() -> None:
 
 def test_what_needs_no_program_loads_no_solver() -> None:
     code = (
-        "import sys; from pico.planning.feedback import *; fewest_vertices([[1], [0]]);"
+        "import sys; from pico.staging.feedback import *; fewest_vertices([[1], [0]]);"
         "solve(Problem((Component((Option(0),)),))); print(*sorted({'highspy', 'numpy'} & set(sys.modules)))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "\n"

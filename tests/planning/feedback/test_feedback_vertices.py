@@ -7,7 +7,7 @@ import random
 import pytest
 from feedback_cases import acyclic, least_feedback, random_digraph
 
-from pico.planning.feedback import Limit, fewest_vertices
+from pico.staging.feedback import Limit, fewest_vertices
 
 
 def check(seed: int) -> None:

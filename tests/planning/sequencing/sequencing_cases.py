@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass
 
-from pico.planning.sequencing.problem import Tour, read_tour
+from pico.staging.sequencing.problem import Tour, read_tour
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from sequencing_cases import cheapest, instance, keeps
 
-from pico.planning.sequencing.assignment import assign, duals
-from pico.planning.sequencing.cuts import cut_bound, violated
-from pico.planning.sequencing.exchange import exchangeable
-from pico.planning.sequencing.flow import Network
-from pico.planning.sequencing.nearest import nearest_order
-from pico.planning.sequencing.stretches import rearranged, stretch
+from pico.staging.sequencing.assignment import assign, duals
+from pico.staging.sequencing.cuts import cut_bound, violated
+from pico.staging.sequencing.exchange import exchangeable
+from pico.staging.sequencing.flow import Network
+from pico.staging.sequencing.nearest import nearest_order
+from pico.staging.sequencing.stretches import rearranged, stretch
 
 
 def test_potentials_are_below_all_costs_and_add_up_to_the_cheapest_assignment() -> None:

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sequencing_cases import Instance, cheapest, instance, keeps
 
-from pico.planning.sequencing import Effort, Sequence, best_order, makespan_bound
+from pico.staging.sequencing import Effort, Sequence, best_order, makespan_bound
 
 LITTLE = Effort(moves=2000, steps=0, rounds=6)
 """No exact search: local search and the bound from cuts."""

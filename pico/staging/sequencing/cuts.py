@@ -18,8 +18,8 @@ from __future__ import annotations
 from collections import abc
 from typing import Any
 
-from pico.planning.sequencing.flow import Network
-from pico.planning.sequencing.problem import Masks, Tour
+from pico.staging.sequencing.flow import Network
+from pico.staging.sequencing.problem import Masks, Tour
 
 Cut = tuple[int, int]
 """Two sets of operations as bits, the start and the park among them as bit m: one arc at least goes from the first to

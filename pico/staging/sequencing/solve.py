@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import abc
 from typing import TYPE_CHECKING
 
-from pico.planning.sequencing.exchange import NEAR, anneal
-from pico.planning.sequencing.nearest import nearest_order
-from pico.planning.sequencing.problem import TOLERANCE, Effort, Sequence, Tour, read_tour
+from pico.staging.sequencing.exchange import NEAR, anneal
+from pico.staging.sequencing.nearest import nearest_order
+from pico.staging.sequencing.problem import TOLERANCE, Effort, Sequence, Tour, read_tour
 
 if TYPE_CHECKING:
-    from pico.planning.sequencing.assignment import Assignment
+    from pico.staging.sequencing.assignment import Assignment
 
 SHARE = 1000
 """Moves of the local search an operation before the exact search; a good order makes that one short."""
@@ -34,9 +34,9 @@ def best_order(
     order = nearest_order(tour)
     if tour.count < 2:
         return _proven(tour, order)
-    from pico.planning.sequencing.assignment import assign
-    from pico.planning.sequencing.exact import MOST, improved
-    from pico.planning.sequencing.stretches import rearranged
+    from pico.staging.sequencing.assignment import assign
+    from pico.staging.sequencing.exact import MOST, improved
+    from pico.staging.sequencing.stretches import rearranged
 
     floor = assign(tour)
     near = _near(floor)
@@ -55,7 +55,7 @@ def _proven(tour: Tour, order: tuple[int, ...]) -> Sequence:
 
 
 def _bounded(tour: Tour, order: tuple[int, ...], bound: float, limit: Effort) -> Sequence:
-    from pico.planning.sequencing.cuts import cut_bound
+    from pico.staging.sequencing.cuts import cut_bound
 
     cost = tour.cost(order)
     if bound < cost - TOLERANCE * abs(cost):

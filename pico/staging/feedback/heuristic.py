@@ -6,8 +6,8 @@ import math
 import random
 from collections.abc import Iterable
 
-from pico.planning.feedback.digraph import Digraph, cyclic_components, shortest_cycle, topological_order
-from pico.planning.feedback.kernel import Weights, reduce
+from pico.staging.feedback.digraph import Digraph, cyclic_components, shortest_cycle, topological_order
+from pico.staging.feedback.reductions import Weights, reduce
 
 
 def greedy(graph: Digraph, weights: Weights) -> list[int]:

@@ -10,9 +10,9 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from pico.planning.feedback.digraph import cyclic_components, shortest_cycle
-from pico.planning.feedback.literals import Clause, Edge, Literals, bits
-from pico.planning.feedback.shrink import successors
+from pico.staging.feedback.digraph import cyclic_components, shortest_cycle
+from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.shrink import successors
 
 
 @dataclass(slots=True)

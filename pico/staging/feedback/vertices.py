@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from pico.planning.feedback.cover import Cover, reached
-from pico.planning.feedback.digraph import Digraph, cyclic_components, shortest_cycle, some_cycle
-from pico.planning.feedback.heuristic import disjoint_cycles, exchanged, greedy, pruned
-from pico.planning.feedback.kernel import Weights, reduce
-from pico.planning.feedback.limit import Limit, Work
+from pico.staging.feedback.clauses import Cover, reached
+from pico.staging.feedback.digraph import Digraph, cyclic_components, shortest_cycle, some_cycle
+from pico.staging.feedback.heuristic import disjoint_cycles, exchanged, greedy, pruned
+from pico.staging.feedback.limit import Limit, Work
+from pico.staging.feedback.reductions import Weights, reduce
 
 THREES = 4000
 """Up to so many 3-cycles of one part are demanded from the start."""

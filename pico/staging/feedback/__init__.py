@@ -1,7 +1,7 @@
 """Fewest vertices, or fewest stagings, that leave a digraph without cycles; knows nothing of tables and robots."""
 
-from pico.planning.feedback.limit import Limit
-from pico.planning.feedback.problem import (
+from pico.staging.feedback.limit import Limit
+from pico.staging.feedback.problem import (
     Arc,
     Choice,
     Component,
@@ -14,8 +14,8 @@ from pico.planning.feedback.problem import (
     arrives,
     leaves,
 )
-from pico.planning.feedback.staging import solve
-from pico.planning.feedback.vertices import Feedback, fewest_vertices
+from pico.staging.feedback.staging import solve
+from pico.staging.feedback.vertices import Feedback, fewest_vertices
 
 __all__ = [
     "Arc",

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pico.planning.feedback.limit import Work
+from pico.staging.feedback.limit import Work
 
 CLOSE = 1e-5
 """Broken costs that differ by less than this, relatively, are alike: so far the solver's tolerances reach."""

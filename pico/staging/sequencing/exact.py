@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.planning.sequencing.problem import TOLERANCE, Tour
+from pico.staging.sequencing.problem import TOLERANCE, Tour
 
 MOST = 30
 """Operations up to which the search is tried."""
@@ -20,7 +20,7 @@ Layer = tuple[Any, Any]
 
 def improved(tour: Tour, order: tuple[int, ...], steps: int) -> tuple[bool, tuple[int, ...]]:
     """Return whether the search ended within so many steps, and a cheaper order where it found one, else `order`."""
-    from pico.planning.sequencing.assignment import assign
+    from pico.staging.sequencing.assignment import assign
 
     floor, cost = assign(tour), tour.cost(order)
     room = cost - floor.bound - TOLERANCE * abs(cost)

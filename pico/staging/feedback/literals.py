@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from pico.planning.feedback.problem import Arc, Choice, Component, Event, Link, Option, Part, Problem, arrives, leaves
+from pico.staging.feedback.problem import Arc, Choice, Component, Event, Link, Option, Part, Problem, arrives, leaves
 
 PARTS: tuple[Part, ...] = ("direct", "pick", "place")
 

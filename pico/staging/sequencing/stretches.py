@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import abc
 
-from pico.planning.sequencing.problem import Tour
+from pico.staging.sequencing.problem import Tour
 
 LENGTH, STEP = 20, 7
 """Operations in a stretch, and how far the next one begins behind it."""
@@ -29,7 +29,7 @@ def rearranged(tour: Tour, order: abc.Sequence[int]) -> tuple[int, ...]:
 
 
 def _cheaper(tour: Tour, line: abc.Sequence[int], first: int, last: int) -> list[int]:
-    from pico.planning.sequencing.exact import improved
+    from pico.staging.sequencing.exact import improved
 
     inner = stretch(tour, line, first, last)
     _, order = improved(inner, tuple(range(inner.count)), STEPS)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from pico.planning.sequencing.problem import Tour
+from pico.staging.sequencing.problem import Tour
 
 
 @dataclass(frozen=True, slots=True)

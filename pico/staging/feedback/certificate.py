@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from pico.planning.feedback.lazy import cover_of
-from pico.planning.feedback.limit import Limit, Work
-from pico.planning.feedback.literals import Clause, Edge, Literals, bits
-from pico.planning.feedback.problem import Cycle, Link
-from pico.planning.feedback.walk import Pool, left_cycles
+from pico.staging.feedback.lazy import cover_of
+from pico.staging.feedback.limit import Limit, Work
+from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.problem import Cycle, Link
+from pico.staging.feedback.walk import Pool, left_cycles
 
 
 def certificate(

@@ -12,7 +12,7 @@ import math
 import random
 from collections import abc
 
-from pico.planning.sequencing.problem import Masks, Tour
+from pico.staging.sequencing.problem import Masks, Tour
 
 HOT, COLD = 0.6, 0.1
 """First and last temperature, in mean costs of an arc of the first order."""

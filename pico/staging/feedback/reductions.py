@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from pico.planning.feedback.digraph import Digraph, strong_components
+from pico.staging.feedback.digraph import Digraph, strong_components
 
 Weights = Mapping[int, float]
 

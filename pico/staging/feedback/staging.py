@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pico.planning.feedback.certificate import certificate
-from pico.planning.feedback.cover import reached
-from pico.planning.feedback.digraph import topological_order
-from pico.planning.feedback.lazy import Outcome, regions, solve_region
-from pico.planning.feedback.limit import Limit, Work
-from pico.planning.feedback.literals import Clause, Edge, Literals, edges_of, event, literals_of
-from pico.planning.feedback.problem import Choice, Event, Problem, Staging
-from pico.planning.feedback.shrink import shrink
-from pico.planning.feedback.walk import cost, first_choice
+from pico.staging.feedback.certificate import certificate
+from pico.staging.feedback.clauses import reached
+from pico.staging.feedback.digraph import topological_order
+from pico.staging.feedback.lazy import Outcome, regions, solve_region
+from pico.staging.feedback.limit import Limit, Work
+from pico.staging.feedback.literals import Clause, Edge, Literals, edges_of, event, literals_of
+from pico.staging.feedback.problem import Choice, Event, Problem, Staging
+from pico.staging.feedback.shrink import shrink
+from pico.staging.feedback.walk import cost, first_choice
 
 STEPS = 60
 """Steps of local search before each program."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from pico.planning.feedback.cover import Cover, reached
-from pico.planning.feedback.digraph import strong_components
-from pico.planning.feedback.limit import Work
-from pico.planning.feedback.literals import Clause, Edge, Literals, bits
-from pico.planning.feedback.shrink import minimal, successors
-from pico.planning.feedback.walk import Pool, cost, first_choice, left_cycles, walk
+from pico.staging.feedback.clauses import Cover, reached
+from pico.staging.feedback.digraph import strong_components
+from pico.staging.feedback.limit import Work
+from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.shrink import minimal, successors
+from pico.staging.feedback.walk import Pool, cost, first_choice, left_cycles, walk
 
 THREES = 20_000
 """Up to so many cycles of three edges are looked at before the first program."""

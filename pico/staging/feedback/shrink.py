@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from pico.planning.feedback.digraph import some_cycle, strong_components
-from pico.planning.feedback.literals import Clause, Edge, Literals, bits
-from pico.planning.feedback.problem import Part
+from pico.staging.feedback.digraph import some_cycle, strong_components
+from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.problem import Part
 
 FILL = 2
 """How many more edges than it takes away leading past an event may bring."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pico.planning.sequencing.problem import Tour
+from pico.staging.sequencing.problem import Tour
 
 
 def nearest_order(tour: Tour) -> tuple[int, ...]:

@@ -1,7 +1,0 @@
-"""The cheapest order of operations under precedence, with a bound; knows nothing of tables and robots."""
-
-from pico.planning.sequencing.makespan import makespan_bound
-from pico.planning.sequencing.problem import Effort, Sequence
-from pico.planning.sequencing.solve import best_order
-
-__all__ = ["Effort", "Sequence", "best_order", "makespan_bound"]
