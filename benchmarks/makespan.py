@@ -32,14 +32,14 @@ from pico.model.state import LabState, place_of  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.planning import plan  # noqa: E402
 from pico.planning.actors import actors, asides  # noqa: E402
-from pico.planning.arms import timed  # noqa: E402
+from pico.planning.checks.target import no_source  # noqa: E402
+from pico.planning.ordering.arm_times import timed  # noqa: E402
+from pico.planning.ordering.several_arms import work_of  # noqa: E402
+from pico.planning.ordering.solve import Problem, Solution, solve  # noqa: E402
+from pico.planning.ordering.travel import Clock  # noqa: E402
+from pico.planning.parts.situation import read_situation  # noqa: E402
 from pico.planning.proven import prove  # noqa: E402
 from pico.planning.request import Request  # noqa: E402
-from pico.planning.situation import read_situation  # noqa: E402
-from pico.planning.solve import Problem, Solution, solve  # noqa: E402
-from pico.planning.target import no_source  # noqa: E402
-from pico.planning.together import work_of  # noqa: E402
-from pico.planning.travel import Clock  # noqa: E402
 
 MOST = 12
 """Up to so many moves are proven."""

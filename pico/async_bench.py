@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from pico.history.restoring.selected import Taken
     from pico.manifest.load import Manifests
     from pico.model.state import LabState
-    from pico.planning.explain import Explanation
+    from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.film import Caption
     from pico.twin.placement import Placement
@@ -203,7 +203,7 @@ class AsyncBench(Drawings):
 
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is, or what it does with one component; raises PicoError for an unknown one."""
-        from pico.planning.explain import explain
+        from pico.planning.explaining.explain import explain
 
         return explain(self.setup, plan, component)
 

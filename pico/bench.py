@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from pico.history.runs.listing import Listed
     from pico.history.runs.loading import Loaded
     from pico.imports import Imported
-    from pico.planning.explain import Explanation
+    from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.publishing import Published
     from pico.twin.film import Caption

@@ -13,8 +13,8 @@ from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.state import LabState, place_of
-from pico.planning.blocking import moved_by, why_impossible
-from pico.planning.contacts import Contact, ends_of
+from pico.planning.checks.contacts import Contact, ends_of
+from pico.planning.explaining.blocking import moved_by, why_impossible
 from pico.twin.beams import Place
 from pico.twin.film import Caption
 from pico.twin.marks import Mark

@@ -13,7 +13,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.state import LabState, state_from_json
 from pico.motion.deferred import DeferredMotion
-from pico.planning.phrases import listed
+from pico.planning.parts.phrases import listed
 
 if TYPE_CHECKING:
     from pico.async_bench import AsyncBench
@@ -160,7 +160,7 @@ def _planned(
 
 def _emptied(bench: AsyncBench, seen: Observation) -> Observation:
     """Return the bench as it is, with what hands hold where it will be set down."""
-    from pico.planning.setdown import set_downs
+    from pico.planning.parts.setdown import set_downs
 
     return set_downs(bench.setup, seen, DeferredMotion(bench.setup)).seen
 

@@ -32,7 +32,7 @@ def graph(
     Without --format: the operations that decide when the plan ends, and what the others have to spare. With --out the
     ending of FILE tells the format where --format does not (.mmd is Mermaid, anything else DOT).
     """
-    from pico.planning.graph import graph_of
+    from pico.planning.explaining.graph import graph_of
 
     session = Session.of(context)
     if form is not None and form not in FORMATS:

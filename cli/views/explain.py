@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.planning.explain import Because, Explanation, Fewer, Step, Wait, kind_of
+from pico.planning.explaining.explain import Because, Explanation, Fewer, Step, Wait, kind_of
 
 from . import diagnostics as diagnostics_view
 from .plan import address, header, reason, what

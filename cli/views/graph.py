@@ -7,7 +7,7 @@ from typing import Any
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.planning.graph import Edge, Node, PlanGraph
+from pico.planning.explaining.graph import Edge, Node, PlanGraph
 
 from .plan import address, arms, change_of, header, what
 from .style import columns, count, paint, seconds

@@ -19,7 +19,7 @@ from pico.model.report import RunReport
 from pico.model.state import LabState, place_of
 from pico.motion.deferred import DeferredMotion
 from pico.planning import plan
-from pico.planning.target import Source
+from pico.planning.checks.target import Source
 
 CALIBRATION = "calibration.json"
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry import Grid
-from pico.planning.movers import Mover, Obstacle, mover, standing_obstacles
+from pico.planning.checks.target import check_target, goal_shape
+from pico.planning.parts.movers import Mover, Obstacle, mover, standing_obstacles
+from pico.planning.parts.situation import Situation
 from pico.planning.request import Request
-from pico.planning.situation import Situation
-from pico.planning.target import check_target, goal_shape
 
 
 def actors(request: Request, situation: Situation) -> tuple[tuple[Mover, ...], list[Obstacle], list[Diagnostic]]:

@@ -15,21 +15,21 @@ from pico.model.record import as_json
 from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
-from pico.planning.interlocks import policy_rules, unguarded, with_interlocks
-from pico.planning.movers import Place
+from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
+from pico.planning.checks.target import Source, check_target, no_source
+from pico.planning.checks.tethers import check_tethers
+from pico.planning.parts.movers import Place
+from pico.planning.parts.selection import done_by, selection, told
+from pico.planning.parts.setdown import after_set_downs, left_standing, set_downs
+from pico.planning.parts.situation import Situation, read_situation
 from pico.planning.request import Preference, Request
-from pico.planning.selection import done_by, selection, told
-from pico.planning.setdown import after_set_downs, left_standing, set_downs
-from pico.planning.situation import Situation, read_situation
-from pico.planning.target import Source, check_target, no_source
-from pico.planning.tethers import check_tethers
 from pico.planning.values import OPERATOR_SECONDS, value_operations
 
 if TYPE_CHECKING:
-    from pico.planning.conflicts import Conflicts
-    from pico.planning.meetings import Item
-    from pico.planning.search import Step
-    from pico.planning.solve import Solution
+    from pico.planning.ordering.conflicts import Conflicts
+    from pico.planning.ordering.meetings import Item
+    from pico.planning.ordering.search import Step
+    from pico.planning.ordering.solve import Solution
 
 MOVE_SECONDS = 10.0
 """What a pick and place takes where no motion is asked for [s]."""
@@ -109,8 +109,8 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
-    from pico.planning.refusal import explain, storage_note
-    from pico.planning.solve import Problem, Solution, solve
+    from pico.planning.explaining.refusal import explain, storage_note
+    from pico.planning.ordering.solve import Problem, Solution, solve
 
     movers, obstacles, put_off = actors(request, situation)
     if not movers:
@@ -137,9 +137,9 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
 
 
 def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:
-    from pico.planning.meetings import items
-    from pico.planning.order import precedence, reduced
-    from pico.planning.reasons import move_reasons
+    from pico.planning.explaining.reasons import move_reasons
+    from pico.planning.ordering.meetings import items
+    from pico.planning.ordering.order import precedence, reduced
 
     table, steps, paths = answer.table, answer.steps, answer.paths
     closure = precedence(table, steps, paths.extra if paths else {})

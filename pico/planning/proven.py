@@ -18,7 +18,7 @@ from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.model.record import as_json, record
-from pico.planning.arms import Work, timed
+from pico.planning.ordering.arm_times import Work, timed
 
 TICK = 1e-3
 """The unit of time of the model [s]; what takes part of one is rounded down, so that the bound holds."""

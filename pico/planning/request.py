@@ -10,8 +10,8 @@ from pico.model.observation import Observation
 from pico.model.operation import Reason
 from pico.model.state import LabState
 from pico.motion.types import Motion
-from pico.planning.selection import EVERYTHING, Selection
-from pico.planning.target import Source, no_source
+from pico.planning.checks.target import Source, no_source
+from pico.planning.parts.selection import EVERYTHING, Selection
 
 Preference = Literal["fewest-moves", "shortest-time"]
 

@@ -15,8 +15,8 @@ from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.state import ComponentState, LabState
 from pico.motion.types import Motion
+from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.compile import compiled_plan
-from pico.planning.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.values import home_operation, value_operations

@@ -8,7 +8,7 @@ from graphlib import TopologicalSorter
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
-from pico.planning.beams import shutter_of
+from pico.planning.checks.beams import shutter_of
 
 CLOSED = "closed"
 

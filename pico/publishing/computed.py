@@ -47,7 +47,7 @@ def states(state: LabState, before: LabState, changes: Sequence[Change], parents
 def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit) -> File:
     """Return the plan from the state before to the one of a commit, as the planner of today makes it."""
     from pico.checking.trial import plan_from, world_of
-    from pico.planning.target import no_source
+    from pico.planning.checks.target import no_source
 
     parent = commit.parents[0] if commit.parents else None
     world, fidelity = world_of(setup, before), setup.lab.sim.fidelity

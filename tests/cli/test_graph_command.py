@@ -10,7 +10,7 @@ from commanding import Pico
 from pico_cli.views import graph as view
 
 from pico.model.plan import Plan, plan_from_json
-from pico.planning.graph import graph_of
+from pico.planning.explaining.graph import graph_of
 
 ID = r'"(?:[^"\\\n]|\\.)*"'
 VALUE = rf"(?:{ID}|[A-Za-z0-9.]+)"

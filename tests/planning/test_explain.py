@@ -13,9 +13,9 @@ from pico.diagnostics import PicoError
 from pico.geometry import placed, separation
 from pico.model.lab import Setup, Slot
 from pico.model.plan import Plan
-from pico.planning.blocking import blocks_of, ring_through, why_impossible
-from pico.planning.contacts import Contact, spot_of
-from pico.planning.explain import explain, kind_of
+from pico.planning.checks.contacts import Contact, spot_of
+from pico.planning.explaining.blocking import blocks_of, ring_through, why_impossible
+from pico.planning.explaining.explain import explain, kind_of
 
 MOVES = ("move", "stow", "operator")
 

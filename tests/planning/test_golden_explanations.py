@@ -8,8 +8,8 @@ from fuzzing import plan_case
 from kept import differs
 from random_labs import random_case
 
-from pico.planning.explain import Explanation, explain
-from pico.planning.graph import graph_of
+from pico.planning.explaining.explain import Explanation, explain
+from pico.planning.explaining.graph import graph_of
 
 
 def told(why: Explanation) -> Iterator[str]:

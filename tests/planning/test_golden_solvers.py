@@ -15,7 +15,7 @@ sys.path += [str(HERE / "feedback"), str(HERE / "sequencing")]
 from feedback_cases import random_digraph, random_problem  # noqa: E402
 from sequencing_cases import instance  # noqa: E402
 
-from pico.planning.arms import least, soonest, timed  # noqa: E402
+from pico.planning.ordering.arm_times import least, soonest, timed  # noqa: E402
 from pico.staging.feedback import Limit, fewest_vertices, solve  # noqa: E402
 from pico.staging.sequencing.cuts import cut_bound  # noqa: E402
 from pico.staging.sequencing.nearest import nearest_order  # noqa: E402

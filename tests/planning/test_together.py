@@ -10,7 +10,7 @@ import pytest
 
 from pico.diagnostics import PicoError
 from pico.model.record import as_json
-from pico.planning.arms import Work, least, soonest, timed
+from pico.planning.ordering.arm_times import Work, least, soonest, timed
 from pico.planning.proven import prove, read_work
 
 SEEDS = range(12)

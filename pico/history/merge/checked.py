@@ -49,9 +49,9 @@ def impossible(merged: Manifests, before: LabState | None) -> tuple[Diagnostic, 
 def overlapping(merged: Manifests) -> tuple[Diagnostic, ...]:
     """Return which parts can't stand where the state wants them, each with the part that it meets."""
     from pico.planning.actors import actors
+    from pico.planning.checks.target import check_target
+    from pico.planning.parts.situation import read_situation
     from pico.planning.request import Request
-    from pico.planning.situation import read_situation
-    from pico.planning.target import check_target
 
     setup, wanted = merged.require()
     request = Request(setup, _as_seen(setup, None), wanted, None, merged.source)

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from pico.model.lab import Setup
 from pico.motion.types import Blocked, MovePath
 from pico.motion.zones import MARGIN, Zone, enters, shared_zones
-from pico.planning.order import turns
-from pico.planning.paths import Park, Paths
-from pico.planning.search import Step
+from pico.planning.ordering.order import turns
+from pico.planning.ordering.paths import Park, Paths
+from pico.planning.ordering.search import Step
 
 
 @dataclass(frozen=True, slots=True)

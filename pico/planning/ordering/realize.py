@@ -6,8 +6,8 @@ import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from pico.planning.conflicts import Conflicts
-from pico.planning.search import Step, ranked_storage
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.search import Step, ranked_storage
 from pico.staging.feedback import Choice, Event, Problem, Staging
 
 TRIES = 2000

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.lab import Setup
-from pico.planning.conflicts import Conflicts
-from pico.planning.search import Step
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.search import Step
 
 Closure = tuple[frozenset[int], ...]
 """For each step the indices of all steps that must come before it, directly or not."""

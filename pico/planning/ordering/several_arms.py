@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from pico.geometry import disc, polygon, separation
 from pico.motion.zones import ARM_RADIUS, HAND, Zone, shared_zones
-from pico.planning.arms import Work, soonest, timed
-from pico.planning.conflicts import Conflicts
-from pico.planning.order import precedence
-from pico.planning.search import Step
+from pico.planning.ordering.arm_times import Work, soonest, timed
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.order import precedence
+from pico.planning.ordering.search import Step
 
 if TYPE_CHECKING:
-    from pico.planning.travel import Clock
+    from pico.planning.ordering.travel import Clock
 
 PASSES = 2
 """How often each move that two arms can make is given to the other, to see whether all is then done sooner."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from pico.planning.conflicts import Conflicts
-from pico.planning.search import Step
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.search import Step
 
 
 def shortened(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...]:

@@ -10,7 +10,7 @@ from pico.model.address import Named, addresses, holds, read_addresses
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.operation import Operation
-from pico.planning.phrases import listed
+from pico.planning.parts.phrases import listed
 
 
 @dataclass(frozen=True, slots=True)

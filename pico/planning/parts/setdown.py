@@ -15,7 +15,7 @@ from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
 from pico.motion.types import Blocked, Motion, MovePath, Standing
-from pico.planning.movers import Obstacle, Place, standing_obstacles, turned
+from pico.planning.parts.movers import Obstacle, Place, standing_obstacles, turned
 
 SET_DOWN_SECONDS = 6.0
 """What setting a part down takes where no motion is asked for [s]."""

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from pico.planning.conflicts import FEW, Conflicts, sum_of
-from pico.planning.realize import realized, slots_needed
-from pico.planning.relaxed import relaxation, staging_cost
-from pico.planning.search import Configuration, Effort, Found, Step, search
+from pico.planning.ordering.conflicts import FEW, Conflicts, sum_of
+from pico.planning.ordering.realize import realized, slots_needed
+from pico.planning.ordering.relaxed import relaxation, staging_cost
+from pico.planning.ordering.search import Configuration, Effort, Found, Step, search
 from pico.staging.feedback import Limit, Staging
 from pico.staging.feedback import solve as fewest_staged
 

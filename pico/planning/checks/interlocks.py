@@ -13,8 +13,8 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
-from pico.planning.beams import shutter_of
-from pico.planning.phrases import listed
+from pico.planning.checks.beams import shutter_of
+from pico.planning.parts.phrases import listed
 
 STEERING = ("beam_splitter", "lens", "mirror", "waveplate")
 """Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter

@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic, SourceRange, error
 from pico.geometry import Grid, Shape, conflict, fits, moved, outline, overhang, placed, reaches, separation
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.planning.movers import Mover, Obstacle, Place
+from pico.planning.parts.movers import Mover, Obstacle, Place
 
 Source = Callable[[str], SourceRange | None]
 

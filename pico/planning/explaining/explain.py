@@ -11,9 +11,9 @@ from pico.model.lab import Setup
 from pico.model.operation import Operation
 from pico.model.plan import Plan, Staging
 from pico.model.record import record
-from pico.planning.blocking import Block, Clash, blocks_of, moved_by, ring_through, rings_of, why_impossible
-from pico.planning.contacts import Contact, Spot, bases, fingers, mouth, spot_of
-from pico.planning.graph import Edge, Node, PlanGraph, graph_of
+from pico.planning.checks.contacts import Contact, Spot, bases, fingers, mouth, spot_of
+from pico.planning.explaining.blocking import Block, Clash, blocks_of, moved_by, ring_through, rings_of, why_impossible
+from pico.planning.explaining.graph import Edge, Node, PlanGraph, graph_of
 
 
 @record

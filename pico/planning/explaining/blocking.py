@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pico.model.lab import Setup
 from pico.model.plan import Plan
 from pico.model.record import record
-from pico.planning.contacts import Contact, Spot, bases, ends_of, fingers, holds, mouth, starts_of
+from pico.planning.checks.contacts import Contact, Spot, bases, ends_of, fingers, holds, mouth, starts_of
 
 
 @record

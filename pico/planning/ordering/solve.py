@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.motion.types import Motion
-from pico.planning.conflicts import Conflicts
-from pico.planning.hunt import COMPLETE, hunt, stagings
-from pico.planning.movers import Mover, Obstacle
-from pico.planning.paths import NoPath, Paths, find_paths
-from pico.planning.search import Configuration, Step
-from pico.planning.shorten import shortened
-from pico.planning.travel import Tour, toured
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.fewest_stagings import COMPLETE, hunt, stagings
+from pico.planning.ordering.paths import NoPath, Paths, find_paths
+from pico.planning.ordering.search import Configuration, Step
+from pico.planning.ordering.shorten import shortened
+from pico.planning.ordering.travel import Tour, toured
+from pico.planning.parts.movers import Mover, Obstacle
 
 PATH_ROUNDS = 200
 """How often the search may start again because a path was blocked."""

@@ -8,9 +8,9 @@ from pico.geometry import separation
 from pico.model.lab import Setup
 from pico.model.operation import Reason
 from pico.model.state import LabState
-from pico.planning.conflicts import Conflicts, Spot
-from pico.planning.order import Closure
-from pico.planning.search import Step
+from pico.planning.ordering.conflicts import Conflicts, Spot
+from pico.planning.ordering.order import Closure
+from pico.planning.ordering.search import Step
 
 
 def move_reasons(

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pico.geometry import Grid, Shape, capture_disc, placed, separation
 from pico.model.lab import Region, Setup
 from pico.model.pose import Pose
-from pico.planning.movers import Mover, Obstacle, Place
+from pico.planning.parts.movers import Mover, Obstacle, Place
 
 PITCH = 20.0
 """Distance of the spots looked at [mm]."""

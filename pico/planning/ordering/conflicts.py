@@ -25,8 +25,8 @@ from pico.model.catalog import Footprint
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.motion.types import Blocked, Motion
-from pico.planning.movers import Hold, Mover, Obstacle, with_storage
-from pico.planning.spots import with_spots
+from pico.planning.parts.movers import Hold, Mover, Obstacle, with_storage
+from pico.planning.parts.spots import with_spots
 
 FEW, MANY_SLOTS, ENOUGH_SLOTS = 7, 60, 24
 """With few movers up to so many of the free storage slots are considered for each, with more so many."""

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from pico.diagnostics import Diagnostic, error
 from pico.geometry import finger_height, finger_zones, fits, separation
 from pico.motion.types import Blocked
-from pico.planning.conflicts import Conflicts
-from pico.planning.movers import Hold, Mover
-from pico.planning.paths import NoPath
-from pico.planning.phrases import listed
-from pico.planning.reasons import body_overlap
-from pico.planning.solve import Refusal, Solution
-from pico.planning.target import Source, located
+from pico.planning.checks.target import Source, located
+from pico.planning.explaining.reasons import body_overlap
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.paths import NoPath
+from pico.planning.ordering.solve import Refusal, Solution
+from pico.planning.parts.movers import Hold, Mover
+from pico.planning.parts.phrases import listed
 
 
 def explain(refused: Refusal, source: Source) -> list[Diagnostic]:

@@ -10,8 +10,8 @@ import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from pico.planning.conflicts import Conflicts, Way
-from pico.planning.movers import Hold
+from pico.planning.ordering.conflicts import Conflicts, Way
+from pico.planning.parts.movers import Hold
 
 Configuration = tuple[int, ...]
 """The place of each mover, by index."""

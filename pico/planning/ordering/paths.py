@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from pico.model.observation import Observation
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Standing
 from pico.motion.zones import MARGIN, enters, shared_zones, within
-from pico.planning.conflicts import Conflicts, Spot
-from pico.planning.order import Closure, precedence
-from pico.planning.search import Step
-from pico.planning.setdown import PARKED
+from pico.planning.ordering.conflicts import Conflicts, Spot
+from pico.planning.ordering.order import Closure, precedence
+from pico.planning.ordering.search import Step
+from pico.planning.parts.setdown import PARKED
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 
 from pico.model.observation import Observation
 from pico.motion.types import Joints, Motion
-from pico.planning.arms import least, timed
-from pico.planning.conflicts import Conflicts
-from pico.planning.movers import Place
-from pico.planning.order import arranged, precedence
-from pico.planning.search import Step
-from pico.planning.shorten import valid
-from pico.planning.together import handed, shared_out, work_of
+from pico.planning.ordering.arm_times import least, timed
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.order import arranged, precedence
+from pico.planning.ordering.search import Step
+from pico.planning.ordering.several_arms import handed, shared_out, work_of
+from pico.planning.ordering.shorten import valid
+from pico.planning.parts.movers import Place
 from pico.staging.sequencing import Effort, best_order
 
 SPEED = 300.0

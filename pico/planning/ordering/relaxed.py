@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from pico.planning.conflicts import Conflicts
-from pico.planning.movers import Hold, Mover
+from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.parts.movers import Hold, Mover
 from pico.staging.feedback import Arc, Component, Event, Option, Problem, arrives, leaves
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pico.diagnostics import Diagnostic, error
 from pico.model.lab import Setup
 from pico.model.tethers import tether_fault
-from pico.planning.movers import Mover
-from pico.planning.target import Source, located, no_source
+from pico.planning.checks.target import Source, located, no_source
+from pico.planning.parts.movers import Mover
 
 
 def check_tethers(setup: Setup, movers: Sequence[Mover], source: Source = no_source) -> list[Diagnostic]:
