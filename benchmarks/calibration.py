@@ -19,13 +19,13 @@ from typing import Any
 
 import numpy as np
 
+from pico.cameras.board import Sheet, datum_sheets, marker_sheet, photograph_sheets
+from pico.cameras.calibrating import calibrate
+from pico.cameras.errors import CameraShift, bumped, true_cameras
 from pico.manifest.catalog import load_catalog
 from pico.manifest.load import load_folder
 from pico.model.lab import Part, Setup, SimErrors
 from pico.model.pose import Pose
-from pico.twin.board import Sheet, datum_sheets, marker_sheet, photograph_sheets
-from pico.twin.calibrating import calibrate
-from pico.twin.camera_errors import CameraShift, bumped, true_cameras
 from pico.vision.calibration import Calibration
 from pico.vision.localize import localize
 from pico.vision.nominal import camera_models

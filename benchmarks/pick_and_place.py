@@ -142,8 +142,8 @@ class Run:
 
 def pixels(setup: Setup, seed: int) -> Callable[[Twin], Sight]:
     """Return what makes the sight from rendered pictures, with the lab's errors of cameras drawn by `seed`."""
-    from pico.twin.cameras import Eyes
-    from pico.twin.eye import EyeInHand
+    from pico.cameras.eye_in_hand import EyeInHand
+    from pico.cameras.simulated import Eyes
     from pico.vision.nominal import camera_models
 
     return lambda twin: EyeInHand(setup, twin, Eyes(setup, twin.model, twin.data, seed=seed), camera_models(setup))

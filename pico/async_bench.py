@@ -28,12 +28,12 @@ from pico.vision.calibration import calibration_digest
 if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
+    from pico.drawing.film.film import Caption
     from pico.history.restoring.selected import Taken
     from pico.manifest.load import Manifests
     from pico.model.state import LabState
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
-    from pico.twin.film import Caption
     from pico.twin.placement import Placement
     from pico.twin.snapshot import Recording
 
@@ -310,7 +310,7 @@ class AsyncBench(Drawings):
 
         Yields (pictures done, of how many); ended early, the film is what was done until then. Raises PicoError.
         """
-        from pico.twin.film import write_film
+        from pico.drawing.film.film import write_film
 
         return write_film(self.setup, recording.snapshots, out, captions=captions, fps=fps)
 

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
     from pico.bisecting import Bisection
+    from pico.drawing.film.film import Caption
+    from pico.drawing.picture import Image, View
+    from pico.drawing.ruler import Measured
     from pico.history.data.lab import LabData
     from pico.history.merge.commits import MergeMade
     from pico.history.restoring.selected import Taken
@@ -38,9 +41,6 @@ if TYPE_CHECKING:
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.publishing import Published
-    from pico.twin.film import Caption
-    from pico.twin.picture import Image, View
-    from pico.twin.ruler import Measured
     from pico.twin.snapshot import Recording
     from pico.watching import Drifted
 

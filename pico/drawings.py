@@ -15,11 +15,11 @@ from pico.model.observation import Observation
 from pico.model.plan import Plan
 
 if TYPE_CHECKING:
+    from pico.drawing.beams import Place
+    from pico.drawing.picture import Image, View
+    from pico.drawing.ruler import Measured
     from pico.motion.types import Joints
-    from pico.twin.beams import Place
-    from pico.twin.picture import Image, View
     from pico.twin.placement import Placement
-    from pico.twin.ruler import Measured
 
 
 class Drawings(Reader, ABC):
@@ -52,8 +52,8 @@ class Drawings(Reader, ABC):
         manifest, drawn dashed and numbered, with a list below; where it is impossible, what is in whose way, in red.
         `size`: width and height [pixels], without that list. `out`: write it there, too, as PNG. Raises PicoError.
         """
+        from pico.drawing.picture import render, write_png
         from pico.pictures import goals, marks, standing, steps
-        from pico.twin.picture import render, write_png
 
         if plan is True:
             plan = await self._planned(revision)
@@ -79,8 +79,8 @@ class Drawings(Reader, ABC):
     async def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:
         """Return a drawing of the bench from above as SVG at true scale, with its parts list: as it is, or as a
         revision or the manifest wants it; raises PicoError."""
+        from pico.drawing.sheet import sheet
         from pico.pictures import standing
-        from pico.twin.sheet import sheet
 
         poses, _ = await self._live()
         title = self.head_name()
@@ -92,8 +92,8 @@ class Drawings(Reader, ABC):
     def render_diff(self, a: str | None = None, b: str | None = None, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of how state `a` (HEAD) becomes `b` (the manifest), numbered
         in the order of `diff`; raises PicoError."""
+        from pico.drawing.picture import render, write_png
         from pico.pictures import differences, standing
-        from pico.twin.picture import render, write_png
 
         before, after = self.state_at(a or "HEAD"), self.state_at(b) if b else self.state
         found = differences(self.setup, before, after, self.diff(a, b))
@@ -104,15 +104,15 @@ class Drawings(Reader, ABC):
 
     async def ruler(self, a: str, b: str) -> Measured:
         """Return how far two things on the bench are from each other: components, slots, holes or points, see
-        `pico.twin.ruler`; raises PicoError."""
-        from pico.twin.ruler import measure
+        `pico.drawing.ruler`; raises PicoError."""
+        from pico.drawing.ruler import measure
 
         poses, joints = await self._live()
         return measure(self.setup, poses, joints, a, b)
 
     async def render_ruler(self, measured: Measured, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of what `ruler` found."""
-        from pico.twin.picture import render, write_png
+        from pico.drawing.picture import render, write_png
 
         poses, joints = await self._live()
         image = render(self.setup, poses, joints, view="top", dimensions=measured.dimensions)
@@ -124,8 +124,8 @@ class Drawings(Reader, ABC):
         """Open MuJoCo's own viewer on the bench, and follow it until the window is closed; raises PicoError."""
         import asyncio
 
-        from pico.twin.picture import placed
-        from pico.twin.viewer import view
+        from pico.drawing.picture import placed
+        from pico.drawing.viewer import view
 
         loop = asyncio.get_running_loop()
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from pico.drawing.beams import Place
+from pico.drawing.film.film import Caption
+from pico.drawing.marks import Mark
+from pico.drawing.steps import Step
 from pico.model.diff import Change, show_value
 from pico.model.event import Event
 from pico.model.lab import Setup
@@ -15,11 +19,7 @@ from pico.model.pose import Pose
 from pico.model.state import LabState, place_of
 from pico.planning.checks.contacts import Contact, ends_of
 from pico.planning.explaining.blocking import moved_by, why_impossible
-from pico.twin.beams import Place
-from pico.twin.film import Caption
-from pico.twin.marks import Mark
 from pico.twin.placement import Placement
-from pico.twin.steps import Step
 
 _CARRIES = ("move", "stow")
 

@@ -11,7 +11,7 @@ from pico.model.request import require_component
 if TYPE_CHECKING:
     from pico.async_bench import AsyncBench
     from pico.backends.sight import Look
-    from pico.twin.picture import Image
+    from pico.drawing.picture import Image
 
 
 async def scan(bench: AsyncBench) -> Look:
@@ -31,8 +31,8 @@ def picture(bench: AsyncBench, look: Look, out: Path | None = None, component: s
 
     `component`: only the part of the picture around it, large. `out`: write it there, too, as PNG. Raises PicoError.
     """
-    from pico.twin.picture import write_png
-    from pico.twin.sighted import annotated
+    from pico.drawing.picture import write_png
+    from pico.drawing.sighted import annotated
 
     if component is not None:
         require_component(bench.setup, component)

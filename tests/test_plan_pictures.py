@@ -13,9 +13,9 @@ import pico
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
 from pico.bench import Bench
+from pico.drawing.marks import Mark
 from pico.history.examples.example import make_example
 from pico.pictures import goals, marks, places
-from pico.twin.marks import Mark
 
 P2 = "  p2:\n    pose:\n      x: 520"
 

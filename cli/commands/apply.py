@@ -57,7 +57,7 @@ def apply(
     """
     session = Session.of(context)
     if record:
-        from pico.twin.reel import require_kind
+        from pico.drawing.film.movie_file import require_kind
 
         require_kind(session.folder / record)
     bench = session.bench(fidelity)

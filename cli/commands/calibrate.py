@@ -14,7 +14,7 @@ def calibrate(context: typer.Context) -> int:
     From pictures of the calibration board and of the datums; takes about half a minute. Writes calibration.json into
     the lab's folder. Nothing on the table moves.
     """
-    from pico.twin.calibrating import calibrate as calibrated
+    from pico.cameras.calibrating import calibrate as calibrated
     from pico.vision.calibration import FILE, write_calibration
 
     session = Session.of(context)

@@ -74,7 +74,7 @@ def remove(context: typer.Context, name: Component) -> int:
 @app.command()
 def view(context: typer.Context) -> int:
     """Open MuJoCo's own viewer on the bench and follow what moves; needs a display."""
-    from pico.twin.viewer import require_display
+    from pico.drawing.viewer import require_display
 
     require_display()
     session = Session.of(context)

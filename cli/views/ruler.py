@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .style import paint
 
 if TYPE_CHECKING:
-    from pico.twin.ruler import End, Measured, Span
+    from pico.drawing.ruler import End, Measured, Span
 
 _WIDTH = 10
 

@@ -69,7 +69,7 @@ class Cover:
 
     @cached_property
     def _scene(self) -> tuple[Any, Any]:
-        from pico.twin.picture import posed_model
+        from pico.drawing.picture import posed_model
         from pico.twin.placement import upright as standing
 
         return posed_model(self._setup, {n: standing(p) for n, p in self._places.items()}, self._joints)

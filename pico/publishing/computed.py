@@ -13,7 +13,7 @@ from pico.model.state import LabState
 from pico.publishing.parts import File, file
 
 if TYPE_CHECKING:
-    from pico.twin.picture import View
+    from pico.drawing.picture import View
 
 
 VIEWS: Mapping[View, str] = {
@@ -57,8 +57,8 @@ def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit
 
 def pictures_of(setup: Setup, state: LabState) -> Iterator[File]:
     """Yield pictures of the bench as it stands in a state."""
+    from pico.drawing.picture import png, render
     from pico.pictures import standing
-    from pico.twin.picture import png, render
 
     poses = standing(setup, state)
     for view, said in VIEWS.items():

@@ -14,12 +14,12 @@ from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.store import load_world, save_world, world_from_json
 from pico.backends.sim.table import SimulatedTable
 from pico.backends.sim.world import new_world
+from pico.cameras.errors import CameraShift
 from pico.diagnostics import PicoError
+from pico.drawing.picture import posed_model
 from pico.manifest.load import load_folder
 from pico.model.lab import Setup
 from pico.resources import labs_dir
-from pico.twin.camera_errors import CameraShift
-from pico.twin.picture import posed_model
 from pico.vision.nominal import camera_models
 
 BY = CameraShift(shift=(3.0, 0.0, -1.0), turn=(0.0, 0.0, 0.5))

@@ -17,8 +17,8 @@ EYES = """
 import sys
 from pathlib import Path
 from pico.manifest.load import load_folder
-from pico.twin.cameras import Eyes
-from pico.twin.picture import posed_model
+from pico.cameras.simulated import Eyes
+from pico.drawing.picture import posed_model
 setup, _ = load_folder(Path(sys.argv[1])).require()
 eyes = Eyes(setup, *posed_model(setup, {}, {}))
 assert not eyes.frame("hand", (600, 400, 64, 64)).black

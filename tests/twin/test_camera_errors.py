@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from physical import bench
 
+from pico.cameras.errors import CameraShift, bumped, common_shifts, true_cameras, turned
 from pico.model.lab import Setup, SimErrors
-from pico.twin.camera_errors import CameraShift, bumped, common_shifts, true_cameras, turned
 from pico.vision.camera import CameraModel
 from pico.vision.nominal import camera_models, looking
 

@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 from physical import bench
 
+from pico.cameras.markers import pose_in_table
+from pico.cameras.simulated import Eyes, clipped
+from pico.cameras.stickers import Sticker, flat
 from pico.diagnostics import PicoError
+from pico.drawing.picture import pose_model
 from pico.model.catalog import Footprint, Geometry
 from pico.model.lab import Setup, SimErrors
 from pico.model.pose import Pose
-from pico.twin.camera_markers import pose_in_table
-from pico.twin.cameras import Eyes, clipped
-from pico.twin.picture import pose_model
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import Thing, build_scene
-from pico.twin.stickers import Sticker, flat
 from pico.vision.frame import Frame
 
 import mujoco  # isort: skip

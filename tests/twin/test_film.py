@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from physical import bench
 
 from pico.diagnostics import PicoError
+from pico.drawing.film.camerawork import build_set
+from pico.drawing.film.film import Caption, write_film
+from pico.drawing.film.gif import GifReel
 from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
 from pico.model.state import home_state, place_of
-from pico.twin.camerawork import build_set
-from pico.twin.film import Caption, write_film
-from pico.twin.gif import GifReel
 from pico.twin.placement import upright
 from pico.twin.snapshot import Recording, Snapshot, at
 

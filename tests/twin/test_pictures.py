@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from physical import LABS, bench
 
+from pico.drawing.picture import placed, posed_model, render, scene_extent, viewpoint, write_png
+from pico.drawing.topview import new_canvas
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
-from pico.twin.picture import placed, posed_model, render, scene_extent, viewpoint, write_png
-from pico.twin.topview import new_canvas
 
 W, H = 320, 240
 
@@ -117,7 +117,7 @@ sys.modules["OpenGL"] = sys.modules["glfw"] = None  # as where they are not inst
 sys.path.insert(0, {str(LABS.parent)!r})
 from pathlib import Path
 from pico.manifest.load import load_folder
-from pico.twin.picture import render
+from pico.drawing.picture import render
 setup, _ = load_folder(Path({str(LABS / "minimal")!r})).require()
 assert render(setup, {{}}, {{}}, width=64, height=48).std() > 1
 maps = Path("/proc/self/maps")

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from physical import bench
 
 from pico.diagnostics import PicoError
+from pico.drawing.picture import placed
+from pico.drawing.ruler import end_of, measure
 from pico.geometry.shape import placed as shape_at
 from pico.geometry.shape import separation
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.twin.picture import placed
-from pico.twin.ruler import end_of, measure
 
 POSES = {"lx_125": Pose(395, 420, 0), "ly_150": Pose(670, 420, 0), "p2": Pose(520, 300, 30)}
 coordinate = st.floats(100, 800)

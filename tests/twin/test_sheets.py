@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from physical import LABS, bench
 
+from pico.drawing.label_places import free_place, overlap
+from pico.drawing.sheet import sheet
+from pico.drawing.svg import Box, text_box
 from pico.manifest.load import load_folder
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
-from pico.twin.sheet import sheet
-from pico.twin.spread import free_place, overlap
-from pico.twin.svg import Box, text_box
 
 SVG = "{http://www.w3.org/2000/svg}"
 

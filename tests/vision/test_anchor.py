@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pico.cameras.errors import true_cameras
 from pico.manifest.load import load_folder
 from pico.model.lab import Setup, SimErrors
-from pico.twin.camera_errors import true_cameras
 from pico.vision.anchor import anchored
 from pico.vision.datums import datum_corners
 from pico.vision.markers import Markers, read_marker

@@ -6,19 +6,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.backends.sim.world import World
+from pico.cameras.errors import CameraShift, common_shifts, true_cameras
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.lab import Setup
-from pico.twin.camera_errors import CameraShift, common_shifts, true_cameras
 
 if TYPE_CHECKING:
     import mujoco
 
-    from pico.twin.cameras import Eyes
+    from pico.cameras.simulated import Eyes
 
 
 def eyes_of(setup: Setup, world: World, model: mujoco.MjModel, data: mujoco.MjData) -> Eyes:
     """Return the cameras of `world`, looking at its scene `model`: each part carries the marker that it has there."""
-    from pico.twin.cameras import Eyes
+    from pico.cameras.simulated import Eyes
 
     cameras = true_cameras(setup, setup.lab.sim.errors, world.seed, world.cameras)
     markers = {name: body.marker for name, body in world.components.items()}

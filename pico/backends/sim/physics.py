@@ -144,7 +144,7 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], Sight] | 
 
     def eyes(twin: Twin) -> Sight:
         from pico.backends.sim.eyes import eyes_of
-        from pico.twin.eye import EyeInHand
+        from pico.cameras.eye_in_hand import EyeInHand
         from pico.vision.calibration import read_calibration
         from pico.vision.nominal import camera_models
 

@@ -18,7 +18,7 @@ from pico.vision.calibration import read_calibration
 if TYPE_CHECKING:
     import mujoco
 
-    from pico.twin.cameras import Eyes
+    from pico.cameras.simulated import Eyes
     from pico.vision.frame import Frame
 
 TRIES = 3
@@ -51,7 +51,7 @@ def scene_of(setup: Setup, world: World) -> tuple[mujoco.MjModel, mujoco.MjData]
     """Return the scene of a world, strangers included, ready to be looked at."""
     import mujoco
 
-    from pico.twin.picture import pose_model
+    from pico.drawing.picture import pose_model
     from pico.twin.placement import upright
     from pico.twin.scene import Thing, build_scene
 

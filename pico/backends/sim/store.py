@@ -13,6 +13,7 @@ from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import SCHEMA, Body, FreePose, Shape, World, new_world
+from pico.cameras.errors import CameraShift
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import write_whole, writing
 from pico.model.catalog import Footprint
@@ -20,7 +21,6 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
 from pico.model.pose import Pose
 from pico.model.record import as_json
-from pico.twin.camera_errors import CameraShift
 
 
 def world_path(root: Path) -> Path:

@@ -11,10 +11,10 @@ from pico.backends.sim.eyes import bump
 from pico.backends.sim.faults import Faults, faults_of, parse, save_faults
 from pico.backends.sim.hand import nudge, power_cycle, remove
 from pico.backends.sim.store import change_world, load_world, reset_world
+from pico.cameras.errors import CameraShift, true_cameras
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.request import require_component
-from pico.twin.camera_errors import CameraShift, true_cameras
 from pico.twin.placement import Placement
 from pico.vision.camera import CameraModel
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import Any
 
+from pico.cameras.errors import CameraShift
 from pico.model.catalog import ComponentType, Footprint, Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
@@ -18,7 +19,6 @@ from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.state import home_state, place_of
 from pico.motion import gantry
-from pico.twin.camera_errors import CameraShift
 
 SCHEMA = "pico.world/v1"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pico.twin.canvas import Canvas, Point
+from pico.drawing.canvas import Canvas, Point
 from pico.twin.lettering import Color, extent
 
 Box = tuple[float, float, float, float]

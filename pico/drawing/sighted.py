@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
+from pico.drawing.outlines import outline
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful
 from pico.model.pose import Pose
 from pico.twin.lettering import Color, extent, write
-from pico.twin.outlines import outline
 from pico.vision.sighting import Sighting
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.twin.viewpoint import Viewpoint
+    from pico.drawing.viewpoint import Viewpoint
 
 Box = tuple[float, float, float, float]
 

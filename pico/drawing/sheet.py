@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from pico.drawing import parts_list as partslist
+from pico.drawing.beams import Place, beam_paths, flat
+from pico.drawing.label_places import free_place, overlap
+from pico.drawing.outlines import outline
+from pico.drawing.svg import Box, Drawing, Point, text_box, text_width
 from pico.model.lab import Box2, Setup, Slot
 from pico.model.pose import Pose
 from pico.motion.kinematics import span
-from pico.twin import partslist
-from pico.twin.beams import Place, beam_paths, flat
-from pico.twin.outlines import outline
-from pico.twin.spread import free_place, overlap
 from pico.twin.surfaces import HOLE_RADIUS
-from pico.twin.svg import Box, Drawing, Point, text_box, text_width
 
 _INK, _FAINT, _EDGE, _HOLE = "#222831", "#6b7480", "#788a8a", "#d3d8de"
 _BEAM, _MOVER, _RULE = "#e02424", "#66738a", "#d6dae0"
@@ -136,8 +136,8 @@ def _write(
 
 def _arcs(drawing: Drawing, setup: Setup, center: Point, radius: float, size: float) -> None:
     """The part of a circle that lies on the table."""
-    from pico.twin.outlines import circle
-    from pico.twin.topview import on_table
+    from pico.drawing.outlines import circle
+    from pico.drawing.topview import on_table
 
     for arc in on_table(setup, circle(center, radius, 180)):
         dash = f"{1.2 * size} {0.8 * size}"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from pico.drawing.canvas import Point
 from pico.model.catalog import Footprint
 from pico.model.pose import Pose
-from pico.twin.canvas import Point
 
 
 def outline(footprint: Footprint, pose: Pose) -> list[Point]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from pico.twin.svg import Box
+from pico.drawing.svg import Box
 
 _GAP = 2.0  # mm between a name and anything else
 _DIRECTIONS = (90, -90, 0, 180, 45, 135, -45, -135, 22, 158, -22, -158, 68, 112, -68, -112)  # deg, 90 is below

@@ -36,7 +36,7 @@ def require_kind(path: Path) -> None:
 def open_reel(path: Path, fps: float, size: tuple[int, int]) -> Reel:
     """Return a new film of `fps` pictures a second, `size` (width, height) [pixels]; raises PicoError."""
     require_kind(path)
-    from pico.twin.gif import GifReel
+    from pico.drawing.film.gif import GifReel
 
     return GifReel(path, fps) if path.suffix.lower() == ".gif" else Mp4Reel(path, fps, size)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from pico.drawing.canvas import Canvas, Point
+from pico.drawing.outlines import outline
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.twin.canvas import Canvas, Point
-from pico.twin.outlines import outline
 
 _RED, _PAPER = (205, 20, 20), (255, 255, 255)
 LEGEND = "red: in each other's way; an arrow leads from what must leave first to what waits for it"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pico.twin.canvas import Canvas, Point
+from pico.drawing.canvas import Canvas, Point
 from pico.twin.lettering import Align, Color
 
 _INK: Color = (120, 20, 120)

@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from pico.cameras.markers import pose_in_table
+from pico.cameras.stickers import MODULES, QUIET, Sticker, paper
+from pico.cameras.view import View
 from pico.diagnostics import PicoError, error
-from pico.twin.camera_markers import pose_in_table
-from pico.twin.camera_view import View
 from pico.twin.scene import OPAQUE_GROUP
-from pico.twin.stickers import MODULES, QUIET, Sticker, paper
 
 if TYPE_CHECKING:
     import mujoco

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.drawing.film.camerawork import Set, build_set
+from pico.drawing.film.movie_file import open_reel
 from pico.model.lab import Setup
-from pico.twin.camerawork import Set, build_set
-from pico.twin.reel import open_reel
 from pico.twin.snapshot import Snapshot, at
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _titled(image: Image, stage: Set, now: Snapshot, caption: Caption, elapsed: 
     """Return the picture with a line below: what is being done, and for how long it has been going on."""
     import numpy as np
 
-    from pico.twin.labels import Anchor, label
+    from pico.drawing.labels import Anchor, label
     from pico.twin.lettering import write
 
     if caption.component in now.places:

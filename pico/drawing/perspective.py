@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pico.twin.lighting import KEY, key_points, share_seen, sky_points
+from pico.drawing.lighting import KEY, key_points, share_seen, sky_points
 from pico.twin.raycast import FAR, Hits, cast, visible
 from pico.twin.scene import CLEAR_GROUP, OPAQUE_GROUP, TABLE_THICKNESS
 from pico.twin.surfaces import Surfaces, linear
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.twin.viewpoint import Viewpoint
+    from pico.drawing.viewpoint import Viewpoint
 
     Array = NDArray[np.float64]
 

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.disk import write_whole
+from pico.drawing.beams import Place, beam_paths
 from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
 from pico.motion.engine import require_mujoco
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints
-from pico.twin.beams import Place, beam_paths
 from pico.twin.placement import Placement, upright
 
 if TYPE_CHECKING:
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.twin.dimensions import Dimension
-    from pico.twin.marks import Mark
-    from pico.twin.perspective import Beam
-    from pico.twin.steps import Step
-    from pico.twin.viewpoint import Viewpoint
+    from pico.drawing.dimensions import Dimension
+    from pico.drawing.marks import Mark
+    from pico.drawing.perspective import Beam
+    from pico.drawing.steps import Step
+    from pico.drawing.viewpoint import Viewpoint
 
     Image = NDArray[np.uint8]
 
@@ -59,7 +59,7 @@ def render(
     lengths.
     """
     if view == "top":
-        from pico.twin.topview import draw
+        from pico.drawing.topview import draw
 
         return draw(
             setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams,
@@ -96,7 +96,7 @@ def _perspective(
     labels: bool,
     beams: bool,
 ) -> Image:
-    from pico.twin.perspective import Stage, photograph
+    from pico.drawing.perspective import Stage, photograph
     from pico.twin.surfaces import surfaces
 
     places = placed(poses)
@@ -107,7 +107,7 @@ def _perspective(
     stage = Stage(model, data, surfaces(setup, model, places), light, center_of(setup))
     image = photograph(stage, view)
     if labels:
-        from pico.twin.labels import Anchor, label
+        from pico.drawing.labels import Anchor, label
 
         tops = {n: (p.position[0], p.position[1], top_of(setup, n, p)) for n, p in places.items()}
         label(image, view, [Anchor(name, at) for name, at in sorted(tops.items())])
@@ -179,7 +179,7 @@ def _opening(setup: Setup, robot: Robot, joints: Joints, places: Mapping[str, Pl
 
 def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
     """Return the camera in front of the table that has all of `points` (n, 3) [m] in the picture."""
-    from pico.twin.viewpoint import framing
+    from pico.drawing.viewpoint import framing
 
     return framing(points, _AZIMUTH, _ELEVATION, _FIELD, width, height, margin=0.04)
 
@@ -188,7 +188,7 @@ def glow(setup: Setup, lit: Mapping[str, Place], poses: Mapping[str, Place] | No
     """Return the light of each source among `lit`, at the height of its exit, up to what stops it among `poses`."""
     import numpy as np
 
-    from pico.twin.perspective import Beam
+    from pico.drawing.perspective import Beam
 
     found = []
     for name, start, end in beam_paths(setup, lit if poses is None else poses):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pico.twin.camera_view import View
+from pico.cameras.view import View
 
 if TYPE_CHECKING:
     import numpy as np

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pico.twin.camera_view import View
-from pico.twin.stickers import MODULES, QUIET, Sticker, paper
+from pico.cameras.stickers import MODULES, QUIET, Sticker, paper
+from pico.cameras.view import View
 
 if TYPE_CHECKING:
     import numpy as np

@@ -15,11 +15,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.cameras.simulated import Eyes
 from pico.model.catalog import MarkerPlate
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.motion.kinematics import fk
-from pico.twin.cameras import Eyes
 from pico.twin.physics import Twin
 from pico.twin.sight import InHand
 from pico.vision.anchor import anchored

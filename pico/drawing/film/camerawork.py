@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from pico.drawing.lighting import KEY
+from pico.drawing.perspective import Beam, Stage, photograph
+from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, top_of, viewpoint
 from pico.model.lab import Setup
-from pico.twin.lighting import KEY
-from pico.twin.perspective import Beam, Stage, photograph
-from pico.twin.picture import center_of, glow, model_of, pose_model, scene_extent, top_of, viewpoint
 from pico.twin.placement import Placement
 from pico.twin.scene import TABLE_THICKNESS
 from pico.twin.snapshot import Snapshot
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.twin.viewpoint import Viewpoint
+    from pico.drawing.viewpoint import Viewpoint
 
     Array = NDArray[np.float64]
 

@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from pico.diagnostics import PicoError, error
+from pico.drawing.picture import pose_model, posed_model
 from pico.model.lab import Setup
 from pico.motion.types import Joints
-from pico.twin.picture import pose_model, posed_model
 from pico.twin.placement import Placement
 
 Scene = tuple[Mapping[str, Placement], Mapping[str, Joints]]

@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
+from pico.cameras.board import board_sheet, datum_sheets, photograph_sheets
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.twin.board import board_sheet, datum_sheets, photograph_sheets
 from pico.vision.bundle import bundle
 from pico.vision.calibration import Accuracy, Calibration
 from pico.vision.camera import CameraModel

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from pico.cameras.errors import true_cameras
+from pico.cameras.markers import draw_markers
+from pico.cameras.stickers import Sticker, stickers
+from pico.cameras.view import View, photograph, table_paint
 from pico.model.lab import Setup, SimErrors
-from pico.twin.camera_errors import true_cameras
-from pico.twin.camera_markers import draw_markers
-from pico.twin.camera_view import View, photograph, table_paint
-from pico.twin.stickers import Sticker, stickers
 from pico.vision.camera import CameraModel
 from pico.vision.frame import Frame, Region
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.twin.egl import OpenGL
+    from pico.cameras.egl import OpenGL
 
     Array = NDArray[np.float64]
     Gray = NDArray[np.float32]
@@ -64,7 +64,7 @@ class Eyes:
         self.stickers = tuple(s.raised(float(heights.normal(0.0, sigma))) if sigma else s for s in plain)
         self._opengl: OpenGL | None = None
         if (renderer or setup.lab.sim.renderer) == "egl":
-            from pico.twin.egl import OpenGL
+            from pico.cameras.egl import OpenGL
 
             largest = max(n for camera in self.cameras.values() for n in camera.pixels)
             self._opengl = OpenGL(model, self.stickers, largest)
@@ -101,7 +101,7 @@ class Eyes:
 
         Raises KeyError for no such camera, ValueError for one that measures no depth.
         """
-        from pico.twin.camera_depth import measure
+        from pico.cameras.depth import measure
 
         sensor = self.setup.lab.cameras[name].depth
         if sensor is None:

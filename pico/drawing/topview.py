@@ -6,19 +6,19 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from pico.drawing.beams import Place, beam_paths, flat
+from pico.drawing.canvas import Canvas, Point
+from pico.drawing.dimensions import Dimension, draw_dimensions, legend
+from pico.drawing.marks import LEGEND, Mark, draw_marks
+from pico.drawing.names import Named, write_names
+from pico.drawing.outlines import circle, outline
+from pico.drawing.steps import MOVE, Step, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
 from pico.model.catalog import Footprint
 from pico.model.lab import Box2, Robot, Setup
 from pico.model.pose import Pose
 from pico.motion.kinematics import span, tool_pose
 from pico.motion.types import Joints
-from pico.twin.beams import Place, beam_paths, flat
-from pico.twin.canvas import Canvas, Point
-from pico.twin.dimensions import Dimension, draw_dimensions, legend
 from pico.twin.lettering import Color
-from pico.twin.marks import LEGEND, Mark, draw_marks
-from pico.twin.names import Named, write_names
-from pico.twin.outlines import circle, outline
-from pico.twin.steps import MOVE, Step, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,7 +58,7 @@ def draw(
     steps: Sequence[Step] = (),
     dimensions: Sequence[Dimension] = (),
 ) -> NDArray[np.uint8]:
-    """Return the drawing (height, width, 3); see `pico.twin.picture.render`."""
+    """Return the drawing (height, width, 3); see `pico.drawing.picture.render`."""
     canvas = new_canvas(setup, width, height)
     size = max(9.0, min(width / 64, height / 48))
     _draw_table(canvas, setup)

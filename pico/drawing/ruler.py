@@ -12,12 +12,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.drawing.beams import Place
+from pico.drawing.dimensions import Dimension
+from pico.drawing.picture import placed, posed_model
 from pico.model.lab import Setup
 from pico.model.pose import short
 from pico.motion.types import Joints
-from pico.twin.beams import Place
-from pico.twin.dimensions import Dimension
-from pico.twin.picture import placed, posed_model
 from pico.twin.placement import Placement
 
 Vector = tuple[float, float, float]

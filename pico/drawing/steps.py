@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from pico.drawing.canvas import Canvas, Point
+from pico.drawing.outlines import outline
 from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
-from pico.twin.canvas import Canvas, Point
 from pico.twin.lettering import Color, extent, write
-from pico.twin.outlines import outline
 
 if TYPE_CHECKING:
     import numpy as np
