@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from pico.backends.cover import Cover
 from pico.backends.memory import Seen
+from pico.backends.occlusion import Cover
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
