@@ -37,9 +37,9 @@ os.environ |= {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull}
 from bisecting_labs import EXPECT, Written, history  # noqa: E402
 from pico_cli.main import main as pico  # noqa: E402
 
-from pico.bench import Bench  # noqa: E402
-from pico.bisecting.costs import PlanSeconds  # noqa: E402
-from pico.bisecting.step import step  # noqa: E402
+from pico.bench.bench import Bench  # noqa: E402
+from pico.bench.bisecting.costs import PlanSeconds  # noqa: E402
+from pico.bench.bisecting.step import step  # noqa: E402
 from pico.history.bisect.kept import GitBisect  # noqa: E402
 from pico.model.plan import Plan  # noqa: E402
 

@@ -35,9 +35,9 @@ sys.path[:0] = [str(ROOT)]
 
 from pico_cli.main import main as command  # noqa: E402
 
-from pico import committing  # noqa: E402
 from pico.backends.sim.store import load_world, save_world  # noqa: E402
-from pico.bench import Bench  # noqa: E402
+from pico.bench import commits as committing  # noqa: E402
+from pico.bench.bench import Bench  # noqa: E402
 from pico.history.git import command as git  # noqa: E402
 from pico.history.lab import files as write_files  # noqa: E402
 from pico.history.writing import index_lock, under  # noqa: E402

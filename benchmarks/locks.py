@@ -67,7 +67,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trials", type=int, default=100)
     trials = parser.parse_args().trials
-    from pico.bench import new_lab
+    from pico.bench.bench import new_lab
 
     with tempfile.TemporaryDirectory() as folder:
         lab = Path(folder) / "shel"

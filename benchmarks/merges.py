@@ -272,8 +272,8 @@ COMMANDED = 10
 def impossible(folder: Path, count: int) -> int:
     """Merge branches that put two parts into one place, and return how many of them `pico merge`, `pico plan` or
     `pico check` let through, or refused without naming both."""
-    from pico.bench import Bench
-    from pico.checking import check
+    from pico.bench.bench import Bench
+    from pico.bench.checking import check
     from pico.history.merge.checked import merge as merge_checked
 
     root = make_example("shel", folder / "shel").root

@@ -33,7 +33,7 @@ def faulty(runs: int, rate: float) -> int:
     """Apply with faults; return how many reports were not true."""
     from kills import REVISIONS
 
-    from pico.bench import Bench, new_lab
+    from pico.bench.bench import Bench, new_lab
 
     draw, count = random.Random(1), Counter[str]()
     with tempfile.TemporaryDirectory() as temporary:
@@ -91,7 +91,7 @@ def interrupts(count_: int, fidelity: str) -> int:
     """Press Ctrl-C; return how many did not end well."""
     from kills import REVISIONS, forked, preload
 
-    from pico.bench import Bench, new_lab
+    from pico.bench.bench import Bench, new_lab
 
     preload()
     draw, count = random.Random(2), Counter[str]()
@@ -158,7 +158,7 @@ def pairs(trials: int) -> int:
     from kills import forked
 
     from pico.backends.sim.session import Session
-    from pico.bench import new_lab
+    from pico.bench.bench import new_lab
     from pico.runs.journal import Journal
 
     tell = Session._tell

@@ -31,7 +31,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from pico.backends.sim.store import load_world, save_world  # noqa: E402
-from pico.bench import Bench  # noqa: E402
+from pico.bench.bench import Bench  # noqa: E402
 from pico.geometry import Grid, Shape, finger_height, finger_zones, placed  # noqa: E402
 from pico.manifest.catalog import packaged_type  # noqa: E402
 from pico.model.catalog import ComponentType, Footprint  # noqa: E402

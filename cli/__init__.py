@@ -1,1 +1,1 @@
-"""The `pico` command: parses, asks `pico.bench` and lets `views` show the answer. It decides nothing itself."""
+"""The `pico` command: parses, asks `pico.bench.bench` and lets `views` show the answer. It decides nothing itself."""

@@ -15,8 +15,8 @@ from .views.run import Progress
 from .waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
-    from pico.bisecting import Bisection, Proposal
+    from pico.bench.bench import Bench
+    from pico.bench.bisecting import Bisection, Proposal
     from pico.model.event import Event
     from pico.model.plan import Plan
 

@@ -11,7 +11,7 @@ from pico.disk import write_whole
 from pico.history.git import command as git
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
 
 _HINT = "# Say why. Lines that begin with `#` are left out; an empty message gives up.\n"
 

@@ -12,7 +12,7 @@ from .views import film as view
 from .waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.model.event import Event
     from pico.model.plan import Plan
     from pico.twin.snapshot import Recording
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def film(session: Session, bench: Bench, plan: Plan, recording: Recording, events: Sequence[Event], path: Path) -> None:
     """Write the film of a run and say where it is; raises PicoError."""
-    from pico.pictures import captions
+    from pico.bench.pictures.contents import captions
 
     done, total = 0, 1
     pictures = bench.film(recording, session.folder / path, captions=captions(events, view.titles(plan)))

@@ -18,7 +18,7 @@ from .views import report as report_view
 from .views.run import Progress
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.execution.blocking import Run
     from pico.model.event import Event
     from pico.model.plan import Plan

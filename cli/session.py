@@ -15,7 +15,7 @@ from .views.style import inert_json
 from .waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.diagnostics import Diagnostic
     from pico.history.reader import Reader
 
@@ -46,7 +46,7 @@ class Session:
 
     def bench(self, fidelity: str | None = None, speed: float | None = None) -> Bench:
         """Open the lab of this session; raises PicoError."""
-        from pico.bench import Bench
+        from pico.bench.bench import Bench
 
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
         if self.context is not None:

@@ -9,15 +9,15 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
 
 
 def open(path: str | Path = ".", **options: Any) -> Bench:
     """Open the laboratory in folder `path` (or any folder below it) and return its bench.
 
-    Options are those of `pico.bench.Bench.open` (`backend`, `fidelity`).
+    Options are those of `pico.bench.bench.Bench.open` (`backend`, `fidelity`).
     Raises `pico.diagnostics.PicoError` where the folder holds no laboratory or its manifests are wrong.
     """
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
 
     return Bench.open(path, **options)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import pico
-from pico.bench import AsyncBench, Bench
+from pico.bench.bench import AsyncBench, Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.history.examples.example import make_example
 from pico.model.plan import plan_from_json

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.diagnostics import PicoError
 from pico.history.examples.example import make_example
 from pico.model.plan import plan_from_json

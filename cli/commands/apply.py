@@ -18,7 +18,7 @@ from ..views import verified
 from ..views.report import expectations
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.model.plan import Plan
 
 Record = Annotated[

@@ -12,7 +12,7 @@ from ..arguments import Fidelity
 from ..session import Session
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.model.plan import Plan
 
 CODES = {"good": 0, "bad": 1, "skip": 125}
@@ -26,7 +26,7 @@ def bisect_step(context: typer.Context, expect: Expect, fidelity: Fidelity = Non
     ask. Exits with 0 where it is good, 1 where it is bad, 125 where it can't be built or told, and from 128 on where
     the bench is in trouble, so that git stops: 128 more than the exit code of `pico apply`.
     """
-    from pico.bisecting.step import Step, bisecting, step
+    from pico.bench.bisecting.step import Step, bisecting, step
 
     from ..bisecting import bring
     from ..views import bisect as view

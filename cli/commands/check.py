@@ -18,7 +18,7 @@ from ..views import check as view
 from ..waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.checking import Checked
+    from pico.bench.checking import Checked
 
 Base = Annotated[
     str | None,
@@ -60,7 +60,7 @@ def check(
     touched. Above labs, each that differs from BASE is checked. Exits with 1 where manifests are not valid, 3 where the
     state is physically impossible, 6 where an expectation fails, 7 where policy denies it; the first that applies.
     """
-    from pico.checking import check
+    from pico.bench.checking import check
 
     session = Session.of(context)
     folder = _folder(session, report, pictures)

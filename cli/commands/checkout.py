@@ -17,7 +17,7 @@ from ..views import plan as view
 from ..views import taken as taken_view
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.history.restoring.selected import Taken
     from pico.model.plan import Plan
 

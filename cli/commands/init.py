@@ -20,7 +20,7 @@ def init(
     ] = None,
 ) -> int:
     """Make a new lab, or an example with its history."""
-    from pico.bench import new_lab
+    from pico.bench.bench import new_lab
 
     session = Session.of(context)
     notes = new_lab(session.folder / folder, example)

@@ -37,8 +37,8 @@ def publish(
 
     The same commit gives the same bytes. Refused where an artifact of a run is not here.
     """
+    from pico.bench.publishing import publish
     from pico.history.lab.folder import LabFolder
-    from pico.publishing import publish
 
     session = Session.of(context)
     if pictures not in PICTURES:

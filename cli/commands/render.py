@@ -17,7 +17,7 @@ from ..views import picture as view
 from ..waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
 
 VIEWS = ("perspective", "top")
 LARGEST = 8000

@@ -15,7 +15,7 @@ from ..session import Session
 from ..views import plan as view
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
     from pico.model.plan import Plan
 
 

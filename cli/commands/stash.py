@@ -12,7 +12,7 @@ from ..session import Session
 from ..views import stash as view
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
 
 ACTIONS = ("push", "pop", "list", "drop")
 

@@ -13,8 +13,8 @@ from ..session import Session
 from ..views import watched as view
 
 if TYPE_CHECKING:
-    from pico.bench import Bench
-    from pico.watching import Drift, Drifted
+    from pico.bench.bench import Bench
+    from pico.bench.drift import Drift, Drifted
 
 Interval = Annotated[float, typer.Option("--interval", metavar="SECONDS", help="Between two looks.", min=0)]
 Looks = Annotated[int | None, typer.Option("--looks", metavar="N", help="End after N looks.", min=1)]
@@ -33,7 +33,7 @@ def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None
     session = Session.of(context)
     bench = session.bench()
     if heal:
-        from pico.watching import require_heal
+        from pico.bench.drift import require_heal
 
         require_heal(bench.setup)
     before: tuple[Drift, ...] = ()
@@ -53,7 +53,7 @@ def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None
 
 
 def _tell(session: Session, found: Drifted, before: tuple[Drift, ...], note: str, *, first: bool) -> None:
-    from pico.watching import news
+    from pico.bench.drift import news
 
     fresh, right = news(before, found.beyond)
     if fresh or right or note:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from pico.bisecting.records import Outcome, Proposal
-from pico.bisecting.records import Tried as TriedRecord
-from pico.bisecting.search import Bisection
-from pico.bisecting.step import Step as StepRecord
+from pico.bench.bisecting.records import Outcome, Proposal
+from pico.bench.bisecting.records import Tried as TriedRecord
+from pico.bench.bisecting.search import Bisection
+from pico.bench.bisecting.step import Step as StepRecord
 from pico.history.lab.folder import Entry
 from pico.model.record import as_json
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.checking.verdict import TITLES, Check, Checked, LabChecked
+from pico.bench.checking.verdict import TITLES, Check, Checked, LabChecked
 from pico.diagnostics import ExitCode
 from pico.model.operation import Operation
 from pico.model.plan import Plan

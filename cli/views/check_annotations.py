@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from pico.checking.verdict import Checked
+from pico.bench.checking.verdict import Checked
 from pico.diagnostics import Diagnostic
 
 MOST = 10

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from xml.etree import ElementTree as xml
 
-from pico.checking.verdict import TITLES, Check, Checked, LabChecked
+from pico.bench.checking.verdict import TITLES, Check, Checked, LabChecked
 from pico.model.expectation import Expected
 
 from . import diagnostics

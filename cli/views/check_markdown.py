@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from pico.checking.verdict import TITLES, Checked, LabChecked
+from pico.bench.checking.verdict import TITLES, Checked, LabChecked
 from pico.model.diff import Change
 from pico.model.plan import Plan
 

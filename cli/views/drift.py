@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from pico.bench.drift import Drift, Drifted
 from pico.model.record import as_json
-from pico.watching import Drift, Drifted
 
 from .diff import lines
 from .style import count, listed, paint, wrap

@@ -9,7 +9,7 @@ from pico.model.record import as_json
 from .style import columns, count, paint
 
 if TYPE_CHECKING:
-    from pico.imports import Imported
+    from pico.bench.importing import Imported
 
 
 def text(found: Imported, *, dry_run: bool) -> str:

@@ -9,7 +9,7 @@ from .diagnostics import data as listed
 from .style import count
 
 if TYPE_CHECKING:
-    from pico.publishing import Published
+    from pico.bench.publishing import Published
 
 
 def text(made: Published) -> str:

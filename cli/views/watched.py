@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.watching import Drift, Drifted
+from pico.bench.drift import Drift, Drifted
 
 from .diff import said
 from .drift import about, entry

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from pico.bench import Bench
-from pico.bisecting import configurations
-from pico.bisecting.configurations import Configurations
-from pico.bisecting.costs import PlanSeconds, leaves
+from pico.bench.bench import Bench
+from pico.bench.bisecting import configurations
+from pico.bench.bisecting.configurations import Configurations
+from pico.bench.bisecting.costs import PlanSeconds, leaves
 from pico.history.examples.example import make_example
 from pico.model.state import ComponentState, LabState
 

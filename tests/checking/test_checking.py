@@ -10,8 +10,8 @@ import pytest
 from changing import Lab
 
 from pico.backends.lease import BenchLock
-from pico.bench import Bench
-from pico.checking import Checked, check
+from pico.bench.bench import Bench
+from pico.bench.checking import Checked, check
 from pico.diagnostics import PicoError
 
 TILTED = ("x: 520\n      y: 420\n      yaw: 0", "x: 520\n      y: 420\n      yaw: 30")

@@ -15,7 +15,7 @@ from pico_cli.views.check_junit import junit
 from pico_cli.views.check_markdown import report
 from pico_cli.views.markdown import fenced, prose
 
-from pico.checking import Check, Checked, LabChecked
+from pico.bench.checking import Check, Checked, LabChecked
 from pico.diagnostics import error
 from pico.history.repository.against import Against
 from pico.model.diff import Change

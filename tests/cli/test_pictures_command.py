@@ -36,7 +36,7 @@ def test_a_report_says_what_to_do_about_a_held_component() -> None:
 
 
 def test_a_held_component_is_set_down_before_the_work_goes_on(shel: Path, pico: Pico) -> None:
-    from pico.bench import Bench
+    from pico.bench.bench import Bench
 
     with Bench.open(shel) as bench:
         run = bench.run(bench.plan("e1"))

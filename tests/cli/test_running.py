@@ -14,8 +14,8 @@ from commanding import Pico
 from pico_cli.running import execute, question
 from pico_cli.session import Session
 
-from pico.async_bench import AsyncBench
-from pico.bench import Bench
+from pico.bench.async_bench import AsyncBench
+from pico.bench.bench import Bench
 from pico.model.event import Event
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target

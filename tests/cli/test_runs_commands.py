@@ -12,7 +12,7 @@ import pytest
 from commanding import Pico
 from pico_cli.views.verified import proof
 
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.model.proof import Standing
 
 

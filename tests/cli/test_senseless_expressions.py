@@ -8,7 +8,7 @@ import pytest
 from commanding import Pico, edit
 from killed_commands import git
 
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.diagnostics import PicoError
 from pico.model.state import Expectation
 

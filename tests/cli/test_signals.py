@@ -16,8 +16,8 @@ from commanding import Pico
 from killed_commands import git
 from test_stopping_commands import PROGRAM, moving, started
 
-from pico.async_bench import AsyncBench
-from pico.bench import Bench
+from pico.bench.async_bench import AsyncBench
+from pico.bench.bench import Bench
 from pico.execution.attending import attend
 from pico.model.event import Event
 from pico.runs.journal import Journal

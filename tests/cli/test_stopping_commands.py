@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from commanding import Pico
 
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.runs.journal import Journal
 
 PROGRAM = """

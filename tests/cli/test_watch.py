@@ -9,12 +9,12 @@ import pytest
 from commanding import Pico, edit
 
 from pico.backends.lease import BenchLock
+from pico.bench.drift import Drift, calibration_drift, news, require_heal
 from pico.diagnostics import PicoError
 from pico.manifest.load import load_folder
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.resources import labs_dir
-from pico.watching import Drift, calibration_drift, news, require_heal
 
 HEAL = "policy:\n  heal: true\n"
 IGNORE = "policy:\n  ignore: [p2]\n"

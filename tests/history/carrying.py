@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.history.lab.folder import LabFolder
 from pico.history.repository.repository import Repository
 from pico.history.runs import standing_of, unrecorded

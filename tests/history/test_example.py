@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from pico.bench import new_lab
+from pico.bench.bench import new_lab
 from pico.diagnostics import PicoError
 from pico.history.examples.example import example_names, init_empty, make_example
 from pico.history.git.lanes import lanes

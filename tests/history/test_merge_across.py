@@ -9,8 +9,8 @@ import pytest
 from giving import Git
 from moving_cases import LAB, Files, mistakes, moved_case
 
-from pico.bench import Bench
-from pico.checking import check
+from pico.bench.bench import Bench
+from pico.bench.checking import check
 from pico.diagnostics import PicoError
 from pico.history.lab.folder import LabFolder
 from pico.history.merge.checked import merge

@@ -22,7 +22,7 @@ from carrying import (
 )
 
 from pico.backends.lease import BenchLock
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.examples.example import make_example
 from pico.history.lab.folder import LabFolder

@@ -15,7 +15,7 @@ import pytest
 from checker import check
 
 from pico.backends.sim.kinematic import KinematicWorld
-from pico.bench import Bench
+from pico.bench.bench import Bench
 from pico.history.examples.example import make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.lab import Setup

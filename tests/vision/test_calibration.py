@@ -152,7 +152,7 @@ def test_a_file_that_is_no_calibration_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_plan_records_the_calibration(tmp_path: Path) -> None:
-    from pico.bench import Bench, new_lab
+    from pico.bench.bench import Bench, new_lab
 
     new_lab(tmp_path / "lab", "minimal")
     with Bench.open(tmp_path / "lab") as bench:

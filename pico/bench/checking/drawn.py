@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pico.checking.candidate import Candidate, Origin, start
-from pico.checking.verdict import LabChecked, Picture
+from pico.bench.checking.candidate import Candidate, Origin, start
+from pico.bench.checking.verdict import LabChecked, Picture
 from pico.disk import writing
 
 SIZE = (960, 720)
@@ -17,8 +17,8 @@ def draw(candidate: Candidate, before: Origin, found: LabChecked, folder: Path, 
     nothing differs or where it can't be read. Raises PicoError where a file can't be written."""
     if found.plan is None or not found.changes:
         return ()
+    from pico.bench.pictures.contents import goals, marks, standing, steps
     from pico.drawing.picture import render, write_png
-    from pico.pictures import goals, marks, standing, steps
 
     setup, wanted = candidate.manifests.require()
     begin, _ = start(setup, before)

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pico.checking.candidate import Candidate, Origin, in_folder, in_memory, origin
-from pico.checking.steps import check_lab
-from pico.checking.verdict import Checked, LabChecked
+from pico.bench.checking.candidate import Candidate, Origin, in_folder, in_memory, origin
+from pico.bench.checking.steps import check_lab
+from pico.bench.checking.verdict import Checked, LabChecked
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.history.repository.against import Against, against
 from pico.history.repository.repository import Repository
@@ -108,7 +108,7 @@ def _drawn(
 ) -> LabChecked:
     if pictures is None or found.plan is None:
         return found
-    from pico.checking.drawn import draw
+    from pico.bench.checking.drawn import draw
 
     alike = sum(lab.lab == found.lab for lab in others)
     stem = f"{found.lab}-{alike + 1}" if alike else found.lab

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.async_bench import AsyncBench, CommitMode
+from pico.bench.async_bench import AsyncBench, CommitMode
 from pico.diagnostics import Diagnostic
 from pico.execution.attending import attend
 from pico.execution.blocking import LoopThread, Run
@@ -25,7 +25,10 @@ from pico.model.status import Status
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.sim.table import SimulatedTable
-    from pico.bisecting import Bisection
+    from pico.bench.bisecting import Bisection
+    from pico.bench.drift import Drifted
+    from pico.bench.importing import Imported
+    from pico.bench.publishing import Published
     from pico.drawing.film.film import Caption
     from pico.drawing.picture import Image, View
     from pico.drawing.ruler import Measured
@@ -37,12 +40,9 @@ if TYPE_CHECKING:
     from pico.history.runs.comparing import Comparison
     from pico.history.runs.listing import Listed
     from pico.history.runs.loading import Loaded
-    from pico.imports import Imported
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
-    from pico.publishing import Published
     from pico.twin.snapshot import Recording
-    from pico.watching import Drifted
 
 __all__ = ["AsyncBench", "Bench", "CommitMode", "new_lab"]
 
@@ -88,22 +88,22 @@ class Bench(Reader):
         return self._thread.wait(self._bench.observe())
 
     def scan(self) -> Look:
-        """Look at the table through its cameras; see `pico.scans.scan`."""
-        from pico import scans
+        """Look at the table through its cameras; see `pico.bench.looking.scan`."""
+        from pico.bench import looking as scans
 
         return self._thread.wait(scans.scan(self._bench))
 
     def import_parts(self, types: Sequence[str] = (), *, write: bool = True) -> Imported:
-        """Take what stands on the table and is not in the inventory into it; see `pico.imports`."""
-        from pico import imports
+        """Take what stands on the table and is not in the inventory into it; see `pico.bench.importing`."""
+        from pico.bench import importing as imports
 
         wanted = imports.read_types(types)
         parts = imports.importable(self._bench, self.scan(), wanted)
         return imports.take_in(self._bench, parts, write=write)
 
     def scan_picture(self, look: Look, *, out: Path | None = None, component: str | None = None) -> Image:
-        """Return a camera's picture of a scan, with names drawn in; see `pico.scans.picture`."""
-        from pico import scans
+        """Return a camera's picture of a scan, with names drawn in; see `pico.bench.looking.picture`."""
+        from pico.bench import looking as scans
 
         return scans.picture(self._bench, look, out, component)
 
@@ -126,14 +126,14 @@ class Bench(Reader):
         return self._thread.wait(self._bench.plan_of(word, folder=folder, **options))
 
     def require_fresh(self, plan: Plan) -> None:
-        """Raise PicoError (exit code STALE) where a saved plan does not fit any more; see `pico.saved`."""
-        from pico import saved
+        """Raise PicoError (exit code STALE) where a saved plan does not fit any more; see `pico.bench.saved_plans`."""
+        from pico.bench import saved_plans as saved
 
         self._thread.wait(saved.require_fresh(self._bench, plan))
 
     def refreshed(self, plan: Plan) -> Plan:
-        """Return a new plan to the goal of a saved one; see `pico.saved`."""
-        from pico import saved
+        """Return a new plan to the goal of a saved one; see `pico.bench.saved_plans`."""
+        from pico.bench import saved_plans as saved
 
         return self._thread.wait(saved.refreshed(self._bench, plan))
 
@@ -186,38 +186,38 @@ class Bench(Reader):
         return Run(self._bench.run(plan, **options), self._thread)
 
     def resume_plan(self) -> tuple[Plan, str]:
-        """Return the plan to the goal of the last run, and its id; see `pico.takeup`."""
-        from pico import takeup
+        """Return the plan to the goal of the last run, and its id; see `pico.bench.resuming`."""
+        from pico.bench import resuming as takeup
 
         return self._thread.wait(takeup.resume_plan(self._bench))
 
     def undo_plan(self) -> Plan:
-        """Return the plan back to before the last run; see `pico.takeup`."""
-        from pico import takeup
+        """Return the plan back to before the last run; see `pico.bench.resuming`."""
+        from pico.bench import resuming as takeup
 
         return self._thread.wait(takeup.undo_plan(self._bench))
 
     def recover_plan(self) -> Plan:
-        """Return the plan that sets down what hands still hold; see `pico.takeup`."""
-        from pico import takeup
+        """Return the plan that sets down what hands still hold; see `pico.bench.resuming`."""
+        from pico.bench import resuming as takeup
 
         return self._thread.wait(takeup.recover_plan(self._bench))
 
     def settle(self) -> None:
-        """Record what became of operations that a killed run had begun; see `pico.takeup`."""
-        from pico import takeup
+        """Record what became of operations that a killed run had begun; see `pico.bench.resuming`."""
+        from pico.bench import resuming as takeup
 
         self._thread.wait(takeup.settle(self._bench))
 
     def open_questions(self) -> list[Diagnostic]:
         """Return what only a person can tell of the last runs."""
-        from pico import takeup
+        from pico.bench import resuming as takeup
 
         return takeup.open_questions(self._bench)
 
     def answer(self, key: str, *, done: bool) -> None:
         """Record what a person says of an operation that only a person can tell the end of; raises PicoError."""
-        from pico import takeup
+        from pico.bench import resuming as takeup
 
         takeup.answer(self._bench, key, "done" if done else "failed")
 
@@ -248,14 +248,14 @@ class Bench(Reader):
         return self._thread.wait(self._bench.drift())
 
     def look(self) -> Drifted:
-        """Return where the bench has left HEAD, by how much, how surely and who did it; see `pico.watching`."""
-        from pico import watching
+        """Return where the bench has left HEAD, by how much, how surely and who did it; see `pico.bench.drift`."""
+        from pico.bench import drift as watching
 
         return self._thread.wait(watching.look(self._bench))
 
     def heal(self, found: Drifted) -> RunReport | None:
-        """Bring back what drifted, where the lab's policy allows it; see `pico.watching`."""
-        from pico import watching
+        """Bring back what drifted, where the lab's policy allows it; see `pico.bench.drift`."""
+        from pico.bench import drift as watching
 
         plan = self._thread.wait(watching.heal_plan(self._bench, found))
         return self.apply(plan) if plan else None
@@ -289,14 +289,14 @@ class Bench(Reader):
         return self._thread.wait(self._bench.draft(mode, **options))
 
     def bisect(self, bad: str, good: str, **options: Any) -> Bisection:
-        """Begin to search for the commit that broke something; see `pico.bisecting.begin`."""
-        from pico import bisecting
+        """Begin to search for the commit that broke something; see `pico.bench.bisecting.begin`."""
+        from pico.bench import bisecting
 
         return bisecting.begin(self, bad, good, **options)
 
     def bisection(self, **options: Any) -> Bisection:
-        """Return the bisection under way; see `pico.bisecting.under_way`."""
-        from pico import bisecting
+        """Return the bisection under way; see `pico.bench.bisecting.under_way`."""
+        from pico.bench import bisecting
 
         return bisecting.under_way(self, **options)
 
@@ -314,8 +314,8 @@ class Bench(Reader):
         return LabData(self.folder.history())
 
     def publish(self, revision: str = "HEAD", out: Path | None = None, **options: Any) -> Published:
-        """Write a revision with its runs and pictures as an RO-Crate; see `pico.publishing.publish`."""
-        from pico.publishing import publish
+        """Write a revision with its runs and pictures as an RO-Crate; see `pico.bench.publishing.publish`."""
+        from pico.bench.publishing import publish
 
         return publish(self.folder, revision, out, **options)
 

@@ -1,4 +1,4 @@
-"""One bench, asynchronous: reads its lab, observes, plans, runs. `pico.bench.Bench` is its synchronous face."""
+"""One bench, asynchronous: reads its lab, observes, plans, runs. `pico.bench.bench.Bench` is its synchronous face."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
+from pico.bench.pictures.pictures import Drawings
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
-from pico.drawings import Drawings
 from pico.execution.watched import AsyncRun
 from pico.history.lab.folder import LabFolder
 from pico.model.address import read_addresses
@@ -379,9 +379,9 @@ class AsyncBench(Drawings):
 
         `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`:
         the bench wins; `planned`: the manifest wins where all of it can stand (exit code IMPOSSIBLE else), and the
-        commit says where it was never realized. `only`, `meta`: see `pico.committing.Asked`.
+        commit says where it was never realized. `only`, `meta`: see `pico.bench.commits.Asked`.
         """
-        from pico.committing import Asked, commit
+        from pico.bench.commits import Asked, commit
 
         if mode == "planned":
             from pico.history.merge.checked import overlapping
@@ -393,7 +393,7 @@ class AsyncBench(Drawings):
 
     async def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = ()) -> str:
         """Return the message that `commit` writes where nobody says why."""
-        from pico.committing import Asked, draft
+        from pico.bench.commits import Asked, draft
 
         return draft(self.folder, await self.observe(), Asked(mode=mode, only=only))
 

@@ -19,8 +19,8 @@ from pico.model.record import record
 from pico.vision.localize import component_pose
 
 if TYPE_CHECKING:
-    from pico.async_bench import AsyncBench
     from pico.backends.sight import Look
+    from pico.bench.async_bench import AsyncBench
     from pico.model.lab import Setup
     from pico.vision.sighting import Stranger
 

@@ -1,5 +1,5 @@
 """A revision as something to publish: state, plan, runs, measurements and pictures, described as an RO-Crate."""
 
-from pico.publishing.publish import Published, publish
+from pico.bench.publishing.publish import Published, publish
 
 __all__ = ["Published", "publish"]

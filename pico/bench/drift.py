@@ -16,7 +16,7 @@ from pico.model.pose import Pose, angle_between
 from pico.model.record import record
 
 if TYPE_CHECKING:
-    from pico.async_bench import AsyncBench
+    from pico.bench.async_bench import AsyncBench
     from pico.model.plan import Plan
     from pico.runs.journal import JournalRecord
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from pico.bench.publishing.parts import File, file
 from pico.history.git.commit import Commit
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.record import canonical
 from pico.model.state import LabState
-from pico.publishing.parts import File, file
 
 if TYPE_CHECKING:
     from pico.drawing.picture import View
@@ -46,7 +46,7 @@ def states(state: LabState, before: LabState, changes: Sequence[Change], parents
 
 def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit) -> File:
     """Return the plan from the state before to the one of a commit, as the planner of today makes it."""
-    from pico.checking.trial import plan_from, world_of
+    from pico.bench.checking.trial import plan_from, world_of
     from pico.planning.checks.target import no_source
 
     parent = commit.parents[0] if commit.parents else None
@@ -57,8 +57,8 @@ def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit
 
 def pictures_of(setup: Setup, state: LabState) -> Iterator[File]:
     """Yield pictures of the bench as it stands in a state."""
+    from pico.bench.pictures.contents import standing
     from pico.drawing.picture import png, render
-    from pico.pictures import standing
 
     poses = standing(setup, state)
     for view, said in VIEWS.items():

@@ -10,9 +10,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import BinaryIO
 
+from pico.bench.publishing.parts import File
 from pico.diagnostics import PicoError, error
 from pico.disk import writing
-from pico.publishing.parts import File
 from pico.runs.store import CHUNK, Store
 
 

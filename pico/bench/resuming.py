@@ -16,7 +16,7 @@ from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed
 
 if TYPE_CHECKING:
-    from pico.async_bench import AsyncBench
+    from pico.bench.async_bench import AsyncBench
     from pico.model.operation import Outcome
     from pico.runs.journal import Journal, RunRecord
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pico.bisecting.records import Tried
+from pico.bench.bisecting.records import Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.history.bisect.kept import Verdict
 from pico.model.lab import Setup

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
 
+from pico.bench.publishing.parts import File, PublishedRun, file
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import CarriedRun, files_at, runs_added, runs_at
 from pico.model.run import Artifact, RunDocument
-from pico.publishing.parts import File, PublishedRun, file
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import intact, run_folder
 from pico.runs.store import Store, missing

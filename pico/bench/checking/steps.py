@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from pico.checking import questions, trial
-from pico.checking.candidate import Candidate, Origin, bench_changes, start
-from pico.checking.questions import Case
-from pico.checking.verdict import QUESTIONS, Check, LabChecked
+from pico.bench.checking import questions, trial
+from pico.bench.checking.candidate import Candidate, Origin, bench_changes, start
+from pico.bench.checking.questions import Case
+from pico.bench.checking.verdict import QUESTIONS, Check, LabChecked
 from pico.history.lab.folder import between
 from pico.model.plan import Plan
 

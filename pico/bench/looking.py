@@ -9,8 +9,8 @@ from pico.diagnostics import PicoError, error
 from pico.model.request import require_component
 
 if TYPE_CHECKING:
-    from pico.async_bench import AsyncBench
     from pico.backends.sight import Look
+    from pico.bench.async_bench import AsyncBench
     from pico.drawing.picture import Image
 
 

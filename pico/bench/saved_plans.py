@@ -13,7 +13,7 @@ from pico.model.stale import differing, stale
 from pico.model.state import state_from_json
 
 if TYPE_CHECKING:
-    from pico.async_bench import AsyncBench
+    from pico.bench.async_bench import AsyncBench
 
 
 async def require_fresh(bench: AsyncBench, plan: Plan) -> None:

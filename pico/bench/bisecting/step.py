@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from pico.bisecting.judging import impossible, require_known, verdict
-from pico.bisecting.search import Builder
+from pico.bench.bisecting.judging import impossible, require_known, verdict
+from pico.bench.bisecting.search import Builder
 from pico.diagnostics import PicoError
 from pico.history.bisect.kept import HEAD, GitBisect, Verdict
 from pico.history.git import command as git

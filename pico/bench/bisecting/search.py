@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol
 
-from pico.bisecting.configurations import Configurations, Lineage, alike
-from pico.bisecting.judging import decisive, impossible, not_as_called, require_known, verdict
-from pico.bisecting.records import End, Outcome, Proposal, Task, Tried
+from pico.bench.bisecting.configurations import Configurations, Lineage, alike
+from pico.bench.bisecting.judging import decisive, impossible, not_as_called, require_known, verdict
+from pico.bench.bisecting.records import End, Outcome, Proposal, Task, Tried
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.history.bisect.choice import Choice
 from pico.history.bisect.kept import Ends, GitBisect, Verdict

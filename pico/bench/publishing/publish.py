@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from pico.bench.publishing import crate
+from pico.bench.publishing.gather import gather
+from pico.bench.publishing.parts import File, Revision, file
+from pico.bench.publishing.write import write
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.lab.folder import LabFolder
 from pico.model.record import record
-from pico.publishing import crate
-from pico.publishing.gather import gather
-from pico.publishing.parts import File, Revision, file
-from pico.publishing.write import write
 from pico.runs.store import Store
 
 

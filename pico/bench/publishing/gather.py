@@ -7,15 +7,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from pico.bench.publishing.computed import pictures_of, plan_between, states, types
+from pico.bench.publishing.parts import File, Revision, file
+from pico.bench.publishing.run_files import chosen_runs, published_runs
 from pico.diagnostics import PicoError
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import CarriedRun
 from pico.model.lab import Setup
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, home_state
-from pico.publishing.computed import pictures_of, plan_between, states, types
-from pico.publishing.parts import File, Revision, file
-from pico.publishing.run_files import chosen_runs, published_runs
 from pico.runs.store import Store
 
 _BESIDE = re.compile(r"(?:README|LICEN[SC]E|COPYING|CITATION)(?:\.[a-z]+)?|calibration\.json|notes/[^/]+\.md")

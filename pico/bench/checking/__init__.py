@@ -1,6 +1,6 @@
 """`pico check`: what a change does to a lab, asked before anybody takes it over. The bench itself is not touched."""
 
-from pico.checking.labs import check
-from pico.checking.verdict import Check, Checked, LabChecked
+from pico.bench.checking.labs import check
+from pico.bench.checking.verdict import Check, Checked, LabChecked
 
 __all__ = ["Check", "Checked", "LabChecked", "check"]

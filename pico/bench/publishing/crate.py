@@ -12,8 +12,8 @@ from datetime import datetime
 from typing import Any
 from urllib.parse import quote
 
+from pico.bench.publishing.parts import File, PublishedRun, Revision
 from pico.model.run import RunDocument
-from pico.publishing.parts import File, PublishedRun, Revision
 
 NAME = "ro-crate-metadata.json"
 SPECIFICATION, PROFILE = "https://w3id.org/ro/crate/1.1", "https://w3id.org/ro/wfrun/process/0.5"

@@ -1,6 +1,6 @@
 """Pictures of a bench and lengths on it: of what stands there, of a state, of a plan.
 
-The bench itself says what it sees and plans; see `pico.async_bench`.
+The bench itself says what it sees and plans; see `pico.bench.async_bench`.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ class Drawings(Reader, ABC):
         manifest, drawn dashed and numbered, with a list below; where it is impossible, what is in whose way, in red.
         `size`: width and height [pixels], without that list. `out`: write it there, too, as PNG. Raises PicoError.
         """
+        from pico.bench.pictures.contents import goals, marks, standing, steps
         from pico.drawing.picture import render, write_png
-        from pico.pictures import goals, marks, standing, steps
 
         if plan is True:
             plan = await self._planned(revision)
@@ -79,8 +79,8 @@ class Drawings(Reader, ABC):
     async def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:
         """Return a drawing of the bench from above as SVG at true scale, with its parts list: as it is, or as a
         revision or the manifest wants it; raises PicoError."""
+        from pico.bench.pictures.contents import standing
         from pico.drawing.sheet import sheet
-        from pico.pictures import standing
 
         poses, _ = await self._live()
         title = self.head_name()
@@ -92,8 +92,8 @@ class Drawings(Reader, ABC):
     def render_diff(self, a: str | None = None, b: str | None = None, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of how state `a` (HEAD) becomes `b` (the manifest), numbered
         in the order of `diff`; raises PicoError."""
+        from pico.bench.pictures.contents import differences, standing
         from pico.drawing.picture import render, write_png
-        from pico.pictures import differences, standing
 
         before, after = self.state_at(a or "HEAD"), self.state_at(b) if b else self.state
         found = differences(self.setup, before, after, self.diff(a, b))
@@ -137,7 +137,7 @@ class Drawings(Reader, ABC):
 
     async def _live(self) -> tuple[dict[str, Place], dict[str, Joints]]:
         """Return where components are, and the joints of each robot."""
-        from pico.pictures import places
+        from pico.bench.pictures.contents import places
 
         seen = await self.observe()
         found = places(self.setup, seen, self._in_space())

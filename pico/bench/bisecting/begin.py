@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pico.bisecting.records import Task, Tried
-from pico.bisecting.search import Bisection, Builder
+from pico.bench.bisecting.records import Task, Tried
+from pico.bench.bisecting.search import Bisection, Builder
 from pico.diagnostics import PicoError, error
 from pico.history.bisect.kept import GitBisect, require_order
 from pico.model.record import as_json

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from pico.backends.sim.world import World
-from pico.checking import trial
-from pico.checking.candidate import Candidate
-from pico.checking.verdict import Check, Verdict
+from pico.bench.checking import trial
+from pico.bench.checking.candidate import Candidate
+from pico.bench.checking.verdict import Check, Verdict
 from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
 from pico.history.merge.checked import overlapping
 from pico.manifest.text.places import find, where

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from pico.bisecting.costs import Leaves, PlanSeconds, leaves
+from pico.bench.bisecting.costs import Leaves, PlanSeconds, leaves
 from pico.diagnostics import PicoError
 from pico.history.bisect.choice import Choice, Suspects, choices, halfway
 from pico.history.lab.folder import LabFolder
