@@ -10,7 +10,7 @@ from kept import differs
 from test_together import some_work
 
 HERE = Path(__file__).resolve().parent
-sys.path += [str(HERE / "feedback"), str(HERE / "sequencing")]
+sys.path.append(str(HERE.parent / "staging"))
 
 from feedback_cases import random_digraph, random_problem  # noqa: E402
 from sequencing_cases import instance  # noqa: E402

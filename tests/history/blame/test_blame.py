@@ -150,7 +150,7 @@ def test_the_short_way_through_a_manifest_says_what_the_parser_says_or_nothing(l
 
 
 def test_the_short_way_is_taken_by_manifests_as_they_are_written() -> None:
-    data = (Path(__file__).resolve().parents[2] / "labs" / "shel" / "state" / "table.yaml").read_bytes()
+    data = (Path(__file__).resolve().parents[3] / "labs" / "shel" / "state" / "table.yaml").read_bytes()
     assert read_lines(data) == parsed(data).state
 
 

@@ -17,7 +17,7 @@ from pico.model.record import as_json
 from pico.motion.arms import ArmMotion
 from pico.motion.types import MovePath
 
-LABS = Path(__file__).resolve().parent.parent.parent / "labs"
+LABS = Path(__file__).resolve().parent.parent / "labs"
 
 
 def bench(name: str = "shel") -> Setup:
