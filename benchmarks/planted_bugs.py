@@ -29,7 +29,7 @@ class Bug:
     wrong: str
 
 
-JOURNAL, ATTEMPT, RECOVERY = "journal.py", "backends/attempt.py", "backends/recovery.py"
+JOURNAL, ATTEMPT, RECOVERY = "runs/journal.py", "backends/attempt.py", "backends/recovery.py"
 EXECUTOR, GRAPH, RESUME = "execution/executor.py", "execution/graph.py", "execution/resume.py"
 
 BUGS = (

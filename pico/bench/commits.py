@@ -14,6 +14,7 @@ from typing import Literal
 from pico.diagnostics import PicoError, error
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
+from pico.history.lab.contents import commit as committed
 from pico.history.lab.folder import LabFolder
 from pico.history.messages.default import default_message
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
@@ -71,7 +72,7 @@ def commit(folder: LabFolder, seen: Observation, asked: Asked, *, observed: str)
         if message is None:
             message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
         counts = _evidence(folder, seen, content.state, changes, runs, observed)
-        return folder.commit(message, captured.changes, counts, runs=runs, meta=asked.meta, named=named)
+        return committed(folder, message, captured.changes, counts, runs=runs, meta=asked.meta, named=named)
 
 
 def draft(folder: LabFolder, seen: Observation, asked: Asked) -> str:

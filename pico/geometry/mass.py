@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from pico.model.catalog import Body, Footprint, Geometry
+from pico.model.body import Body
+from pico.model.catalog import Footprint, Geometry
 
 BASE_SHARE = 0.6
 """Share of a component's mass that lies in what touches the table: magnetic bases are steel, the rest aluminum."""

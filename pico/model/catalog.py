@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Literal
 
-from pico.model.fixture import grooved
+from pico.model.body import Body, grooved
 from pico.model.quantities import Angle, Length, Mass, Milliseconds, Value
 from pico.model.record import record
 
@@ -163,27 +163,6 @@ class Grasp:
     width: Length
     yaws: tuple[Angle, ...] = (0.0, 90.0)
     fixture: Literal["flat", "v_groove"] = "flat"
-
-
-@record
-class Body:
-    """One shape of the housing, for the twin and for pictures, in the component's frame [mm]: z = 0 is the table.
-
-    `size`: full edge lengths of a `box` along x, y, z; diameter and length of a `cylinder`. `at`: its centre.
-    `axis`: what a cylinder's length runs along.
-    """
-
-    name: str
-    shape: Literal["box", "cylinder"]
-    size: tuple[Length, ...]
-    at: tuple[Length, Length, Length]
-    axis: Literal["x", "y", "z"] = "z"
-    yaw: Angle = 0.0
-    color: tuple[float, float, float, float] = (0.25, 0.26, 0.28, 1.0)
-
-    def __post_init__(self) -> None:
-        if len(self.size) != (3 if self.shape == "box" else 2):
-            raise ValueError("`size` is [x, y, z] of a box, [diameter, length] of a cylinder")
 
 
 @record

@@ -15,7 +15,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from pico.model.catalog import Body, Geometry
+from pico.model.body import Body
+from pico.model.catalog import Geometry
 from pico.motion.shapes import Shape
 
 Array = Any

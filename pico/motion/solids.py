@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from pico.model.catalog import Body, Geometry
+from pico.model.body import Body
+from pico.model.catalog import Geometry
 
 if TYPE_CHECKING:
     import mujoco

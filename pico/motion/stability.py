@@ -6,7 +6,8 @@ import math
 
 from pico.geometry import Shape, disc, placed, polygon, separation
 from pico.geometry.mass import bodies_of, center_of_mass, touches
-from pico.model.catalog import Body, Geometry
+from pico.model.body import Body
+from pico.model.catalog import Geometry
 from pico.model.pose import Pose
 from pico.motion.types import Blocked
 

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pico.geometry.mass import bodies_of, masses
-from pico.model.catalog import Body, Geometry
+from pico.model.body import Body
+from pico.model.catalog import Geometry
 from pico.model.lab import Setup
 from pico.motion.engine import require_mujoco
 from pico.twin.placement import Placement

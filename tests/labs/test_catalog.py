@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from pico.manifest.catalog import catalog_names, load_catalog
-from pico.model.catalog import Body, ComponentType
+from pico.model.body import Body
+from pico.model.catalog import ComponentType
 from pico.model.lab import Fingers
 from pico.model.quantities import dimension
 

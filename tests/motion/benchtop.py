@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from pico.model.catalog import Body, ComponentType, Footprint, Geometry, Grasp
+from pico.model.body import Body
+from pico.model.catalog import ComponentType, Footprint, Geometry, Grasp
 from pico.model.lab import KeepOut, Lab, Mount, Part, Robot, Setup, Slot, Table
 from pico.model.pose import Pose
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm

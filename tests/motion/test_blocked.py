@@ -8,7 +8,8 @@ import pytest
 from benchtop import ARM, DISC, PART, bench, moved, refused, stands
 
 from pico.geometry.mass import center_of_mass
-from pico.model.catalog import Body, Footprint, Geometry, Grasp
+from pico.model.body import Body
+from pico.model.catalog import Footprint, Geometry, Grasp
 from pico.model.lab import Box2, KeepOut, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion

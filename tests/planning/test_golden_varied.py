@@ -11,7 +11,8 @@ from planning_benches import TALL, TYPES, Places, bench, part, planned, see, wan
 from random_labs import random_case
 from test_golden import told
 
-from pico.model.catalog import Body, Footprint
+from pico.model.body import Body
+from pico.model.catalog import Footprint
 from pico.model.lab import Box2, KeepOut, Margins, Mount, Region, Robot, Setup, Slot, Table
 from pico.model.observation import ObservedRobot, UnknownObject
 from pico.model.plan import Plan

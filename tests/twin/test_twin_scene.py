@@ -9,7 +9,8 @@ import pytest
 from physical import bench
 
 from pico.geometry.mass import bodies_of, masses
-from pico.model.catalog import Body, Footprint, Geometry
+from pico.model.body import Body
+from pico.model.catalog import Footprint, Geometry
 from pico.model.lab import Mount, Robot, Setup
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of

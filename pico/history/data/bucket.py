@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.data.needs import Needs
-from pico.history.data.places import Heard, pieces
+from pico.history.data.pieces import Heard, pieces
 from pico.runs.store import Store
 
 

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import BinaryIO, Protocol
+from typing import Protocol
 
 from pico.diagnostics import PicoError, error
 from pico.disk import beside, replace_whole, writing
 from pico.history.data.needs import Needs
+from pico.history.data.pieces import Heard, pieces
 from pico.history.git import command as git
 from pico.history.repository.repository import Repository
-from pico.runs.store import CHUNK, Store
+from pico.runs.store import Store
 
 SETTING = "pico.data.remote"
 """What `git config` calls the place; local, for a repository must not say where somebody's data goes."""
 
 LFS = "lfs"
 """The place where git-lfs keeps what it fetched, and what it will push."""
-
-Heard = Callable[[int], None]
-"""Is told how many more bytes are through."""
 
 
 class Place(Protocol):
@@ -119,10 +116,3 @@ class LfsObjects:
 def _copy(sha256: str, source: Store, target: Store, heard: Heard) -> None:
     with source.open(sha256) as file:
         target.put(pieces(file, heard), expected=sha256)
-
-
-def pieces(file: BinaryIO, heard: Heard) -> Iterator[bytes]:
-    """Yield what is in a file, and tell how many bytes were taken."""
-    while piece := file.read(CHUNK):
-        yield piece
-        heard(len(piece))

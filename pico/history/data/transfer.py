@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.data.needs import Need, Needs
-from pico.history.data.places import Heard, Place
+from pico.history.data.pieces import Heard
+from pico.history.data.places import Place
 from pico.model.record import record
 from pico.runs.store import Store
 

@@ -5,19 +5,27 @@ from __future__ import annotations
 import contextlib
 import posixpath
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any, Protocol
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git.trees import Odd, entries, manifests, subtree
 from pico.manifest.behind import behind, lost
 from pico.manifest.which import MAX_BYTES, about, alike, declared, hidden, is_manifest, linked, misnamed, unseen
 
-if TYPE_CHECKING:
-    from pico.history.repository.repository import Repository
+
+class Roots(Protocol):
+    """The top of a working tree, and git's folder that all worktrees share."""
+
+    @property
+    def root(self) -> Path: ...
+
+    @property
+    def common(self) -> Path: ...
 
 
 def read_tree(
-    repository: Repository, top: Any, lab: str, name: str, diagnostics: list[Diagnostic] | None = None
+    repository: Roots, top: Any, lab: str, name: str, diagnostics: list[Diagnostic] | None = None
 ) -> dict[str, bytes]:
     """Return the manifests of the folder `lab` in the whole tree `top` of a commit, by path in that folder.
 
@@ -52,7 +60,7 @@ def content_of(entry: Any) -> bytes | None:
         return None
 
 
-def unread_at(repository: Repository, top: Any, lab: str, odd: Iterable[Odd], name: str) -> list[Diagnostic]:
+def unread_at(repository: Roots, top: Any, lab: str, odd: Iterable[Odd], name: str) -> list[Diagnostic]:
     """Return what to say of the `odd` entries of the folder `lab` of a commit, whose whole tree is `top`.
 
     `name`: what diagnostics call the commit.
@@ -65,7 +73,7 @@ def unread_at(repository: Repository, top: Any, lab: str, odd: Iterable[Odd], na
 class _Tree:
     """The tree of a commit, in which a lab is one of the folders."""
 
-    def __init__(self, repository: Repository, top: Any, lab: str) -> None:
+    def __init__(self, repository: Roots, top: Any, lab: str) -> None:
         self.repository, self.top, self.lab = repository, top, lab
 
     def said(self, path: str, entry: Any, shown: str) -> Diagnostic | None:
@@ -112,7 +120,7 @@ def _ours(tree: Any) -> Iterable[Odd]:
     return ((p, e) for p, e in listed if e.type_str == "blob" and alike(p) and not hidden(p) and declared(e.data))
 
 
-def submodule(repository: Repository, path: str, commit: str, shown: str) -> Diagnostic | None:
+def submodule(repository: Roots, path: str, commit: str, shown: str) -> Diagnostic | None:
     """Return what to say of the submodule at `path` (from the top) whose content at a commit is not among the files."""
     hint = f"`git submodule update --init {path}`, or `git rm {path}` if it is not wanted"
     tree = _tree_of(repository, path, commit)
@@ -123,7 +131,7 @@ def submodule(repository: Repository, path: str, commit: str, shown: str) -> Dia
     return about(shown, "submodule", text, hint) if holds else None
 
 
-def _tree_of(repository: Repository, path: str, commit: str) -> Any:
+def _tree_of(repository: Roots, path: str, commit: str) -> Any:
     """Return the tree of a commit of a submodule, None where this clone has none."""
     import pygit2
 

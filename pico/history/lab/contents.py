@@ -1,22 +1,24 @@
-"""What a commit takes: the manifests and notes that differ from HEAD, all or those that hold some components."""
+"""A commit of a lab, and what it takes: manifests and notes that differ from HEAD, all or those of some components."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from types import MappingProxyType
 
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.history.lab.folder import LabFolder
 from pico.history.lab.notes import is_note, note_path
+from pico.history.lab.run_files import run_trailers, write_once
+from pico.history.messages.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
+from pico.history.writing.underway import require_resolved
 from pico.manifest.edit import components_of
 from pico.manifest.load import load_files
 from pico.manifest.which import is_manifest
 from pico.model.address import Named
+from pico.model.diff import Change
 from pico.model.record import record
+from pico.model.report import Committed
 from pico.model.state import LabState
-
-if TYPE_CHECKING:
-    from pico.history.lab.folder import LabFolder
-
 
 _BESIDE = (".gitattributes", ".gitignore")
 """What `pico init` writes beside the manifests: the first commit of a lab takes it along, so that clones have it."""
@@ -64,6 +66,52 @@ def contents(folder: LabFolder, named: Named | None = None) -> Contents:
     whole = {f"the commit:{path}": data for path, data in files.items()}
     state = load_files(whole, unread, setup=folder.setup).require()[1]
     return Contents(paths=tuple(holding), state=state, components=frozenset(held))
+
+
+def commit(
+    folder: LabFolder,
+    message: str,
+    captured: tuple[Change, ...],
+    evidence: str,
+    *,
+    runs: Mapping[str, bytes] = MappingProxyType({}),
+    meta: Mapping[str, str] = MappingProxyType({}),
+    named: Named | None = None,
+) -> Committed:
+    """Commit the manifests as they are, with notes and the files of runs, and return the commit; raises PicoError.
+
+    `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
+    `meta`: what `--meta key=value` gave. `named`: only files that hold these components. Trailers say the digest of
+    the state and of the lab, the `evidence`, the runs with their plans, and `meta`; they go into the block of
+    trailers that `message` has. Where a merge is under way, this ends it.
+    """
+    require_meta(meta)
+    repository = folder.history()
+    with folder.writing("pico commit"):
+        ending = require_resolved(repository.root, repository.own)
+        content = contents(folder, None if ending else named)
+        if not content.paths and not runs and not ending:
+            raise PicoError([*repository.noticed, nothing(named)])
+        written = [write_once(folder.root, path, data) for path, data in sorted(runs.items())]
+        digest, lab = content.state.digest(), folder.setup.lab
+        added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {folder.setup.digest()}")]
+        added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
+        text = with_trailers(message, added)
+        before = repository.head().commit
+        made = repository.commit(content.paths, text, ignored=written, whole=bool(ending))
+    return Committed(
+        commit=made.id,
+        message=message.strip(),
+        branch=repository.head().branch,
+        state=digest,
+        changes=folder.since(before, (folder.setup, content.state)),
+        captured=captured,
+        realized=evidence != "planned",
+        evidence=evidence,
+        runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
+        meta=meta,
+        diagnostics=repository.noticed,
+    )
 
 
 def nothing(named: Named | None) -> Diagnostic:

@@ -10,22 +10,17 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from pico.attachment import own_folder
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
-from pico.history.lab.contents import contents, nothing
 from pico.history.lab.files import write_file
 from pico.history.lab.notes import Note, note_path, notes, read_note, require_part, with_note
-from pico.history.lab.run_files import run_trailers, write_once
 from pico.history.lab.withheld import withheld
-from pico.history.messages.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
-from pico.history.writing.underway import require_resolved
 from pico.manifest.edit import capture
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files
@@ -34,7 +29,7 @@ from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
 from pico.model.proof import Standing
 from pico.model.record import record
-from pico.model.report import Captured, Committed
+from pico.model.report import Captured
 from pico.model.run import RunDocument
 from pico.model.state import LabState, home_state
 
@@ -230,9 +225,9 @@ class LabFolder:
             after = self.historic(commit.id)
         except PicoError as exc:
             return Entry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
-        return Entry(commit=commit, changes=self._since(commit.parents[0] if commit.parents else None, after))
+        return Entry(commit=commit, changes=self.since(commit.parents[0] if commit.parents else None, after))
 
-    def _since(self, commit: str | None, after: tuple[Setup, LabState]) -> tuple[Change, ...]:
+    def since(self, commit: str | None, after: tuple[Setup, LabState]) -> tuple[Change, ...]:
         """Return what changed on the table since a commit; since every part was at home, where there is none."""
         try:
             before = self.historic(commit) if commit else None
@@ -312,51 +307,6 @@ class LabFolder:
             before = read_note(self.root, part)
             write_file(path, with_note(before, day, author, text), self.root / ".pico")
         return self.notes(part)[-1]
-
-    def commit(
-        self,
-        message: str,
-        captured: tuple[Change, ...],
-        evidence: str,
-        *,
-        runs: Mapping[str, bytes] = MappingProxyType({}),
-        meta: Mapping[str, str] = MappingProxyType({}),
-        named: Named | None = None,
-    ) -> Committed:
-        """Commit the manifests as they are, with notes and the files of runs, and return the commit; raises PicoError.
-
-        `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
-        `meta`: what `--meta key=value` gave. `named`: only files that hold these components. Trailers say the digest of
-        the state and of the lab, the `evidence`, the runs with their plans, and `meta`; they go into the block of
-        trailers that `message` has. Where a merge is under way, this ends it.
-        """
-        require_meta(meta)
-        repository = self.history()
-        with self.writing("pico commit"):
-            ending = require_resolved(repository.root, repository.own)
-            content = contents(self, None if ending else named)
-            if not content.paths and not runs and not ending:
-                raise PicoError([*repository.noticed, nothing(named)])
-            written = [write_once(self.root, path, data) for path, data in sorted(runs.items())]
-            digest, lab = content.state.digest(), self.setup.lab
-            added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {self.setup.digest()}")]
-            added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
-            text = with_trailers(message, added)
-            before = repository.head().commit
-            made = repository.commit(content.paths, text, ignored=written, whole=bool(ending))
-        return Committed(
-            commit=made.id,
-            message=message.strip(),
-            branch=repository.head().branch,
-            state=digest,
-            changes=self._since(before, (self.setup, content.state)),
-            captured=captured,
-            realized=evidence != "planned",
-            evidence=evidence,
-            runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
-            meta=meta,
-            diagnostics=repository.noticed,
-        )
 
 
 def _bench_of(files: Mapping[str, bytes]) -> tuple[tuple[str, bytes], ...]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,7 +24,7 @@ except OSError:
     sys.exit()
 fcntl.flock(claim, fcntl.LOCK_EX)
 if os.fstat(claim).st_nlink:
-    os.execv(sys.executable, [sys.executable, "-P", "-m", "pico.history.writing.guard", sys.argv[2]])
+    os.execv(sys.executable, [sys.executable, "-P", "-m", "pico.history.repository.clear_up", sys.argv[2]])
 """
 
 
@@ -44,18 +44,3 @@ def guarded(claim: Path, root: Path) -> Iterator[None]:
         if not claim.exists():
             guard.kill()
             guard.wait()
-
-
-def main() -> None:
-    """Clear up in the working tree that the command line names."""
-    from pico.diagnostics import PicoError
-    from pico.history.repository.repository import Repository
-
-    with suppress(PicoError):
-        repository = Repository.discover(Path(sys.argv[1]))
-        if repository is not None:
-            repository.leave_word()
-
-
-if __name__ == "__main__":
-    main()

@@ -9,7 +9,8 @@ from pico.diagnostics import Diagnostic, error
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
-from pico.model.catalog import Body, ComponentType, Footprint, Tunable
+from pico.model.body import Body
+from pico.model.catalog import ComponentType, Footprint, Tunable
 from pico.model.setpoint import refusal
 
 OBSERVATION_POSITION = 0.02

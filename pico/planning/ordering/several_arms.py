@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from pico.geometry import disc, polygon, separation
 from pico.motion.zones import ARM_RADIUS, HAND, Zone, shared_zones
 from pico.planning.ordering.arm_times import Work, soonest, timed
+from pico.planning.ordering.clock import Clock
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.order import precedence
 from pico.planning.ordering.search import Step
-
-if TYPE_CHECKING:
-    from pico.planning.ordering.travel import Clock
 
 PASSES = 2
 """How often each move that two arms can make is given to the other, to see whether all is then done sooner."""

@@ -1,15 +1,38 @@
-"""A grip with V-grooves: the pads slide along their flanks until the part is in the middle of the hand. Millimetres."""
+"""Shapes of a housing, and a grip with V-grooves: the pads slide along their flanks until the part is in the middle.
+
+Millimetres."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Literal
 
-if TYPE_CHECKING:
-    from pico.model.catalog import Body
+from pico.model.quantities import Angle, Length
+from pico.model.record import record
 
 BREADTH = 22.0
 """Breadth of the fingers that the grooves are cut for [mm]: the default of `Fingers`."""
+
+
+@record
+class Body:
+    """One shape of the housing, for the twin and for pictures, in the component's frame [mm]: z = 0 is the table.
+
+    `size`: full edge lengths of a `box` along x, y, z; diameter and length of a `cylinder`. `at`: its centre.
+    `axis`: what a cylinder's length runs along.
+    """
+
+    name: str
+    shape: Literal["box", "cylinder"]
+    size: tuple[Length, ...]
+    at: tuple[Length, Length, Length]
+    axis: Literal["x", "y", "z"] = "z"
+    yaw: Angle = 0.0
+    color: tuple[float, float, float, float] = (0.25, 0.26, 0.28, 1.0)
+
+    def __post_init__(self) -> None:
+        if len(self.size) != (3 if self.shape == "box" else 2):
+            raise ValueError("`size` is [x, y, z] of a box, [diameter, length] of a cylinder")
 
 
 def grooved(grip: Body, width: float) -> tuple[Body, ...]:
