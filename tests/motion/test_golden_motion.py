@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
@@ -17,18 +18,21 @@ sys.path.append(str(Path(__file__).resolve().parent.parent))
 
 from kept import differs
 
-from pico.model.catalog import Grasp
+from pico.model.catalog import Footprint, Grasp
 from pico.model.lab import Box2, Gripper, KeepOut, Margins, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arm import build_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.hulls import of_geometry, of_shapes
 from pico.motion.kinematics import ik
+from pico.motion.recheck import Recheck, Task
+from pico.motion.scene import Scene
 from pico.motion.shapes import LINKS, finger
-from pico.motion.types import Blocked, MovePath, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
 from pico.motion.zones import enters, outermost, shared_zones, within
 
 START, GOAL = Pose(290, 300, 10), Pose(620, 420, 40)
+LONG = replace(PART, height=260.0, bodies=(), footprint=Footprint(box=(40, 240)))
 FAR = Robot(mount=Mount(x=480, y=40, yaw=90))
 GANTRY = Robot(model="gantry", mount=Mount(x=0, y=0), speed=1.0)
 CUP = replace(ARM, gripper=Gripper(fingers="none"))
@@ -194,6 +198,59 @@ def test_arms_and_parts_have_the_shapes_that_they_had() -> None:
         numbers = (*hull.half, *hull.center, *np.ravel(hull.turn), hull.radius, *np.ravel(hull.corners))
         lines.append(f"  {hull.part} {hull.kind} " + " ".join(f"{float(v) + 0.0:.5f}" for v in numbers))
     assert not differs("motion_shapes.txt", "\n".join(lines) + "\n")
+
+
+def configurations() -> Iterator[tuple[str, Scene, Joints]]:
+    """Arms as they stand in the way of themselves, of what they hold, of one another and of the table."""
+    rng = random.Random(8)
+    both = bench(
+        robots={"arm1": ARM, "arm2": FAR},
+        keep_out={"lamp": KeepOut(area=Box2(x=(600, 640), y=(300, 500)), z=(100, 300))},
+    )
+    cup = bench(robots={"arm1": CUP, "arm2": FAR})
+    standing = around(("part", 400, 350), ("tall", 560, 420), ("triangle", 480, 250))
+    for title, setup in (("fingers", both), ("cup", cup)):
+        scene = Scene(setup, "arm1", {PART: 2, TALL: 1, TRIANGLE: 1, LONG: 1})
+        for held in (None, PART, LONG):
+            scene.arrange(standing)
+            scene.hold(held, 30.0)
+            for n in range(12):
+                scene.ignored = frozenset({"part0"} if n % 3 == 0 else ())
+                scene.open(20.0 * (n % 4))
+                scene.place_robots({"arm2": ik(FAR, 420 + 20 * n, 320, 200, 0)[0]})
+                if n % 2:
+                    folded = (
+                        rng.uniform(-1, 1),
+                        rng.uniform(0.2, 1.8),
+                        0.0,
+                        rng.uniform(2.2, 3.6),
+                        0.0,
+                        rng.uniform(1, 3),
+                        0.0,
+                    )
+                    yield f"{title}, {held and held.height}, {n}, folded", scene, folded
+                else:
+                    over = ik(
+                        ARM, rng.uniform(380, 640), rng.uniform(250, 450), rng.uniform(90, 260), rng.uniform(-90, 90)
+                    )
+                    yield f"{title}, {held and held.height}, {n}", scene, over[0]
+
+
+def test_what_is_too_near_is_what_was_too_near() -> None:
+    lines = []
+    for name, scene, joints in configurations():
+        slack, hit = scene.look(joints)
+        said = f"{hit.part} {hit.obstacle} {hit.kind} {hit.gap:.2f} {hit.missing:.2f}" if hit else "free"
+        lines.append(f"{name}: {slack:.2f} {said}")
+        recheck = Recheck(scene.setup, "arm1")
+        path = MovePath("arm1", None, (Segment("retreat", (0.0, 0.0), (joints, joints), 40.0),))
+        again = recheck.check(
+            path, Task(), {"t": Standing(Pose(560, 420), TALL)}, {"arm2": ik(FAR, 500, 320, 200, 0)[0]}
+        )
+        lines.append(
+            "  " + (f"{again.obstacle} {again.by:.2f}: {again.text}" if again and again.by is not None else "free")
+        )
+    assert not differs("motion_near.txt", "\n".join(lines) + "\n")
 
 
 def test_margins_are_kept_to_a_hundredth_of_a_millimetre() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pico.manifest.load import load_folder
 from pico.model.catalog import Grasp
-from pico.model.lab import Box2, KeepOut, Mount, Robot, Slot
+from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot, Slot
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
 from pico.motion.arms import ArmMotion
@@ -58,6 +58,9 @@ def test_a_part_must_not_stand_in_a_keep_out_zone_at_its_height():
 def test_a_part_must_fit_between_the_jaws():
     blocked = refused(MOTION.reach("arm1", "wide", Pose(520, 420), 0))
     assert (blocked.kind, blocked.by) == ("width", pytest.approx(16))
+    for stroke, fits in ((100.0, True), (99.0, False)):
+        setup = bench(robots={"arm1": replace(bench().lab.robots["arm1"], gripper=Gripper(stroke=stroke))})
+        assert (ArmMotion(setup).reach("arm1", "wide", Pose(520, 420), 0) is None) == fits
     assert "80 mm wide" in blocked.text and "opens 84 mm" in blocked.text
 
 

@@ -80,6 +80,10 @@ def refusals() -> Iterator[tuple[str, Plan]]:
     yield "between two walls", made(wide, ({**there[0], **walls}, {**there[1], **walls}))
     yield "into a slot that is taken", made(bench({"a": "block", "b": part(seating="bolted")}), (
         {"a": (300, 300), "b": (90, 60)}, {"a": "s1", "b": (90, 60)}))  # fmt: skip
+    for at, x, y in (("left", 470, 310), ("right", 530, 310), ("below", 490, 270), ("above", 490, 330)):
+        beside: Places = {"b": (500, 300)}
+        full = bench({"a": "block", "b": part(seating="bolted")})
+        yield f"{at} of another", made(full, ({"a": (200, 300), **beside}, {"a": (x, y), **beside}))
     yield "over the edge", made(bench({"a": "block"}), ({"a": (300, 300)}, {"a": (790, 480)}))
     holding = {"arm1": ObservedRobot(joints=(), holding="b")}
     full = bench({"a": "block", "b": "block"})

@@ -47,3 +47,9 @@ def test_markers_are_found_where_they_were_found() -> None:
 def test_sheets_are_printed_as_they_were() -> None:
     printed = marker_sheets(BENCH, "a4").decode("latin-1")
     assert not differs("sheets_a4.txt", printed)
+
+
+def test_many_markers_are_laid_out_as_they_were() -> None:
+    printed = marker_sheets(setup(40), "letter").decode("latin-1").splitlines()
+    lines = [line for line in printed if not line.endswith(" f")]  # without the squares
+    assert not differs("sheets_many.txt", "\n".join(lines) + "\n")
