@@ -40,8 +40,9 @@ OPERATORS: dict[type[ast.operator], tuple[str, str]] = {
 }
 SAYS = {"error", "warning", "note", "info", "Diagnostic", "PicoError", "print"}
 """Calls whose arguments are words for people."""
-TOLD = {"message", "hint", "help", "text", "why", "maxsize"}
+TOLD = {"message", "hint", "help", "text", "why", "maxsize", "strict"}
 """Keywords whose values are words for people, or matter to nobody's behaviour."""
+_ROUNDING = 1e-5  # numbers below only cover what doubles round
 UNSEEN = ("annotation", "returns", "decorator_list", "type_params")
 SYMMETRIC = {"min", "max", "hypot", "isclose", "gcd", "dist"}
 """Calls whose arguments may change places."""
@@ -243,8 +244,8 @@ def _other(value: object) -> str | None:
         case bool():
             return str(not value)
         case int():
-            return str(value + 1)
-        case float():
+            return str(value + 1 if abs(value) < 100 else value * 2)
+        case float() if not 0 < abs(value) < _ROUNDING:
             return repr(value * 2 if value else 1.0)
     return None
 

@@ -44,7 +44,8 @@ def shown(answer: MovePath | Blocked | None) -> Iterator[str]:
         for leg in answer.segments:
             at = (0, len(leg.joints) // 3, -1)
             ways = " -> ".join(", ".join(f"{math.degrees(q) + 0.0:.2f}" for q in leg.joints[i]) for i in at)
-            yield f"  {leg.name} {leg.seconds:.3f} s, {len(leg.times)} points, open {leg.opening:g}: {ways}"
+            times = f"{leg.times[0]:g} to {leg.seconds:.3f} s, {len(leg.times)} points"
+            yield f"  {leg.name} {times}, open {leg.opening:g}: {ways}"
     elif answer is None:
         yield "  nothing to say"
     else:
@@ -74,6 +75,12 @@ def moves() -> Iterator[tuple[str, MovePath | Blocked | None]]:
     for name, z in (("low", (0.0, 60.0)), ("middle", (145.0, 200.0)), ("high", (200.0, 600.0))):
         zone = KeepOut(area=Box2(x=(530, 550), y=(0, 500)), z=z)
         yield f"a {name} zone between", ArmMotion(bench(keep_out={"lamp": zone})).move("arm1", "a", START, GOAL, 0, {})
+    roof = KeepOut(area=Box2(x=(360, 440), y=(260, 340)), z=(330, 400))
+    for zone, where in ((roof, "a roof"), (replace(roof, z=(450, 500)), "a high roof")):
+        under = ArmMotion(bench(keep_out={"roof": zone}))
+        yield f"from under {where}", under.move("arm1", "a", START, GOAL, 0, {}, low)
+        yield f"parked from under {where}", under.park("arm1", low, {})
+        yield f"put down from under {where}", under.set_down("arm1", "a", Pose(400, 300), GOAL, {}, low)
     both = ArmMotion(bench(robots={"arm1": ARM, "arm2": FAR}))
     yield "beside a parked arm", both.move("arm1", "a", START, GOAL, 0, {})
     yield "the arm over there", both.move("arm2", "a", START, GOAL, 0, {})
