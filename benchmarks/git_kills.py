@@ -192,6 +192,20 @@ def lost(root: Path, name: str) -> Iterator[tuple[str, str]]:
             yield "lost", "the edit of the manifest"
 
 
+def preload() -> None:
+    """Load what the commands need, once, before processes are forked."""
+    import pygit2  # noqa: F401
+    from pico_cli import app  # noqa: F401
+
+    import pico.backends.sim.backend
+    import pico.bench
+    import pico.committing
+    import pico.history.stash
+    import pico.planning
+    import pico.planning.target
+    import pico.restoring  # noqa: F401
+
+
 def measure(origin: Path, root: Path, name: str) -> tuple[int, float, set[str]]:
     """Return how many steps a command has, how long it takes [s], and how the table is before and after it."""
     prepare(origin, root, name)
@@ -221,6 +235,7 @@ def draw(kills: int, known: dict[str, tuple[int, float, set[str]]], seed: int) -
 def git_kills(kills: int, seed: int = 0) -> int:
     """Kill Git commands; return how many trials were wrong."""
     os.environ.update(IDENTITY, GIT_CONFIG_GLOBAL=os.devnull, GIT_CONFIG_SYSTEM=os.devnull)
+    preload()
     count, began = Counter[str](), time.monotonic()
     with tempfile.TemporaryDirectory() as temporary:
         origin, root = make_origin(Path(temporary) / "origin"), Path(temporary) / "trial"
