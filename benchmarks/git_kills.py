@@ -162,7 +162,7 @@ def faults(root: Path, kill: Kill, ending: tuple[str, ...], texts: set[str]) -> 
     code, text = git(root, "fsck", "--strict", "--no-dangling")
     if code or "error" in text:
         yield "half", text
-    if [p for p in root.rglob("*.tmp") if ".git" not in p.parts]:
+    if [p for p in root.rglob("*.tmp") if not {".git", ".pico"} & set(p.parts)]:
         yield "half", "a temporary file is left"
 
 
@@ -176,20 +176,24 @@ def half(root: Path, when: str) -> Iterator[tuple[str, str]]:
 
 
 def lost(root: Path, name: str) -> Iterator[tuple[str, str]]:
-    """Yield work that is neither in the files, nor in a commit, nor in the stash."""
-    if not (root / "mine.txt").is_file() or (root / "mine.txt").read_text() != "mine\n":
+    """Yield work that is neither in the files, nor staged, nor in a commit (plain git may have made one), nor in the
+    stash."""
+
+    def kept(word: str, path: str, *places: str) -> bool:
+        file = root / path
+        texts = [file.read_text()] if file.is_file() else []
+        told = [git(root, "show", f"{at}:{path}") for at in places]
+        return any(word in text for text in (*texts, *(text for code, text in told if not code)))
+
+    if not kept("mine", "mine.txt", "ours"):
         yield "lost", "the untracked file"
     if name not in ("merge", "fast-forward"):
-        if "staged" not in "".join(git(root, "show", f"{at}:kept.txt")[1] for at in ("", "HEAD", "ours")):
+        if not any(git(root, "show", f"{at}:kept.txt") == (0, "staged\n") for at in ("", "HEAD", "ours")):
             yield "lost", "what was staged"
-        if "edited" not in (root / "log.txt").read_text() + "".join(
-            git(root, "show", f"{at}:log.txt")[1] for at in ("HEAD", "ours")
-        ):
+        if not kept("edited", "log.txt", "HEAD", "ours"):
             yield "lost", "the edit"
-    if name in EDITING:
-        places = [(root / TABLE).read_text(), *(git(root, "show", f"{at}:{TABLE}")[1] for at in ("HEAD", "stash@{0}"))]
-        if not any("x: 305" in text for text in places):
-            yield "lost", "the edit of the manifest"
+    if name in EDITING and not kept("x: 305", TABLE, "HEAD", "stash@{0}"):
+        yield "lost", "the edit of the manifest"
 
 
 def preload() -> None:
