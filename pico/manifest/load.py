@@ -15,7 +15,7 @@ from pico.manifest.checks.labs import check_lab, check_setup
 from pico.manifest.files import decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
 from pico.manifest.state import read_states
-from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.kinds import headless, kind_of
 from pico.manifest.text.places import find, where, where_key
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map, Scalar, parse
@@ -130,8 +130,10 @@ def load_files(
 
 
 def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None) -> Manifests:
-    documents = _documents(files, found)
+    documents, others = _documents(files, found)
     setup, view = (setup, view_of(setup)) if setup else _bench(documents, found, root)
+    if view:
+        found.extend(wrong for other in others for wrong in headless(other, view.kinds))
     state = None
     if documents["LabState"]:
         state, wrong = read_states(documents["LabState"], view) if view else (None, [])
@@ -143,7 +145,9 @@ def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup:
     return Manifests(setup, state, tuple(sorted(weighed(found, setup, state), key=_order)), kept)
 
 
-def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, list[Document]]:
+def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> tuple[dict[str, list[Document]], list[Document]]:
+    """Return the documents by kind, and those that are meant for others."""
+    others: list[Document] = []
     by_kind: dict[str, list[Document]] = {"Lab": [], "LabState": [], "ComponentType": []}
     sources, wrong = decode_all(files)
     found.extend(wrong)
@@ -158,7 +162,9 @@ def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str,
             found.extend(wrong)
             if kind:
                 by_kind[kind].append(document)
-    return by_kind
+            elif not wrong:
+                others.append(document)
+    return by_kind, others
 
 
 def _bench(

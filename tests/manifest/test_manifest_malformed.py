@@ -106,3 +106,29 @@ def test_links_and_pipes_are_refused_unread(tmp_path: Path) -> None:
     (tmp_path / "folder.yaml").mkdir()
     found = load_folder(tmp_path).diagnostics
     assert [d.code for d in found] == ["symlink", "not-a-file"]
+
+
+HEADLESS = {
+    "the header and `components:` are gone": ("more.yaml", "  p1:\n    pose: {x: 290, y: 420}\n    angle: 20\n"),
+    "parts in a second document": ("state.yaml", f"{STATE}---\n  p1:\n    angle: 90.0\n"),
+    "parts in flow style": ("more.yaml", "{p1: {slot: storage/a1}}\n"),
+    "a header of somebody else's": ("more.yaml", "apiVersion: v1\nkind: Pod\np1: {slot: storage/a1}\n"),
+    "a recipe with components": (
+        "more.yaml", "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: r}\ncomponents: {p1: {slot: storage/a1}}\n"
+    ),
+    "a recipe with parts": ("more.yaml", "apiVersion: pico/v1\nkind: Recipe\np1: {slot: storage/a1}\n"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("path,text", HEADLESS.values(), ids=HEADLESS)
+def test_parts_without_the_header_of_a_state_are_not_passed_over(path: str, text: str) -> None:
+    files = {"lab.yaml": LAB, "state.yaml": STATE, path: text}
+    (said,) = load_files({name: content.encode() for name, content in files.items()}).diagnostics
+    assert (said.severity, said.source and said.source.path) == ("error", path)
+    assert "LabState" in said.hint
+
+
+def test_the_yaml_of_other_programs_may_name_what_a_part_is_called() -> None:
+    other = "p1: a word\nservices: {p1: {image: postgres}}\n"
+    files = {"lab.yaml": LAB, "state.yaml": STATE, "other.yaml": other}
+    assert not load_files({name: content.encode() for name, content in files.items()}).diagnostics

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from typing import Literal
 
 from pico.diagnostics import Diagnostic, did_you_mean, error
@@ -57,6 +58,17 @@ def _foreign(document: Document, root: Map, api: Node | None) -> list[Diagnostic
     return [_at(document.source, api, "api-version", "`apiVersion` is not one of PICO's", f"write `{_HEADER}`")]
 
 
+def headless(document: Document, parts: Container[str]) -> list[Diagnostic]:
+    """Return an error for a document that is not meant for PICO by its header, and is a state by what it holds: keys at
+    its top are `parts` of the inventory."""
+    entries = document.root.entries if isinstance(document.root, Map) else {}
+    held = [at for name, (at, node) in entries.items() if name in parts and isinstance(node, Map)]
+    if not held:
+        return []
+    hint = f"begin it with `{_HEADER}`, `kind: LabState`, `metadata` and `components:`"
+    return [_at(document.source, held[0], "api-version", f"`{held[0].text}` stands outside any LabState", hint)]
+
+
 def _declared(document: Document, root: Map) -> tuple[Kind | None, list[Diagnostic]]:
     node, source = root.get("kind"), document.source
     if node is None:
@@ -64,7 +76,9 @@ def _declared(document: Document, root: Map) -> tuple[Kind | None, list[Diagnost
         return None, [_at(source, root, "kind", "`kind` is missing", hint)]
     text = node.text if isinstance(node, Scalar) else "[...]"
     if text in READ_ELSEWHERE:
-        return None, []
+        parts = root.entries.get("components")
+        hint = "if it is a state, write `kind: LabState`; if not, take `components` out"
+        return None, [_at(source, parts[0], "kind", f"a {text} has no `components`", hint)] if parts else []
     for kind in KINDS:
         if text == kind:
             return kind, _metadata(document, root, kind)
