@@ -243,6 +243,8 @@ def _idle(plan: Plan) -> list[str]:
         ]
     if plan.target.scope:
         return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
+    if plan.target.cause == "single":
+        return ["Nothing to do: it is as asked already."]
     return [f"Nothing to do: the bench equals {goal_name(plan)}."]
 
 

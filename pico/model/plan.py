@@ -39,7 +39,7 @@ class Target:
     `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
     is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
-    `heal`), and `of` which run.
+    `heal`; `single`: for one operation that somebody asked for), and `of` which run.
     """
 
     revision: str | None = None

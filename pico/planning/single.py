@@ -41,7 +41,7 @@ def move_one(
     request = Request(setup, seen, wanted, motion, exact=not isinstance(to, str), alone=True, reason=ASKED)
     plan = compiled_plan(
         request, backend=backend, fidelity=fidelity, base=base or Base(state=live_state(setup, seen).as_json()),
-        target=Target(state=wanted.as_json()),
+        target=Target(state=wanted.as_json(), cause="single"),
     )  # fmt: skip
     return replace(plan, changes=tuple(c for c in plan.changes if c.component == component)).sealed()
 
@@ -92,9 +92,9 @@ def _sealed(
     notes = [*notes, *unguarded(setup, seen, timed)]
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
-        base=base or Base(state=live_state(setup, seen).as_json()), target=Target(state=wanted.as_json()),
-        changes=changes, operations=timed, makespan=makespan(timed),
-        policy=policy_rules(setup, seen, timed), diagnostics=tuple(notes),
+        base=base or Base(state=live_state(setup, seen).as_json()),
+        target=Target(state=wanted.as_json(), cause="single"), changes=changes, operations=timed,
+        makespan=makespan(timed), policy=policy_rules(setup, seen, timed), diagnostics=tuple(notes),
     ).sealed()  # fmt: skip
 
 

@@ -40,6 +40,14 @@ def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) ->
     assert pico("plan", "--detailed-exitcode").code == 0
 
 
+def test_what_is_so_already_is_not_taken_for_the_manifest(shel: Path, pico: Pico) -> None:
+    pico("set", "p1", "angle=5")
+    answer = pico("set", "p1", "angle=5")
+    assert (answer.code, "as asked already" in answer.out) == (0, True)
+    assert "equals" not in answer.out
+    assert pico("plan", "--detailed-exitcode").code == 2
+
+
 def test_a_dry_run_moves_nothing(shel: Path, pico: Pico) -> None:
     assert "storage/b1 → (290, 420, 0°)" in pico("move", "p1", "290", "420", "--dry-run").out
     assert "(110, 220, 0°)" in pico("get", "p1").out
