@@ -137,6 +137,8 @@ def test_it_works_or_refuses_and_nothing_is_lost(shel: Path, pico: Pico, standin
     assert text == after[1] or kept, said
     if (standing, writer) in REFUSED:
         assert answer.code == 1 and "edit" in answer.err
+    if standing == "merged_clean" and writer in ("stash", "merge", "revert", "cherry-pick", "checkout files"):
+        assert answer.code == 1 and "a merge is under way" in answer.err and "pico stash" not in answer.err
 
 
 def saved(shel: Path) -> tuple[str, str, str]:

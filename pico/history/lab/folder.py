@@ -21,6 +21,7 @@ from pico.history.lab.notes import Note, note_path, notes, read_note, require_pa
 from pico.history.lab.withheld import withheld
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
+from pico.history.writing.underway import refuse_begun
 from pico.manifest.edit import capture
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files
@@ -235,8 +236,10 @@ class LabFolder:
             before = None
         return between(before or (after[0], home_state(after[0])), after)
 
-    def refuse_edits(self) -> None:
-        """Raise PicoError where the manifests hold edits that a checkout would lose."""
+    def refuse_edits(self, way: str = "checkout") -> None:
+        """Raise PicoError where git has begun something that ends before a `way` begins, else where the manifests hold
+        edits that it would lose."""
+        refuse_begun(self.history().own, way)
         paths = self.history().changed(self.root)
         if paths:
             raise PicoError(edited(paths))

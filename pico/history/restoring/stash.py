@@ -11,6 +11,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import manifest_tree, opened, unite_trees, with_files
 from pico.history.writing.claim import Goal
+from pico.history.writing.underway import refuse_begun
 from pico.model.diff import Change
 from pico.model.record import record
 
@@ -51,6 +52,7 @@ class Stash:
         `message`: what to call them; without it what they change on the table.
         """
         with self.folder.writing("pico stash"):
+            refuse_begun(self.repository.own, "stash")  # what was merged would go, and the mark that it was would stay
             return self._push(message)
 
     def _push(self, message: str) -> Shelf | None:
@@ -72,6 +74,7 @@ class Stash:
         """
         shelf = self._find(name)
         with self.folder.writing("pico stash pop"):
+            refuse_begun(self.repository.own, "stash pop")
             self.repository.go(Goal(tree=self._united(shelf), shelf=shelf.commit), doing="pico stash pop")
             self.folder.reload()
         return shelf

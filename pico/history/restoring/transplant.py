@@ -26,7 +26,6 @@ from pico.history.restoring.messages import (
 )  # fmt: skip
 from pico.history.writing.claim import Goal
 from pico.history.writing.made import Step
-from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import Manifests
 from pico.model.diff import Change
 from pico.model.record import record
@@ -104,8 +103,7 @@ def _carry(
 ) -> list[Carried]:
     """Compute every step in memory, then write all of them or none; `message` is None where nothing is committed."""
     with folder.writing(f"pico {way}"):
-        refuse_begun(folder.history().own, way)
-        folder.refuse_edits()
+        folder.refuse_edits(way)
         return _write(folder, _steps(folder, revisions, way, check, mainline), way, message)
 
 

@@ -26,8 +26,9 @@ def underway(own: Path) -> Underway:
 def refuse_begun(own: Path, way: str) -> None:
     """Raise PicoError where git has begun something that comes to its end before a `way` can begin."""
     begun = underway(own)
-    if begun not in ("", "rebase"):
-        hint = f"`pico commit` ends it, `git {begun} --abort` takes it back"
+    if begun:
+        ends = "git rebase --continue" if begun == "rebase" else "pico commit"
+        hint = f"`{ends}` ends it, `git {begun} --abort` takes it back"
         raise PicoError(error("git-merging", f"a {begun} is under way: no {way} before it has ended", hint=hint))
 
 

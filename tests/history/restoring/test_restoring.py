@@ -23,6 +23,7 @@ from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_trees
 from pico.history.restoring.checked import cherry_pick, revert, take
 from pico.history.restoring.last_change import last_change
+from pico.history.restoring.stash import Stash
 from pico.history.restoring.transplant import Carried
 
 State = dict[Leaf, float | str]
@@ -269,10 +270,17 @@ def test_what_git_has_begun_is_ended_first(lab: LabFolder, git: Git) -> None:
     git("checkout", "-q", "-b", "right", "main")
     edit(lab, git, "p1", "y: 420", "y: 421", commit="right")
     git("checkout", "-q", "e1")
-    lab.reload()
+    edit(lab, git, "p2", "angle: 90", "angle: 45")
+    shelf = Stash(lab)
+    shelf.push()
     git("merge", "-q", "--no-commit", "--no-ff", "right")
     lab.reload()
     assert "a merge is under way" in said(refused(lab, lambda: cherry_pick(lab, ["E2-1"])))
+    for way in (shelf.push, shelf.pop, lambda: merge(lab, "main")):
+        found = refused(lab, way)
+        assert "a merge is under way" in said(found) and found.diagnostics[0].code == "git-merging"
+    git("commit", "-q", "-m", "m")
+    assert "y: 421" in git("show", "HEAD:state/table.yaml")
 
 
 def test_what_was_edited_meanwhile_is_not_overwritten(lab: LabFolder, git: Git) -> None:
