@@ -11,6 +11,7 @@ again), and work that is lost.
 from __future__ import annotations
 
 import contextlib
+import importlib
 import os
 import random
 import shutil
@@ -196,18 +197,9 @@ def lost(root: Path, name: str) -> Iterator[tuple[str, str]]:
         yield "lost", "the edit of the manifest"
 
 
-def preload() -> None:
-    """Load what the commands need, once, before processes are forked."""
-    import pygit2  # noqa: F401
-    from pico_cli import app  # noqa: F401
-
-    import pico.backends.sim.backend
-    import pico.bench
-    import pico.committing
-    import pico.history.stash
-    import pico.planning
-    import pico.planning.target
-    import pico.restoring  # noqa: F401
+LOADED = ("pygit2", "pico_cli.app", "pico.bench.bench", "pico.bench.commits", "pico.backends.sim.backend",
+          "pico.history.restoring.checked", "pico.history.restoring.stash", "pico.planning")  # fmt: skip
+"""What the commands need: loaded once, before processes are forked."""
 
 
 def measure(origin: Path, root: Path, name: str) -> tuple[int, float, set[str]]:
@@ -239,7 +231,8 @@ def draw(kills: int, known: dict[str, tuple[int, float, set[str]]], seed: int) -
 def git_kills(kills: int, seed: int = 0) -> int:
     """Kill Git commands; return how many trials were wrong."""
     os.environ.update(IDENTITY, GIT_CONFIG_GLOBAL=os.devnull, GIT_CONFIG_SYSTEM=os.devnull)
-    preload()
+    for module in LOADED:
+        importlib.import_module(module)
     count, began = Counter[str](), time.monotonic()
     with tempfile.TemporaryDirectory() as temporary:
         origin, root = make_origin(Path(temporary) / "origin"), Path(temporary) / "trial"
