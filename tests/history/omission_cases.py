@@ -134,6 +134,16 @@ def renamed(box: Box, unit: str, rng: random.Random) -> None:
     path.rename(path.with_suffix(rng.choice([".yml", ".YML", ".YAML", ".Yaml", ".yMl"])))
 
 
+def aside(box: Box, unit: str, rng: random.Random) -> None:
+    """A name that no manifest has, a hidden one, or a folder that is left out."""
+    path = box.lab / unit
+    names = [f"{path.name}{end}" for end in (".bak", "~", ".orig", " ", ".txt", ".json")]
+    hidden = [f".{path.name}", f".x/{path.name}", f"runs/{path.name}", f"runs/.{path.stem}", path.stem]
+    goal = path.parent / rng.choice([*names, *hidden])
+    goal.parent.mkdir(exist_ok=True)
+    path.rename(goal)
+
+
 def linked(box: Box, unit: str, rng: random.Random) -> None:
     """A link in place of the file or its folder: to outside, to a folder that is left out, by another link; or the
     folder that it led to is gone."""
@@ -198,7 +208,8 @@ class Kind:
 
 IN_FOLDER = {
     "sparse": Kind(sparse), "assumed": Kind(assumed), "extension": Kind(renamed, edit=True),
-    "link": Kind(linked, edit=True), "elsewhere": Kind(elsewhere, edit=True), "permission": Kind(shut, bound=True),
+    "aside": Kind(aside), "link": Kind(linked, edit=True), "elsewhere": Kind(elsewhere, edit=True),
+    "permission": Kind(shut, bound=True),
     "submodule": Kind(unfetched, modules=True),
 }  # fmt: skip
 AT_REVISION = {
@@ -350,7 +361,13 @@ def _unwanted(box: Box) -> None:
     box.git("rm", "-q", "--cached", "--sparse", UNITS[1])
 
 
+def _with_another_lab(box: Box) -> None:
+    box.git("worktree", "add", "-q", "--detach", ".trees/other")
+    shutil.copytree(box.lab / ".trees" / "other", box.lab / ".backup", ignore=shutil.ignore_patterns(".git"))
+    (box.lab / UNITS[1]).unlink()
+
+
 WORKING = (_compose, _data, _copies, _aliases, _moved)
 """Ways of working that leave nothing out."""
-DELETING = (_deleted, _removed, _unwanted)
+DELETING = (_deleted, _removed, _unwanted, _with_another_lab)
 """Ways to say that the parts of a file are not wanted on the table."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from omission_cases import AT_REVISION, DELETING, IN_FOLDER, WORKING, Box, at_revision, in_folder, read_lab
+from omission_cases import AT_REVISION, DELETING, IN_FOLDER, UNITS, WORKING, Box, at_revision, in_folder, read_lab
 
 from pico.diagnostics import PicoError
 from pico.history.lab.folder import LabFolder
@@ -75,6 +75,22 @@ def test_parts_of_a_deleted_file_go_home_and_a_note_says_so(box: Box, delete: Ca
     (said,) = found.said
     assert said.severity == "note"
     assert "optics/lenses.yaml" in said.summary and "p1" in said.summary
+
+
+def test_where_an_error_names_the_file_nothing_is_said_of_parts_that_go_home(box: Box) -> None:
+    box.begin(modules=False)
+    path = box.lab / UNITS[1]
+    path.rename(path.with_suffix(".yml"))
+    (said,) = read_lab(box.lab).said
+    assert said.severity == "error" and "lenses.yml: a manifest that is not read" in said.summary
+
+
+def test_a_state_set_aside_is_named_with_its_parts_and_where_it_belongs(box: Box) -> None:
+    box.begin(modules=False)
+    (box.lab / "optics" / "lenses.yaml").rename(box.lab / "optics" / "lenses.yaml.bak")
+    (said,) = read_lab(box.lab).said
+    assert said.severity == "error" and "lenses.yaml.bak: a state with p1 that is not read" in said.summary
+    assert "`mv optics/lenses.yaml.bak optics/lenses.yaml`" in said.hint and "delete it" in said.hint
 
 
 def test_submodules_that_are_checked_out_are_read(box: Box) -> None:

@@ -6,15 +6,17 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git import command as git
 from pico.history.git.trees import Odd, manifests
 from pico.history.git.unread import content_of, submodule
+from pico.history.lab.aside import aside
 from pico.manifest.edit import components_of
 from pico.manifest.files import shown_path
-from pico.manifest.which import GONE, about, declared
+from pico.manifest.which import GONE, UNSEEN, about, declared
 
 if TYPE_CHECKING:
     from pico.history.repository.repository import Repository
@@ -67,7 +69,10 @@ def _missing(
     said = [_kept_out(root, path, tags.get(path, ""), there.keys()) for path, _ in lost]
     gone = {path: components_of(data) for (path, data), d in zip(lost, said, strict=True) if d is None}
     said += [submodule(repository, lead + p, str(e.id), _shown(root, p)) for p, e in modules.items() if p in tags]
-    return [*(d for d in said if d), *_gone(root, gone, files)]
+    all_said = [*(d for d in said if d), *_gone(root, gone, files)]
+    # What can't be read may hold the parts of a file that is not there: nothing is said of where they go.
+    refused = any(d.severity == "error" or d.code == UNSEEN for d in (*found, *all_said))
+    return [d for d in all_said if d.code != GONE] if refused else all_said
 
 
 def _empty(folder: Path) -> bool:
@@ -104,17 +109,27 @@ def _kept_out(root: Path, path: str, tag: str, there: Iterable[str]) -> Diagnost
 
 def _gone(root: Path, gone: Mapping[str, frozenset[str]], files: Mapping[str, bytes]) -> list[Diagnostic]:
     """Return a note for each file of HEAD that is not there, of its parts that no other file names; an error where a
-    link may hide it."""
+    link may hide it, or a file that is not read names them."""
     if not any(gone.values()):
         return []
     named = frozenset().union(*(components_of(data) for data in files.values()))
-    found = []
-    for path, parts in gone.items():
-        if homeless := ", ".join(sorted(parts - named)):
-            text = f"deleted since HEAD, and no other file names {homeless}: not wanted on the table"
-            said = about(_shown(root, path), GONE, text, f"`git restore --staged --worktree {path}` brings it back")
-            found.append(_hidden(root, path) or replace(said, severity="note"))
-    return found
+    homeless = {path: sorted(parts - named) for path, parts in gone.items() if parts - named}
+    kept = aside(root, {part for parts in homeless.values() for part in parts}) if homeless else {}
+    return [_hidden(root, path) or _lost(root, path, parts, kept) for path, parts in homeless.items()]
+
+
+def _lost(root: Path, path: str, parts: Sequence[str], kept: Mapping[str, str]) -> Diagnostic:
+    """Return what to say of the `parts` of a file of HEAD that is not there; some are `kept` in other files."""
+    shown = _shown(root, path)
+    if holder := next((kept[part] for part in parts if part in kept), None):
+        names = ", ".join(part for part in parts if kept.get(part) == holder)
+        text = f"a state with {names} that is not read, and {shown} of HEAD is not there"
+        goes = f"if {names} shall go home: delete it, or move it out of the lab's folder"
+        hint = f"`mv {quote(holder)} {quote(path)}`; {goes}"
+        return about(_shown(root, holder), "name", text, hint)
+    text = f"deleted since HEAD, and no other file names {', '.join(parts)}: not wanted on the table"
+    said = about(shown, GONE, text, f"`git restore --staged --worktree {path}` brings it back")
+    return replace(said, severity="note")
 
 
 def _hidden(root: Path, path: str) -> Diagnostic | None:
