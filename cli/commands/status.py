@@ -18,6 +18,10 @@ def status(
 
     `*` marks what the manifest changes against the last commit, `!` what stands elsewhere than the manifest says.
     """
+    from pico.history.merge.doubts import unsettled
+
     session = Session.of(context)
-    session.show(view, session.bench().status(), every=every)
+    bench = session.bench()
+    session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
+    session.show(view, bench.status(), every=every)
     return 0

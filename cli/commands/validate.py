@@ -19,14 +19,16 @@ def validate(
 ) -> int:
     """Check the manifests, and that everything has room where the state wants it.
 
-    All errors at once, each with its place. Does not ask the bench; asks Git only what it keeps out of the folder.
+    All errors at once, each with its place. Does not ask the bench; asks Git what it keeps out of the folder, and what
+    its merge kept.
     """
     from pico.history.lab.withheld import withheld
     from pico.history.merge.checked import overlapping
+    from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
 
     session = Session.of(context)
-    where, asked = session.folder, (overlapping, withheld)
+    where, asked = session.folder, (lambda root, read: [*overlapping(read), *doubts_in(root, read)], withheld)
     checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
     if not session.json:
         session.report(checked.diagnostics)

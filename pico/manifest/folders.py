@@ -35,11 +35,11 @@ class Checked:
         return ExitCode.ERROR if wrong else ExitCode.DONE
 
 
-Asked = Callable[[Manifests], Sequence[Diagnostic]]
-"""What else is asked of manifests in which nothing else is wrong."""
+Asked = Callable[[Path, Manifests], Sequence[Diagnostic]]
+"""What else is asked of a lab's folder and its manifests, in which nothing else is wrong."""
 
 
-def check_folder(start: Path, also: Asked = lambda _: (), beside: Beside = lambda *_: []) -> Checked:
+def check_folder(start: Path, also: Asked = lambda *_: (), beside: Beside = lambda *_: []) -> Checked:
     """Return the verdict on the lab that `start` lies in; on `start` itself where no lab is found.
 
     `beside`: what is known of files that are not there.
@@ -55,7 +55,7 @@ def check_folder(start: Path, also: Asked = lambda _: (), beside: Beside = lambd
     lab = manifests.setup.lab if manifests.setup else None
     found = [*manifests.diagnostics, *expression_errors(manifests)]
     if not any(d.severity == "error" for d in manifests.diagnostics):
-        found += also(manifests)
+        found += also(root, manifests)
     return Checked(
         folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
         lab=lab.name if lab else "",
@@ -76,7 +76,7 @@ def expression_errors(manifests: Manifests) -> list[Diagnostic]:
 
 
 def check_files(
-    start: Path, files: Sequence[Path], also: Asked = lambda _: (), beside: Beside = lambda *_: []
+    start: Path, files: Sequence[Path], also: Asked = lambda *_: (), beside: Beside = lambda *_: []
 ) -> Checked:
     """Return the verdict on the labs that `files` lie in, together: a manifest is right or wrong only among the others.
 

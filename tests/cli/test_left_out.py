@@ -78,6 +78,25 @@ def test_a_lab_under_another_extension_is_named(shel: Path, pico: Pico) -> None:
     assert said.code == 1 and "lab.yml: a manifest that is not read" in said.err
 
 
+def test_a_part_that_gits_merge_kept_is_told_by_status_and_validate_as_by_plan(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    table, more = shel / "state" / "table.yaml", shel / "state" / "more.yaml"
+    before, p2, after = _parted(table.read_text(), "p2")
+    for branch, moved in (("takes", ""), ("moves", MORE + p2)):
+        _git("checkout", "-q", "-b", branch, "main")
+        table.write_text(before + after)
+        if moved:
+            more.write_text(moved)
+        _git("add", "-A")
+        _git("commit", "-qm", branch)
+    assert pico("validate").code == 0 and not pico("status").err
+    _git("-c", "merge.pico.driver=false", "merge", "-q", "-m", "merge", "takes")
+    for words, code in ((("plan",), 1), (("status",), 0), (("validate",), 1)):
+        said = pico(*words)
+        assert said.code == code and "error[merge-conflict]" in said.err, words
+        assert "git's merge" in said.err, words
+
+
 def test_stop_asks_no_manifest(shel: Path, pico: Pico) -> None:
     edit(shel / "state" / "table.yaml", "components:", "component:")
     assert pico("plan").code == 1

@@ -26,6 +26,14 @@ def require_settled(
         raise PicoError(found)
 
 
+def doubts_in(root: Path, manifests: Manifests) -> list[Diagnostic]:
+    """Return what `unsettled` says of the lab in `root`; nothing where the repository around it can't be read."""
+    try:
+        return unsettled(Repository.discover(root), root, manifests)
+    except PicoError:
+        return []
+
+
 def unsettled(
     repository: Repository | None, root: Path, manifests: Manifests, commit: str | None = None
 ) -> list[Diagnostic]:
