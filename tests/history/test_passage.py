@@ -193,6 +193,26 @@ def test_without_its_guard_git_is_kept_out_until_the_next_command(lab: Path, mon
     assert LabFolder(lab).recovered and look(lab) == before
 
 
+@pytest.mark.parametrize("at", ["commit-msg", "reference-transaction"])
+@pytest.mark.parametrize("name", ["merge", "revert"])
+def test_what_somebody_committed_in_between_by_git_is_not_taken_back(
+    lab: Path, monkeypatch: pytest.MonkeyPatch, at: str, name: str
+) -> None:
+    monkeypatch.setattr(guard, "_WAITING", "")
+    hook(lab, at, "kill -9 0")
+    assert not forked(lambda: WAYS[name](lab))
+    (lab / ".git" / "hooks" / at).unlink()
+    for lock in (lab / ".git").rglob("*.lock"):
+        if lock.name != "write.lock":
+            lock.unlink()  # by hand, as after a power cut
+    git_in(lab, "commit", "-q", "--allow-empty", "-a", "-m", "by hand")
+    before, branch = look(lab), git_in(lab, "symbolic-ref", "HEAD")
+    said = [d.summary for d in LabFolder(lab).recovered]
+    assert any("gave that up" in line for line in said)
+    assert look(lab) == before and git_in(lab, "symbolic-ref", "HEAD") == branch
+    assert not (lab / ".git" / "pico" / "index.claim").exists() and not LabFolder(lab).recovered
+
+
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_other_signals_are_no_worse(lab: Path, by: signal.Signals) -> None:
     before = look(lab)

@@ -103,12 +103,22 @@ def _ended(at: GitFolders, claim: Claim, said: Said) -> Iterator[Diagnostic]:
         yield from [_removed(at.lock, said)] if index_lock.taken(at, claim.path) else []
         return
     index_lock.take(at, claim.path, index_lock.WAIT)  # somebody may have removed it by hand
-    done = settle(at, claim)
     what = f"`{said.doing}`, which was killed (process {said.pico})"
+    if _gone_on(at.root, said):
+        yield warning("recovered", f"HEAD moved since {what}: gave that up; HEAD, index and files stay as they are")
+        return
+    done = settle(at, claim)
     yield warning("recovered", f"finished {what}" if done.there else f"took back what was half written by {what}")
     if done.kept:
         text = f"{', '.join(done.kept)} left as edited since; `git diff` shows how"
         yield warning("recovered", text)
+
+
+def _gone_on(root: Path, said: Said) -> bool:
+    """Whether HEAD is neither where a claim found it nor where that leads: somebody went on by plain git."""
+    now = git.answer(root, ["rev-parse", "--verify", "--quiet", "HEAD"]).strip()
+    goal = said.to.commit if said.to else ""
+    return bool(said.base) and now not in (said.base, goal or said.base)
 
 
 def _await_death(file: int, path: Path, seconds: float) -> None:
