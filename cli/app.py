@@ -156,9 +156,20 @@ def _refused(exc: BaseException) -> Diagnostic | None:
         return None
     if isinstance(exc, OSError) and exc.filename:
         return unwritable(Path(os.fsdecode(exc.filename)), exc, what=os.fsdecode(exc.filename), code="file")
+    words = " ".join(str(exc).split())
     if number_of(exc) is not None:
-        return error("file", " ".join(str(exc).split()), hint="`df -h` shows which disk is full or read-only")
+        return error("file", words, hint="`df -h` shows which disk is full or read-only")
+    if (git := sys.modules.get("pygit2")) and isinstance(exc, git.GitError):
+        return _unread(words)
     return None
+
+
+def _unread(words: str) -> Diagnostic:
+    """Return what is said where libgit2 can't read something of git's that only git itself can, or that is broken."""
+    if "mandatory extension" in words and "link" in words:
+        hint = "`git config core.splitIndex false && git update-index --no-split-index` makes it one file again"
+        return error("git-unreadable", "git keeps its index in two files here (core.splitIndex)", hint=hint)
+    return error("git-unreadable", f"git's own files can't be read: {words}", hint="`git fsck` tells what is broken")
 
 
 def _usage(exc: Any, words: list[str]) -> Diagnostic:

@@ -94,3 +94,17 @@ def test_the_first_command_in_a_clone_sets_the_driver_and_says_so_once(shel: Pat
     first, second = pico("-C", "../clone", "status"), pico("-C", "../clone", "status")
     assert "git merges manifests through PICO" in first.err and second.err == ""
     assert "pico.history.merge.driver" in git("-C", "../clone", "config", "merge.pico.driver")
+
+
+@pytest.mark.parametrize("words", [["merge", "side"], ["cherry-pick", "side"]], ids=" ".join)
+def test_a_split_index_is_named_with_the_way_out(shel: Path, pico: Pico, words: list[str]) -> None:
+    commit("side", ("x: 520", "x: 530"))
+    commit("here", ("x: 290", "x: 300"))
+    git("config", "core.splitIndex", "true")
+    git("update-index", "--split-index")
+    answer = pico(*words)
+    assert answer.code == 1 and "PICO itself failed" not in answer.err
+    assert "core.splitIndex" in answer.err and "--no-split-index" in answer.err
+    git("config", "core.splitIndex", "false")
+    git("update-index", "--no-split-index")
+    assert pico(*words).code == 0
