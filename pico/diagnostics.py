@@ -37,7 +37,10 @@ class Position:
 
 @dataclass(frozen=True, slots=True)
 class SourceRange:
-    """A stretch of a file, `end` exclusive, with the text of its first line (`snippet`) for the caret."""
+    """A stretch of a file, `end` exclusive, with the text of its first line (`snippet`) for the caret.
+
+    Of a folder, a link or a file as a whole it is the first character, without text; shown is the path alone.
+    """
 
     path: str
     start: Position
@@ -45,6 +48,8 @@ class SourceRange:
     snippet: str = ""
 
     def __str__(self) -> str:
+        if not self.snippet and self.start == Position(1, 1):
+            return self.path
         return f"{self.path}:{self.start.line}:{self.start.column}"
 
 

@@ -62,6 +62,7 @@ def test_a_state_that_is_a_link_says_why_nothing_was_read(shel: Path, pico: Pico
     said = pico("plan")
     assert said.code == 1
     assert "state: a link, and links are not followed: table.yaml behind it is not read" in said.err
+    assert "--> state\n" in said.err  # a link has no lines
 
 
 def test_a_plan_says_which_deleted_file_sends_parts_home(split: Path, pico: Pico) -> None:
