@@ -278,6 +278,13 @@ def test_a_lock_of_somebody_else_is_named(lab: Path, monkeypatch: pytest.MonkeyP
     assert lock.exists()
 
 
+def test_a_lock_that_nobody_is_seen_to_hold_is_not_waited_for_long(lab: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(index_lock, "ALONE", 0.05)
+    (lab / ".git" / "index.lock").touch()
+    with pytest.raises(PicoError, match=r"waited for 0\.05 s, and nothing was written"):
+        WAYS["merge"](lab)
+
+
 def test_filters_line_ends_and_modes_are_those_of_git(lab: Path) -> None:
     git_in(lab, "checkout", "-q", "-b", "odd", "ours")
     (lab / ".gitattributes").write_text((lab / ".gitattributes").read_text() + "*.crlf text eol=crlf\n")

@@ -20,7 +20,7 @@ def held(lock: Path, root: Path, waited: float = 0.0) -> Diagnostic:
     running = git_processes(root)
     who = f"held by {running[0]}" if running else "no git command is seen running here"
     hint = "end that command, or close its editor" if running else f"if none is running anywhere: `rm {lock}`"
-    patience = f"; it was waited for {waited:g} s" if waited else ""
+    patience = f"; it was waited for {waited:g} s, and nothing was written" if waited else ""
     text = f"{lock} is there for {age:.0f} s, and not of PICO's making: {who}{patience}"
     return error("git-locked", text, hint=hint)
 

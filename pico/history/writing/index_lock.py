@@ -14,12 +14,14 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
-from pico.history.git.holders import held
+from pico.history.git.holders import git_processes, held
 from pico.history.writing.claim import Claim, GitFolders
 from pico.history.writing.guard import guarded
 
 WAIT = 10.0
 """Seconds that somebody else's lock is waited for; git holds one for milliseconds, unless an editor is open."""
+ALONE = 2.0
+"""Seconds that it is waited for where no git command is seen running."""
 _RETRY = 0.02
 
 
@@ -62,7 +64,7 @@ def take(at: GitFolders, path: Path, seconds: float) -> bool:
     git's own. Raises PicoError that names somebody else's, after so many seconds."""
     if taken(at, path):
         return True
-    deadline = time.monotonic() + seconds
+    start, patience = time.monotonic(), min(seconds, ALONE)
     while True:
         with suppress(FileExistsError):
             try:
@@ -73,8 +75,10 @@ def take(at: GitFolders, path: Path, seconds: float) -> bool:
             except OSError:
                 _make(at.lock)
                 return False
-        if time.monotonic() >= deadline:
-            raise PicoError(held(at.lock, at.root, seconds))
+        if time.monotonic() >= start + patience:
+            if patience == seconds or not git_processes(at.root):
+                raise PicoError(held(at.lock, at.root, patience))
+            patience = seconds
         time.sleep(_RETRY)
 
 
