@@ -17,9 +17,9 @@ def validate(
         list[Path] | None, typer.Argument(metavar="FILE...", help="Check the labs that these files lie in.")
     ] = None,
 ) -> int:
-    """Check the manifests, and that everything has room where the state wants it.
+    """Check the manifests.
 
-    All errors at once, each with its place. Does not ask the bench; asks Git what it keeps out of the folder, and what
+    Also that everything has room where the state wants it. All errors at once, each with its place. Does not ask the bench; asks Git what it keeps out of the folder, and what
     its merge kept.
     """
     from pico.history.lab.withheld import withheld

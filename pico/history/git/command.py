@@ -273,7 +273,10 @@ def _refused(root: Path | None, words: str) -> OSError | None:
     if number := spoken(words):
         return OSError(number, "")
     told = next((code for pattern, code, _ in _KNOWN if re.search(pattern, words, re.IGNORECASE)), "git-locked")
-    return refusing(root) if root is not None and told == "git-locked" else None
+    if root is None or told != "git-locked":
+        return None
+    own = root / ".git"  # there what a kill leaves of the attempt is in nobody's way
+    return refusing(own if own.is_dir() else root)
 
 
 def _on_disk(root: Path, disk: OSError, words: str, doing: str) -> PicoError:
