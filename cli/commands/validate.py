@@ -19,8 +19,8 @@ def validate(
 ) -> int:
     """Check the manifests.
 
-    Also that everything has room where the state wants it. All errors at once, each with its place. Does not ask the bench; asks Git what it keeps out of the folder, and what
-    its merge kept.
+    Also that everything has room where the state wants it. All errors at once, each with its place. Does not ask the
+    bench; asks Git what it keeps out of the folder, and what its merge kept.
     """
     from pico.history.lab.withheld import withheld
     from pico.history.merge.checked import overlapping
