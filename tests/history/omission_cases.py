@@ -332,7 +332,7 @@ def _data(box: Box) -> None:
 
 
 def _copies(box: Box) -> None:
-    shutil.copytree(box.lab / "state", box.lab / ".backup", symlinks=True)
+    shutil.copytree(box.lab / "state", box.lab / ".backup", symlinks=True, dirs_exist_ok=True)
     shutil.copytree(box.lab / "state", box.lab / "runs" / "2026", symlinks=True)
     (box.lab / "optics" / ".#lenses.yaml").symlink_to("somebody@host.123")
 
@@ -363,7 +363,8 @@ def _unwanted(box: Box) -> None:
 
 def _with_another_lab(box: Box) -> None:
     box.git("worktree", "add", "-q", "--detach", ".trees/other")
-    shutil.copytree(box.lab / ".trees" / "other", box.lab / ".backup", ignore=shutil.ignore_patterns(".git"))
+    other, kept = box.lab / ".trees" / "other", box.lab / ".backup"
+    shutil.copytree(other, kept, ignore=shutil.ignore_patterns(".git"), dirs_exist_ok=True)
     (box.lab / UNITS[1]).unlink()
 
 
