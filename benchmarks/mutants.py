@@ -30,7 +30,7 @@ import sys
 import tempfile
 import threading
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -260,7 +260,9 @@ class Matching:
         return found
 
 
-def judged(workers: Workers, made: Sequence[Mutant], tests: Sequence[tuple[list[str], float]]) -> list[Verdict]:
+def judged(
+    workers: Workers, made: Sequence[Mutant], tests: Sequence[tuple[list[str], float]], texts: Mapping[str, str]
+) -> list[Verdict]:
     """Return what became of each mutant that some tests met."""
     verdicts: dict[int, Verdict] = {}
     met = [n for n, (names, _) in enumerate(tests) if names]
@@ -269,11 +271,11 @@ def judged(workers: Workers, made: Sequence[Mutant], tests: Sequence[tuple[list[
         n = met[number]
         verdicts[n] = Verdict(made[n], answer["outcome"], answer.get("by", ""), len(tests[n][0]))
         if verdicts[n].outcome != "killed" and made[n].wrong != made[n].right:
-            print("\n" + shown(verdicts[n], (ROOT / made[n].file).read_text()), flush=True)
+            print("\n" + shown(verdicts[n], texts[made[n].file]), flush=True)
         print(f"\r{done} of {len(jobs)} mutants judged", end="", file=sys.stderr, flush=True)
     for n in (n for n in range(len(made)) if n not in verdicts):
         verdicts[n] = Verdict(made[n], "survived", "", 0)
-        print("\n" + shown(verdicts[n], (ROOT / made[n].file).read_text()), flush=True)
+        print("\n" + shown(verdicts[n], texts[made[n].file]), flush=True)
     return [verdicts[n] for n in range(len(made))]
 
 
@@ -305,7 +307,7 @@ def sampled(given: argparse.Namespace) -> list[Verdict]:
     made = drawn(texts, given.seed, given.count)
     with running(given.tests) as workers:
         matching = Matching(mapped(workers, texts, given.map), texts)
-        return judged(workers, made, [matching(mutant, given.seconds) for mutant in made])
+        return judged(workers, made, [matching(mutant, given.seconds) for mutant in made], texts)
 
 
 def by_hand(only: str) -> list[Verdict]:
@@ -323,10 +325,12 @@ def by_hand(only: str) -> list[Verdict]:
     files = {name: _test_file(name) for name in sorted({one.tests for one in chosen})}
     with running(sorted(files.values())) as workers:
         tests = [[name for name in workers.names if name.startswith(f"{files[one.tests]}::")] for one in chosen]
-        as_it_is = judged(workers, [replace(m, wrong=m.right) for m in made], [(names, SECONDS) for names in tests])
+        as_it_is = judged(
+            workers, [replace(m, wrong=m.right) for m in made], [(names, SECONDS) for names in tests], texts
+        )
         if failed := [v.by for v in as_it_is if v.outcome != "survived"]:
             raise SystemExit(f"without any mutant these do not pass: {', '.join(failed)}")
-        return judged(workers, made, [(names, SECONDS) for names in tests])
+        return judged(workers, made, [(names, SECONDS) for names in tests], texts)
 
 
 def _test_file(name: str) -> str:
