@@ -44,11 +44,11 @@ ROOMS = {
     "planning": ("planning", "staging"),
     "execution": ("execution",),
     "policy": ("policy",),
-    "merge": ("merge", "merging.py"),
+    "merge": ("merge",),
     "motion": ("motion",),
     "vision": ("vision",),
 }
-"""The rooms, and the names of the folders and files under `pico/` that are theirs."""
+"""The rooms, and the names of the folders under `pico/` that are theirs."""
 NEAR = {"merge": ("history",)}
 """Test folders of a room that have another name."""
 BAR = 0.15
