@@ -34,12 +34,9 @@ def seen(holding: str | None = None, without: str = "", **poses: Pose) -> Observ
     return Observation(backend="sim", components=parts, robots={"arm1": ObservedRobot(joints=(), holding=holding)})
 
 
-def plan(*operations: Operation, without: str = "") -> Plan:
-    lab, base = (
-        LabRef(name="shel", digest=SETUP.digest()),
-        Base(state=live_state(SETUP, seen(without=without)).as_json()),
-    )
-    return Plan(lab=lab, backend="sim", fidelity="kinematic", base=base, target=Target(), operations=operations)
+def plan(*operations: Operation, base: Observation | None = None) -> Plan:
+    lab, was = LabRef(name="shel", digest=SETUP.digest()), Base(state=live_state(SETUP, base or seen()).as_json())
+    return Plan(lab=lab, backend="sim", fidelity="kinematic", base=was, target=Target(), operations=operations)
 
 
 def refused(made: Plan, now: Observation) -> str:
@@ -66,8 +63,17 @@ def test_a_part_is_picked_within_its_tolerance_in_place_and_yaw(dx: float, dyaw:
         require_current(SETUP, made, now)
 
 
+@pytest.mark.parametrize(("dx", "dyaw"), [(3.0, 0.0), (0.0, 8.0)])
+def test_a_part_is_not_picked_beside_where_the_plan_picks_it_whatever_the_plan_says_of_the_bench(
+    dx: float, dyaw: float
+) -> None:
+    now = seen(p2=Pose(HOME["p2"].x + dx, HOME["p2"].y, HOME["p2"].yaw + dyaw))
+    made = plan(move(HOME["p2"], AWAY), base=now)
+    assert f"p2 was moved by {dx:g} mm and {dyaw:g}° from" in refused(made, now)
+
+
 def test_a_part_that_nobody_sees_is_not_picked() -> None:
-    made = plan(move(HOME["p2"], AWAY), without="p2")
+    made = plan(move(HOME["p2"], AWAY), base=seen(without="p2"))
     assert refused(made, seen(without="p2")) == "the plan is stale: p2 is not on the table"
 
 
