@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
 from pico.diagnostics import PicoError
 from pico.history.examples.example import make_example
-from pico.model.plan import plan_from_json
+from pico.model.plan import Plan, plan_from_json
 from pico.model.pose import Pose
 from pico.runs.journal import Journal
 
@@ -57,12 +59,19 @@ def _run(bench: Bench, plan, run):  # type: ignore[no-untyped-def]
     return going.report
 
 
+async def halted_on_its_way(lab: Path, plan: Plan) -> None:
+    """Halt before the part is gripped: in the loop of the run, which a blocking caller would race."""
+    bench = AsyncBench.open(lab)
+    run = bench.run(plan)
+    async for event in run:
+        if event.data.get("phase") == "approach":
+            await run.halt()
+    await bench.close()
+
+
 def test_a_resumed_single_operation_moves_only_what_was_asked(bench: Bench) -> None:
     bench.apply("C3")
-    run = bench.run(bench.single("p2", "move", {"x": "600"}))
-    for event in run:
-        if event.data.get("phase") == "approach":
-            run.halt()
+    asyncio.run(halted_on_its_way(bench.folder.root, bench.single("p2", "move", {"x": "600"})))
     bench.sim.nudge("p1", dx=4)
     plan, _ = bench.resume_plan()
     assert {op.component for op in plan.operations if op.primitive == "move"} == {"p2"}
