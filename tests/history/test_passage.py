@@ -18,7 +18,7 @@ from pico.history.merge.checked import merge
 from pico.history.repository.repository import Repository
 from pico.history.restoring.checked import cherry_pick, revert
 from pico.history.restoring.stash import Stash
-from pico.history.writing import guard, index_lock
+from pico.history.writing import guard, index_lock, worktree
 
 TABLE = "state/table.yaml"
 
@@ -132,6 +132,7 @@ def test_killed_at_many_steps_it_is_whole_or_not_at_all(
         if guarding:
             guards_ended(root / ".git")
         else:
+            git_in(root, "gc", "--quiet", "--prune=now")
             repository = Repository.discover(root)
             assert repository is not None
             with repository.writing("the next command"):
@@ -191,6 +192,35 @@ def test_without_its_guard_git_is_kept_out_until_the_next_command(lab: Path, mon
     with pytest.raises(subprocess.CalledProcessError):
         git_in(lab, "commit", "-a", "-m", "half a merge")
     assert LabFolder(lab).recovered and look(lab) == before
+
+
+@pytest.mark.parametrize("linked", [False, True])
+@pytest.mark.parametrize("name", ["merge", "stash pop"])
+def test_what_git_clears_up_after_a_power_cut_is_not_what_the_claim_names(
+    origin: Path, lab: Path, monkeypatch: pytest.MonkeyPatch, name: str, linked: bool
+) -> None:
+    root = lab.with_name("worktree") if linked else lab
+    prepared(origin, lab, WAYS[name])
+    if linked:
+        git_in(lab, "reset", "-q", "--hard")
+        git_in(lab, "worktree", "add", "-q", "-b", "here", str(root), "ours")
+    monkeypatch.setattr(guard, "_WAITING", "")
+    assert not forked(lambda: (kill_at(1, after=True, watched=[(worktree, "_put")]), WAYS[name](root)))
+    git_in(lab, "gc", "--quiet", "--prune=now")
+    (said,) = LabFolder(root).recovered
+    assert ("took back" if name == "merge" else "finished") in said.summary
+    look(lab)
+    assert not git_in(root, "status", "--porcelain", "--untracked-files=no") or name == "stash pop"
+    assert not git_in(lab, "for-each-ref", "refs/pico")
+
+
+def test_a_claim_whose_objects_are_gone_is_given_up(lab: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guard, "_WAITING", "")
+    assert not forked(lambda: (kill_at(1, after=True, watched=[(worktree, "_put")]), WAYS["merge"](lab)))
+    shutil.rmtree(lab / ".git" / "refs" / "pico")
+    git_in(lab, "gc", "--quiet", "--prune=now")
+    (said,) = LabFolder(lab).recovered
+    assert "git has lost objects of `pico merge" in said.summary and not LabFolder(lab).recovered
 
 
 @pytest.mark.parametrize("at", ["commit-msg", "reference-transaction"])

@@ -2,7 +2,8 @@
 
 A claim is a file of its own, whose kernel lock its process and the git commands that this starts hold: nobody is alive
 who works on it if that is free. It is written a line of JSON at a time, each on the disk before what it tells of
-begins, so that whoever comes next knows how far a killed one came, and what it wanted.
+begins, so that whoever comes next knows how far a killed one came, and what it wanted. What it names is kept by refs
+while it stands, for `git gc` must not take it away.
 """
 
 from __future__ import annotations
@@ -10,12 +11,18 @@ from __future__ import annotations
 import fcntl
 import json
 import os
+import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
+from pico.history.git import command as git
+
+_KEPT = ("tree", "commit", "only", "shelf")
+"""The words of a claim that name objects."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +44,11 @@ class GitFolders:
     def claim(self) -> Path:
         """What says that the lock of the index is PICO's: another name of the same file."""
         return self.private / "index.claim"
+
+    @property
+    def kept(self) -> str:
+        """Where refs keep what the claim names. All worktrees share them: `git gc` in another one sees no others."""
+        return f"refs/pico/claims/{'main' if self.own == self.common else f'worktrees/{self.own.name}'}/"
 
     @property
     def word(self) -> Path:
@@ -91,18 +103,19 @@ class Goal:
 class Claim:
     """A claim that somebody holds. `pending`: files may be half written, so that it must not be given up yet."""
 
-    path: Path
+    at: GitFolders
     file: int
     pending: bool = field(default=False)
 
     @classmethod
-    def make(cls, path: Path, doing: str, base: str | None, refs: Sequence[Path]) -> Claim:
+    def make(cls, at: GitFolders, doing: str, base: str | None, refs: Sequence[Path]) -> Claim:
         """Make and hold one; raises PicoError."""
+        path = at.claim
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.unlink(missing_ok=True)
             file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o666)
-            claim = cls(path, file)
+            claim = cls(at, file)
             fcntl.flock(file, fcntl.LOCK_EX)
             claim._say(pico=os.getpid(), doing=doing, base=base, refs=[str(p) for p in refs])
         except OSError as exc:
@@ -131,6 +144,8 @@ class Claim:
         self._say(tree=tree, commit=None)
 
     def _say(self, **what: Any) -> None:
+        for name in filter(None, map(what.get, _KEPT)):
+            write_whole(self.at.common / self.at.kept / name, f"{name}\n".encode(), folders=True)
         os.write(self.file, json.dumps(what).encode() + b"\n")
         os.fsync(self.file)
 
@@ -152,3 +167,13 @@ class Claim:
         to = Goal(*(found[key] for key in keys)) if found.get("commit") is not None else None
         refs = tuple(Path(p) for p in found["refs"])
         return Said(str(found["pico"]), found["doing"], found["base"], refs, tuple(trees), to)
+
+
+def give_up(at: GitFolders) -> None:
+    """Remove a claim, then the refs that keep what it names, those that git has packed, too."""
+    at.claim.unlink(missing_ok=True)
+    shutil.rmtree(at.common / at.kept, ignore_errors=True)
+    packed = git.answer(at.root, ["for-each-ref", "--format=delete %(refname)", at.kept])
+    if packed:
+        words = ["-c", "core.hooksPath=/dev/null", "update-ref", "--stdin"]
+        git.run(at.root, words, doing="forget what was to be written", stdin=packed, ends=range(256))

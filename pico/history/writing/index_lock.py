@@ -15,7 +15,7 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError, error
 from pico.history.git.holders import git_processes, held
-from pico.history.writing.claim import Claim, GitFolders
+from pico.history.writing.claim import Claim, GitFolders, give_up
 from pico.history.writing.guard import guarded
 
 WAIT = 10.0
@@ -33,42 +33,42 @@ def index_lock(at: GitFolders, doing: str, base: str | None, refs: Sequence[Path
     files of the refs that are about to move. While the claim is `pending` at the end, lock and claim stay, for the
     guard or the next command. Raises PicoError where somebody else holds the lock for longer than WAIT.
     """
-    claim = _claimed(at.claim, doing, base, refs)
+    claim = _claimed(at, doing, base, refs)
     linked = True
     try:
-        with guarded(claim.path, at.root):
+        with guarded(at.claim, at.root):
             try:
-                linked = take(at, claim.path, WAIT)
+                linked = take(at)
                 yield claim
             finally:
                 if not claim.pending:
-                    release(at, claim.path, linked=linked)
+                    release(at, linked=linked)
     finally:
         os.close(claim.file)
 
 
-def _claimed(path: Path, doing: str, base: str | None, refs: Sequence[Path]) -> Claim:
+def _claimed(at: GitFolders, doing: str, base: str | None, refs: Sequence[Path]) -> Claim:
     """Make the claim, which says what it is about to change, and lock it."""
-    return Claim.make(path, doing, base, refs)
+    return Claim.make(at, doing, base, refs)
 
 
-def release(at: GitFolders, claim: Path, *, linked: bool = True) -> None:
+def release(at: GitFolders, *, linked: bool = True) -> None:
     """Give lock and claim up."""
-    if not linked or taken(at, claim):
+    if not linked or taken(at):
         at.lock.unlink(missing_ok=True)
-    claim.unlink(missing_ok=True)
+    give_up(at)
 
 
-def take(at: GitFolders, path: Path, seconds: float) -> bool:
-    """Take git's lock as a hard link of a claim; return False where the file system has none, and it is a file like
-    git's own. Raises PicoError that names somebody else's, after so many seconds."""
-    if taken(at, path):
+def take(at: GitFolders) -> bool:
+    """Take git's lock as a hard link of the claim; return False where the file system has none, and it is a file like
+    git's own. Raises PicoError that names somebody else's, after WAIT seconds."""
+    if taken(at):
         return True
-    start, patience = time.monotonic(), min(seconds, ALONE)
+    start, patience = time.monotonic(), min(WAIT, ALONE)
     while True:
         with suppress(FileExistsError):
             try:
-                os.link(path, at.lock)
+                os.link(at.claim, at.lock)
                 return True
             except FileExistsError:
                 raise
@@ -76,9 +76,9 @@ def take(at: GitFolders, path: Path, seconds: float) -> bool:
                 _make(at.lock)
                 return False
         if time.monotonic() >= start + patience:
-            if patience == seconds or not git_processes(at.root):
+            if patience == WAIT or not git_processes(at.root):
                 raise PicoError(held(at.lock, at.root, patience))
-            patience = seconds
+            patience = WAIT
         time.sleep(_RETRY)
 
 
@@ -91,9 +91,9 @@ def _make(lock: Path) -> None:
         raise PicoError(error("folder", f"can't make {lock}: {(exc.strerror or str(exc)).lower()}")) from exc
 
 
-def taken(at: GitFolders, claim: Path) -> bool:
-    """Whether git's lock is that of a claim."""
+def taken(at: GitFolders) -> bool:
+    """Whether git's lock is that of the claim."""
     try:
-        return claim.samefile(at.lock)
+        return at.claim.samefile(at.lock)
     except OSError:
         return False

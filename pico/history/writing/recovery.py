@@ -14,7 +14,7 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git import command as git
 from pico.history.git.places import places
 from pico.history.writing import index_lock
-from pico.history.writing.claim import Claim, GitFolders, Said
+from pico.history.writing.claim import Claim, GitFolders, Goal, Said
 from pico.history.writing.passage import settle
 from pico.history.writing.under import list_of
 
@@ -30,7 +30,7 @@ def recover(at: GitFolders) -> tuple[Diagnostic, ...]:
     a git command goes on for longer than WAIT, and where it can't be brought to its end.
     """
     found: list[Diagnostic] = []
-    _recovered(at, at.claim, found.extend)
+    _recovered(at, found.extend)
     return (*_word_left(at), *found)
 
 
@@ -42,7 +42,7 @@ def leave_word(at: GitFolders) -> None:
         fresh.write_text("\n".join(d.summary for d in found), encoding="utf-8")
         fresh.replace(at.word)
 
-    _recovered(at, at.claim, leave)
+    _recovered(at, leave)
 
 
 def anything_left(folder: Path) -> bool:
@@ -76,17 +76,17 @@ def _given_up(path: Path) -> bool:
         os.close(file)
 
 
-def _recovered(at: GitFolders, path: Path, tell: Callable[[list[Diagnostic]], None]) -> None:
+def _recovered(at: GitFolders, tell: Callable[[list[Diagnostic]], None]) -> None:
     """Recover, and tell what that was before the claim is given up."""
     try:
-        file = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
+        file = os.open(at.claim, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
     except OSError:
         return
     try:
-        _await_death(file, path, index_lock.WAIT)
-        claim = Claim(path, file)
+        _await_death(file, at.claim)
+        claim = Claim(at, file)
         tell(list(_ended(at, claim, claim.said())))
-        index_lock.release(at, path)
+        index_lock.release(at)
     finally:
         os.close(file)
 
@@ -94,18 +94,18 @@ def _recovered(at: GitFolders, path: Path, tell: Callable[[list[Diagnostic]], No
 def _ended(at: GitFolders, claim: Claim, said: Said) -> Iterator[Diagnostic]:
     """Clear locks, settle what a claim tells of, and yield what came of it."""
     for lock in (p.with_name(p.name + ".lock") for p in said.refs):
-        if _of_ours(at.root, lock, said) and _left_over(lock, claim.path):
+        if _of_ours(at.root, lock, said) and _left_over(lock, at.claim):
             lock.unlink(missing_ok=True)
             yield _removed(lock, said)
     _clear_next(at.own)
     _clear_own(at)
     if not said.begun:
-        yield from [_removed(at.lock, said)] if index_lock.taken(at, claim.path) else []
+        yield from [_removed(at.lock, said)] if index_lock.taken(at) else []
         return
-    index_lock.take(at, claim.path, index_lock.WAIT)  # somebody may have removed it by hand
+    index_lock.take(at)  # somebody may have removed it by hand
     what = f"`{said.doing}`, which was killed (process {said.pico})"
-    if _gone_on(at.root, said):
-        yield warning("recovered", f"HEAD moved since {what}: gave that up; HEAD, index and files stay as they are")
+    if why := _hopeless(at.root, said):
+        yield warning("recovered", f"{why} {what}: gave that up; HEAD, index and files stay as they are (`git status`)")
         return
     done = settle(at, claim)
     yield warning("recovered", f"finished {what}" if done.there else f"took back what was half written by {what}")
@@ -114,15 +114,20 @@ def _ended(at: GitFolders, claim: Claim, said: Said) -> Iterator[Diagnostic]:
         yield warning("recovered", text)
 
 
-def _gone_on(root: Path, said: Said) -> bool:
-    """Whether HEAD is neither where a claim found it nor where that leads: somebody went on by plain git."""
+def _hopeless(root: Path, said: Said) -> str:
+    """Return why a claim can't be brought to its end, if so: somebody went on by plain git, so that HEAD is neither
+    where it found it nor where it leads; or took away objects that it names."""
     now = git.answer(root, ["rev-parse", "--verify", "--quiet", "HEAD"]).strip()
-    goal = said.to.commit if said.to else ""
-    return bool(said.base) and now not in (said.base, goal or said.base)
+    to = said.to or Goal()
+    if said.base and now not in (said.base, to.commit or said.base):
+        return "HEAD moved since"
+    named = [name for name in (said.base, *said.trees, to.commit, to.tree, to.shelf) if name]
+    told = git.run(root, ["cat-file", "--batch-check"], doing="look for objects", stdin="\n".join(named))
+    return "git has lost objects of" if " missing" in told else ""
 
 
-def _await_death(file: int, path: Path, seconds: float) -> None:
-    deadline = time.monotonic() + seconds
+def _await_death(file: int, path: Path) -> None:
+    deadline = time.monotonic() + index_lock.WAIT
     while True:
         with suppress(BlockingIOError):
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
