@@ -68,7 +68,9 @@ def beside(path: Path) -> Path:
 
 
 def _is_stream(path: Path) -> bool:
-    return path.absolute().parts[1:2] in (("dev",), ("proc",)) or (path.exists() and not path.is_file())
+    place = path.absolute()
+    named = place.parts[1:2] in (("dev",), ("proc",)) and not place.is_relative_to("/dev/shm")  # which is a disk
+    return named or (path.exists() and not path.is_file())
 
 
 def _sweep(path: Path) -> None:

@@ -6,6 +6,7 @@ import errno
 import os
 import sqlite3
 import subprocess
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -61,6 +62,16 @@ def test_what_a_killed_writer_left_is_cleared_and_what_a_living_one_writes_is_no
         (tmp_path / f".plan.{number}.tmp").write_text("half")
     write_whole(tmp_path / "plan", b"new")
     assert names(tmp_path) == [f".plan.{os.getppid()}.tmp", "plan"]
+
+
+@pytest.mark.skipif(not os.access("/dev/shm", os.W_OK), reason="there is no /dev/shm here")
+def test_a_disk_in_memory_is_a_disk_though_its_files_are_below_dev() -> None:
+    with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:
+        path = Path(folder) / "sim" / "world.json"
+        write_whole(path, b"new", folders=True)
+        before = path.stat().st_ino
+        write_whole(path, b"newer")
+        assert path.read_text() == "newer" and path.stat().st_ino != before
 
 
 def test_folders_are_made_only_where_that_is_asked_for(tmp_path: Path) -> None:
