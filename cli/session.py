@@ -44,14 +44,15 @@ class Session:
         """Return the session of a command, from the options given before and after its name."""
         return cls(context=context, **context.meta.get("pico.session", {}))
 
-    def bench(self, fidelity: str | None = None, speed: float | None = None) -> Bench:
-        """Open the lab of this session; raises PicoError."""
+    def bench(self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False) -> Bench:
+        """Open the lab of this session; `writing`: to move something, or change files or history. Raises PicoError."""
         from pico.bench.bench import Bench
 
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
         if self.context is not None:
             self.context.call_on_close(bench.close)
-        self.wire(bench.root)
+        if writing:
+            self.wire(bench.root)
         self.tell(bench.folder.recovered)
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
@@ -63,7 +64,6 @@ class Session:
         from pico.history.reader import HistoryReader
 
         reader = HistoryReader(self.folder)
-        self.wire(reader.root)
         self.tell(reader.folder.recovered)
         return reader
 

@@ -60,7 +60,7 @@ def apply(
         from pico.drawing.film.movie_file import require_kind
 
         require_kind(session.folder / record)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     targets = (*(target or ()), *scope_of(context))
     options = {"exact": exact, "prefer": prefer, "targets": targets, "exclude": exclude or ()}
     plan = bench.plan_of(what, folder=session.folder, **options)

@@ -87,7 +87,7 @@ def continue_(
     from ..bisecting import go_on
 
     session = _approving(context, auto_approve)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     return go_on(session, bench, bench.bisection(expect=expect), auto_approve)
 
 
@@ -157,7 +157,7 @@ def _begin(
     from ..views import bisect as view
 
     session = _approving(context, auto_approve)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     search = bench.bisect(bad, good, **how)
     session.show(view.Begun, search)
     return go_on(session, bench, search, auto_approve)
@@ -170,7 +170,7 @@ def _told(
     from ..views import bisect as view
 
     session = _approving(context, auto_approve)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     search = bench.bisection()
     tried = search.told(verdict, bench.folder.history().resolve(commit).id if commit else None)
     session.show(view.Tried, search, tried)

@@ -33,7 +33,7 @@ def bisect_step(context: typer.Context, expect: Expect, fidelity: Fidelity = Non
 
     session = Session.of(context)
     try:
-        bench = session.bench(fidelity)
+        bench = session.bench(fidelity, writing=True)
     except PicoError as exc:
         if not bisecting(session.folder):
             raise

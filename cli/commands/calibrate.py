@@ -18,7 +18,7 @@ def calibrate(context: typer.Context) -> int:
     from pico.vision.calibration import FILE, write_calibration
 
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=True)
     session.say("Taking pictures of the calibration board (about half a minute) ...")
     found = calibrated(bench.setup, bench.sim.true_cameras(), bench.setup.lab.sim.seed)
     write_calibration(bench.root, found)

@@ -22,6 +22,6 @@ def capture(
     Only values that differ by more than their tolerance change, one line each; comments and layout stay.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=not dry_run)
     session.show(view, bench.capture(*(only or ()), write=not dry_run))
     return 0

@@ -40,7 +40,7 @@ def checkout(
     `pico status` tells the truth.
     """
     session = Session.of(context)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     named = scope_of(context)
     what = bench.taken(revision, named) if named else revision
     before = bench.here()

@@ -24,7 +24,7 @@ def cherry_pick(
     plan` then shows what would.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=True)
     before = bench.head_commit()
     done = bench.cherry_pick(revisions, mainline=mainline, commit=not no_commit)
     if not session.json:

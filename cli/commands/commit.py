@@ -41,7 +41,7 @@ def commit(
         raise PicoError(error("usage", "--capture and --planned contradict each other: one of bench and manifest wins"))
     session = Session.of(context)
     recorded = _recorded(meta or [])
-    bench = session.bench()
+    bench = session.bench(writing=True)
     mode = "capture" if capture else "planned" if planned else "strict"
     text = "\n\n".join(message) if message else None
     if edit:

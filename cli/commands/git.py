@@ -15,7 +15,7 @@ app = typer.Typer(
 
 @app.command()
 def install(context: typer.Context) -> int:
-    """Tell git about PICO's merge driver, in this repository only. The first command in a lab does that by itself."""
+    """Tell git about PICO's merge driver, in this repository only. The first command that writes does it by itself."""
     from pico.history.git.attributes import install
 
     session = Session.of(context)

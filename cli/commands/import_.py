@@ -28,7 +28,7 @@ def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False
     written there stays. A marker of which nothing says the type is asked for, and nothing is written.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=not dry_run)
     with waiting("Looking"):
         found = bench.import_parts(types or [], write=not dry_run)
     session.show(view, found, dry_run=dry_run)

@@ -21,7 +21,7 @@ def merge(
     (exit 3). Nothing moves: `pico plan` then shows what would.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=True)
     made = bench.merge(revision, message)
     if not session.json:
         session.report(made.diagnostics)

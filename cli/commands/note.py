@@ -20,7 +20,7 @@ def note(
     Notes are lines of `notes/PART.md`; the next `pico commit` takes them along, and merges keep those of both sides.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=bool(text))
     added = bench.note(part, " ".join(text)) if text else None
     session.show(view, part, bench.notes(part), added)
     return 0

@@ -30,7 +30,7 @@ def recover(
     before they go on.
     """
     session = Session.of(context)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     for keys, was_done in ((done, True), (not_done, False)):
         for key in keys or ():
             bench.answer(key, done=was_done)

@@ -18,6 +18,6 @@ def resume(
     hand still holds is set down first.
     """
     session = Session.of(context)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     plan, run = bench.resume_plan()
     return approve(session, bench, plan, auto_approve, resumes=run, stop_on_error=stop_on_error)

@@ -29,7 +29,7 @@ def revert(
     if message.strip().isdecimal():
         raise PicoError(error("usage", f"-m is the message; the side of a merge is `--mainline {message.strip()}`"))
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=True)
     before = bench.head_commit()
     done = bench.revert(revision, message, mainline=mainline, commit=not no_commit)
     if not session.json:

@@ -117,7 +117,7 @@ def place(
 ) -> int:
     """Place a component a distance after another along the beam."""
     session = Session.of(context)
-    bench = session.bench(fidelity, speed)
+    bench = session.bench(fidelity, speed, writing=not dry_run)
     return finish(session, bench, bench.place(component, after=after, distance=distance), dry_run)
 
 
@@ -132,7 +132,7 @@ def single(
 ) -> int:
     """Plan one operation and run it."""
     session = Session.of(context)
-    bench = session.bench(fidelity, speed)
+    bench = session.bench(fidelity, speed, writing=not dry_run)
     return finish(session, bench, bench.single(component, primitive, arguments), dry_run)
 
 

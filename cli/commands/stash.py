@@ -34,7 +34,7 @@ def stash(
         hint = did_you_mean(action, ACTIONS)
         raise PicoError(error("usage", f"pico stash can't `{action}`", hint=hint or f"one of {', '.join(ACTIONS)}"))
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=action != "list")
     if action == "list":
         session.show(view, action, bench.stash.shelves())
         return 0

@@ -15,5 +15,5 @@ def undo(context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity =
     Files stay as they are. Undone twice, it is as the run left it.
     """
     session = Session.of(context)
-    bench = session.bench(fidelity)
+    bench = session.bench(fidelity, writing=True)
     return approve(session, bench, bench.undo_plan(), auto_approve)

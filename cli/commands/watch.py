@@ -31,7 +31,7 @@ def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None
     the table or a run goes on, nor where it is the calibration that seems to have drifted. With --json a line a change.
     """
     session = Session.of(context)
-    bench = session.bench()
+    bench = session.bench(writing=heal)
     if heal:
         from pico.bench.drift import require_heal
 

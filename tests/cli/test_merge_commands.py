@@ -89,13 +89,6 @@ def test_the_driver_is_taken_out_set_and_checked(shel: Path, pico: Pico) -> None
     assert pico("git", "install").code == 0 and pico("doctor", "--json").data["well"]
 
 
-def test_the_first_command_in_a_clone_sets_the_driver_and_says_so_once(shel: Path, pico: Pico) -> None:
-    git("clone", "-q", ".", "../clone")
-    first, second = pico("-C", "../clone", "status"), pico("-C", "../clone", "status")
-    assert "git merges manifests through PICO" in first.err and second.err == ""
-    assert "pico.history.merge.driver" in git("-C", "../clone", "config", "merge.pico.driver")
-
-
 @pytest.mark.parametrize("words", [["merge", "side"], ["cherry-pick", "side"]], ids=" ".join)
 def test_a_split_index_is_named_with_the_way_out(shel: Path, pico: Pico, words: list[str]) -> None:
     commit("side", ("x: 520", "x: 530"))

@@ -1,6 +1,7 @@
 """How git comes to call PICO: `.gitattributes`, which travels with the repository, and local configuration.
 
-A repository can't configure what runs on somebody's machine, so that part is set by the first `pico` command in it.
+A repository can't configure what runs on somebody's machine, so that part is set by the first `pico` command in it that
+writes something; who only looks leaves git as it is.
 """
 
 from __future__ import annotations
@@ -143,7 +144,7 @@ def checkup(folder: Path) -> tuple[Diagnostic, ...]:
         wrong.append(warning("git-driver", "git does not know the merge driver: it was taken out here", hint=hint))
     elif not found.current:
         what = "knows PICO's drivers as another PICO set them" if found.known else "does not know PICO's drivers"
-        hint = "`pico git install` sets them, and so does the next command in this lab"
+        hint = "`pico git install` sets them, the next command that writes sets them, too"
         wrong.append(warning("git-driver", f"git {what}", hint=hint))
     elif not _runs():
         hint = "`pico git install` with the PICO that is to be used; until then git merges lines"

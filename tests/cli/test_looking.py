@@ -1,0 +1,63 @@
+"""Who opens a lab to look leaves git as it was; who writes has git call PICO, and is told so once."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+from commanding import Pico, edit
+
+LOOKS = (
+    "status", "plan", "plan e1", "explain", "graph", "log", "diff", "diff C3 E1-3", "blame", "drift", "verify", "show",
+    "runs list", "parts", "get p1", "validate", "capture --dry-run", "set p1 angle=3 --dry-run", "watch --looks 1",
+    "render --view top", "ruler p1 p2", "note p1", "stash list", "data status", "sim nudge p1 --dx 1",
+)  # fmt: skip
+"""Commands that write neither commits nor manifests and move nothing of the bench."""
+WRITES = (
+    "apply --auto-approve", "apply e1 --auto-approve -- p2", "set p1 angle=3", "capture", "commit -m x --capture",
+    "note p1 scratched", "merge e2", "stash push", "revert HEAD", "cherry-pick E1-2", "checkout e1 --files-only",
+)  # fmt: skip
+SAID = "from now on git merges manifests through PICO here"
+
+
+@pytest.fixture
+def clone(shel: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A lab as somebody gets it, of whom git knows nothing but that."""
+    folder = tmp_path / "clone"
+    subprocess.run(["git", "clone", "-q", str(shel), str(folder)], check=True)
+    for branch in ("e1", "e2"):
+        subprocess.run(["git", "branch", "-q", branch, f"origin/{branch}"], cwd=folder, check=True)
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def kept(folder: Path) -> dict[str, bytes]:
+    """Return what git keeps, apart from caches of PICO's own."""
+    git = folder / ".git"
+    files = (p for p in git.rglob("*") if p.is_file() and git / "pico" not in p.parents)
+    return {p.relative_to(git).as_posix(): p.read_bytes() for p in files}
+
+
+@pytest.mark.parametrize("words", LOOKS)
+def test_looking_writes_nothing_into_git(clone: Path, pico: Pico, words: str) -> None:
+    os.utime(clone / "state" / "table.yaml")  # git would refresh its index
+    before = kept(clone)
+    answer = pico(*words.split())
+    assert answer.code in (0, 1) and "Traceback" not in answer.err and "error[" not in answer.err, answer
+    assert kept(clone) == before
+    assert SAID not in answer.err
+
+
+@pytest.mark.parametrize("words", WRITES)
+def test_writing_has_git_call_pico_and_says_so_once(clone: Path, pico: Pico, words: str) -> None:
+    if words.startswith("stash"):
+        edit(clone / "state" / "table.yaml", "exposure: 10", "exposure: 11")
+    assert pico(*words.split()).err.count(SAID) == 1
+    assert b"pico.history.merge.driver" in kept(clone)["config"]
+    assert SAID not in pico(*words.split()).err
+
+
+def test_doctor_says_that_git_does_not_know_pico_yet(clone: Path, pico: Pico) -> None:
+    assert "the next command that writes sets them, too" in pico("doctor").err
