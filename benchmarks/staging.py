@@ -26,7 +26,9 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "tests" / "planning")]
+sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "tests" / "planning"), str(ROOT / "tests" / "staging")]
+
+from feedback_cases import all_to_move  # noqa: E402
 
 from pico.geometry import Shape, conflict, finger_zones, placed  # noqa: E402
 from pico.model.catalog import Footprint, Grasp  # noqa: E402
@@ -40,7 +42,6 @@ from pico.staging.feedback import (  # noqa: E402
     Problem,
     Staging,
     arrives,
-    fewest_vertices,
     leaves,
     solve,
 )
@@ -83,7 +84,7 @@ def classical(instances: Sequence[dict[str, Any]]) -> int:
     for density, n in sorted({(i["density"], i["n"]) for i in instances}):
         cell = [i for i in instances if (i["density"], i["n"]) == (density, n)]
         graphs = [depends(i) for i in cell]
-        answers = [timed(lambda g=g: fewest_vertices(g)) for g in graphs]
+        answers = [timed(lambda g=g: solve(all_to_move(g))) for g in graphs]
         known = [(i["min_staging"], a.count) for i, (a, _) in zip(cell, answers, strict=True)
                  if i["min_staging"] is not None]  # fmt: skip
         wrong += sum(best != count for best, count in known)
@@ -260,10 +261,10 @@ def with_fingers(tables: int, seed: int) -> None:
 
 def bodies_only(problem: Problem) -> int:
     """Return how many would be staged if fingers needed no room."""
-    graph: dict[int, list[int]] = {i: [] for i in range(len(problem.components))}
+    graph: list[list[int]] = [[] for _ in problem.components]
     for arc in problem.arcs:
         graph[arc.before.component].append(arc.after.component)
-    return fewest_vertices(graph).count
+    return solve(all_to_move(graph)).count
 
 
 if __name__ == "__main__":

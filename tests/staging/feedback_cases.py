@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from itertools import combinations, product
 
@@ -47,6 +47,19 @@ def least_feedback(successors: list[list[int]], weights: dict[int, float], forbi
             if acyclic(rest, [(u, v) for u in rest for v in successors[u] if v not in chosen]):
                 best = weight
     return best
+
+
+def all_to_move(
+    successors: Sequence[Collection[int]], weights: Mapping[int, float] | None = None, forbidden: Collection[int] = ()
+) -> Problem:
+    """Return the problem of components that each leave before their successors arrive; the `forbidden` are never
+    staged, what succeeds itself never moves directly. To stage the cheapest is to meet every cycle of the digraph.
+    """
+    one, cost, parts = (Option(0),), weights or {}, []
+    for i, following in enumerate(successors):
+        staged = () if i in forbidden else one
+        parts.append(Component(() if i in following else one, staged, staged, cost.get(i, 1.0)))
+    return Problem(tuple(parts), tuple(Arc(leaves(u), arrives(v)) for u, vs in enumerate(successors) for v in vs))
 
 
 def random_problem(rng: random.Random) -> Problem:

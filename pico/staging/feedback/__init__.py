@@ -1,4 +1,4 @@
-"""Fewest vertices, or fewest stagings, that leave a digraph without cycles; knows nothing of tables and robots."""
+"""Fewest stagings that leave what must come before what without a cycle; knows nothing of tables and robots."""
 
 from pico.staging.feedback.limit import Limit
 from pico.staging.feedback.problem import (
@@ -15,7 +15,6 @@ from pico.staging.feedback.problem import (
     leaves,
 )
 from pico.staging.feedback.staging import solve
-from pico.staging.feedback.vertices import Feedback, fewest_vertices
 
 __all__ = [
     "Arc",
@@ -23,14 +22,12 @@ __all__ = [
     "Component",
     "Cycle",
     "Event",
-    "Feedback",
     "Limit",
     "Link",
     "Option",
     "Problem",
     "Staging",
     "arrives",
-    "fewest_vertices",
     "leaves",
     "solve",
 ]

@@ -73,7 +73,7 @@ def _enough(edges: Sequence[Edge], links: Sequence[Link], table: Literals, pool:
     cover, given = cover_of(literals, members, table), 0
     while not work.spent:
         for clause in pool.clauses[given:]:
-            cover.at_least(bits(clause.escapes))
+            cover.one_of(bits(clause.escapes))
         given = len(pool.clauses)
         answer = cover.solve(work)
         if answer.infeasible:
@@ -111,5 +111,5 @@ def _contradict(clauses: Sequence[Clause], table: Literals, work: Work) -> bool:
     column = {b: n for n, b in enumerate(literals)}
     cover = cover_of(literals, members, table)
     for clause in clauses:
-        cover.at_least(column[b] for b in bits(clause.escapes))
+        cover.one_of(column[b] for b in bits(clause.escapes))
     return cover.solve(work).infeasible

@@ -29,8 +29,8 @@ class Choice:
 
 
 class Cover:
-    """Variables 0..n-1 are chosen or not; `costs` are at least 0. Clauses say that at least so many of some variables
-    are chosen, groups that exactly one is."""
+    """Variables 0..n-1 are chosen or not; `costs` are at least 0. Clauses say that one of some variables is
+    chosen, or more; groups that exactly one is."""
 
     def __init__(self, costs: Sequence[float]) -> None:
         import highspy
@@ -51,9 +51,9 @@ class Cover:
         kinds = np.full(count, highspy.HighsVarType.kInteger.value, dtype=np.uint8)
         self._highs.changeColsIntegrality(count, every, kinds)
 
-    def at_least(self, variables: Iterable[int], least: int = 1) -> None:
-        """Demand that at least `least` of the variables are chosen."""
-        self._row(variables, float(least), math.inf)
+    def one_of(self, variables: Iterable[int]) -> None:
+        """Demand that one of the variables is chosen, or more."""
+        self._row(variables, 1.0, math.inf)
 
     def exactly_one(self, variables: Iterable[int]) -> None:
         """Demand that one of the variables is chosen and no more."""

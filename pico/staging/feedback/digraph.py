@@ -4,62 +4,10 @@ from __future__ import annotations
 
 import heapq
 from collections import deque
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping
 
 Successors = Mapping[int, Collection[int]]
 """The out-neighbors of each vertex."""
-
-
-@dataclass(slots=True)
-class Digraph:
-    """A digraph that can shrink. A self-loop is an arc like any other; parallel arcs are one."""
-
-    succ: dict[int, set[int]]
-    pred: dict[int, set[int]]
-
-    @staticmethod
-    def of(vertices: Iterable[int], arcs: Iterable[tuple[int, int]]) -> Digraph:
-        """Return the graph of these vertices and arcs; arcs that leave the vertices are dropped."""
-        names = list(vertices)
-        graph = Digraph({v: set() for v in names}, {v: set() for v in names})
-        for u, v in arcs:
-            if u in graph.succ and v in graph.succ:
-                graph.link(u, v)
-        return graph
-
-    def induced(self, vertices: Iterable[int]) -> Digraph:
-        """Return a copy with only these vertices."""
-        keep = set(vertices)
-        return Digraph({v: self.succ[v] & keep for v in sorted(keep)}, {v: self.pred[v] & keep for v in sorted(keep)})
-
-    def link(self, u: int, v: int) -> None:
-        self.succ[u].add(v)
-        self.pred[v].add(u)
-
-    def unlink(self, u: int, v: int) -> None:
-        self.succ[u].discard(v)
-        self.pred[v].discard(u)
-
-    def remove(self, v: int) -> None:
-        """Remove a vertex with its arcs."""
-        for w in self.succ.pop(v):
-            self.pred[w].discard(v)
-        for u in self.pred.pop(v):
-            if u != v:
-                self.succ[u].discard(v)
-
-    def bypass(self, v: int) -> None:
-        """Remove a vertex without a self-loop, and lead every path through it past it."""
-        before, after = self.pred[v], self.succ[v]
-        self.remove(v)
-        for u in before:
-            for w in after:
-                self.link(u, w)
-
-    def both_ways(self, v: int) -> set[int]:
-        """Return the other vertices that form a 2-cycle with `v`."""
-        return (self.succ[v] & self.pred[v]) - {v}
 
 
 def strong_components(succ: Successors) -> list[list[int]]:

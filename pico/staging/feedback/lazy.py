@@ -66,7 +66,7 @@ def solve_region(region: Region, table: Literals, work: Work, steps: int) -> Out
     column = {b: n for n, b in enumerate(literals)}
     while (best is None or not reached(cost(table, best), bound)) and not work.spent:
         for clause in pool.clauses[given:]:
-            cover.at_least(column[b] for b in bits(clause.escapes))
+            cover.one_of(column[b] for b in bits(clause.escapes))
         given = len(pool.clauses)
         answer = cover.solve(work, None if best is None else frozenset(column[b] for b in bits(best)))
         if answer.infeasible:

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """How much work is allowed: integer programs solved, their branch-and-bound nodes, exchanges of the local search.
-    Counts, not seconds, so that the same problem always gets the same answer."""
+    """How much work is allowed: integer programs solved and their branch-and-bound nodes. Counts, not seconds, so that
+    the same problem always gets the same answer."""
 
     solves: int = 200
     nodes: int = 1_000
-    exchanges: int = 2_000
 
     def work(self) -> Work:
         """Return a fresh account of the programs and nodes allowed."""
