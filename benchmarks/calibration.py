@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -19,20 +20,24 @@ from typing import Any
 
 import numpy as np
 
-from pico.cameras.board import Sheet, datum_sheets, marker_sheet, photograph_sheets
-from pico.cameras.calibrating import calibrate
-from pico.cameras.errors import CameraShift, bumped, true_cameras
-from pico.manifest.catalog import load_catalog
-from pico.manifest.load import load_folder
-from pico.model.lab import Part, Setup, SimErrors
-from pico.model.pose import Pose
-from pico.vision.calibration import Calibration
-from pico.vision.localize import localize
-from pico.vision.nominal import camera_models
-from pico.vision.rigid import apart, motion, rotation, upright
-from pico.vision.sighting import Sighting
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
-LAB = Path(__file__).resolve().parent.parent / "labs" / "shel"
+from oracles.localize import localize  # noqa: E402
+
+from pico.cameras.board import Sheet, datum_sheets, marker_sheet, photograph_sheets  # noqa: E402
+from pico.cameras.calibrating import calibrate  # noqa: E402
+from pico.cameras.errors import CameraShift, bumped, true_cameras  # noqa: E402
+from pico.manifest.catalog import load_catalog  # noqa: E402
+from pico.manifest.load import load_folder  # noqa: E402
+from pico.model.lab import Part, Setup, SimErrors  # noqa: E402
+from pico.model.pose import Pose  # noqa: E402
+from pico.vision.calibration import Calibration  # noqa: E402
+from pico.vision.nominal import camera_models  # noqa: E402
+from pico.vision.rigid import apart, motion, rotation, upright  # noqa: E402
+from pico.vision.sighting import Sighting  # noqa: E402
+
+LAB = ROOT / "labs" / "shel"
 TYPES = ("linear_polarizer", "plano_convex_100", "mirror_tip_tilt", "iris", "sample_holder")
 INJECTED = SimErrors(camera_position=3.0, camera_rotation=0.5, focal_length=0.005)
 HEIGHT, SIZE = 140.0, 24.0

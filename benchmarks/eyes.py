@@ -21,7 +21,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+from oracles.inverse import ik  # noqa: E402
+from oracles.localize import localize  # noqa: E402
 
 from pico.cameras.simulated import Eyes, tool_pose  # noqa: E402
 from pico.diagnostics import PicoError  # noqa: E402
@@ -29,11 +32,9 @@ from pico.drawing.picture import posed_model  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.model.lab import Setup, SimErrors  # noqa: E402
 from pico.model.pose import Pose, angle_between  # noqa: E402
-from pico.motion.kinematics import ik  # noqa: E402
 from pico.motion.types import Joints  # noqa: E402
 from pico.twin.placement import upright  # noqa: E402
 from pico.vision.calibration import Accuracy, Calibration  # noqa: E402
-from pico.vision.localize import localize  # noqa: E402
 from pico.vision.nominal import camera_models  # noqa: E402
 
 APART, EDGE, BACK = 95.0, 60.0, 560.0  # mm, between components, from the table's edges, and no farther back than this

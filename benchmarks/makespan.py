@@ -21,7 +21,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+from oracles.proven import prove  # noqa: E402
 
 from pico.history.examples.example import make_example  # noqa: E402
 from pico.manifest.load import load_files, load_folder  # noqa: E402
@@ -38,7 +40,6 @@ from pico.planning.ordering.several_arms import work_of  # noqa: E402
 from pico.planning.ordering.solve import Problem, Solution, solve  # noqa: E402
 from pico.planning.ordering.travel import Clock  # noqa: E402
 from pico.planning.parts.situation import read_situation  # noqa: E402
-from pico.planning.proven import prove  # noqa: E402
 from pico.planning.request import Request  # noqa: E402
 
 MOST = 12

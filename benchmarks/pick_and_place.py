@@ -26,7 +26,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+from oracles.penetration import Watch  # noqa: E402
 
 from pico.backends.sim.judge import standing  # noqa: E402
 from pico.backends.sim.mover import MoveFailed  # noqa: E402
@@ -39,7 +41,6 @@ from pico.model.pose import Pose  # noqa: E402
 from pico.model.record import as_json  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Blocked, MovePath, Standing  # noqa: E402
-from pico.twin.penetration import Watch  # noqa: E402
 from pico.twin.physics import Twin  # noqa: E402
 from pico.twin.sight import Exact, Sight  # noqa: E402
 

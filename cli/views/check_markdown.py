@@ -13,7 +13,7 @@ from pico.model.plan import Plan
 
 from . import diagnostics
 from .check import SIGNS, base, notable, plan_line, said, verdict, why
-from .diff import name, poses_first
+from .diff import poses_first
 from .diff import said as motion
 from .markdown import fenced, prose, table
 from .style import count, place, plain, seconds
@@ -122,8 +122,3 @@ def _pictures(lab: LabChecked, folder: Path | None) -> list[str]:
 def _more(found: Sequence[object], rows: int, noun: str) -> list[str]:
     more = len(found) - rows
     return ["", f"… and {count(more, f'more {noun}')}."] if more > 0 else []
-
-
-def shown_name(change: Change) -> str:
-    """Return the address of a change as Markdown."""
-    return prose(name(change))

@@ -37,7 +37,6 @@ BLIND = frozenset({"calibration-drift", "marker-dark", "no-camera"})
 _FAR = 5.0  # standard deviations that a camera may be off where the lab says it is, before it counts as moved
 _ROOM = 5.0  # mm that an object may reach beyond its marker
 _LARGE = 45.0  # mm, radius of an object of which nothing is known, where the lab's own parts are smaller
-_UNCALIBRATED = "not-calibrated"
 
 
 @dataclass(frozen=True, eq=False)

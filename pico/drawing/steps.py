@@ -24,7 +24,6 @@ _INK: Color = (34, 40, 49)
 _FAINT: Color = (96, 105, 118)
 _PAPER: Color = (252, 252, 253)
 _RULE: Color = (214, 218, 224)
-_COLUMN = 440.0  # pixels that a column of the list takes at least, at 15-pixel letters
 
 
 @dataclass(frozen=True, slots=True)

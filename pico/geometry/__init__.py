@@ -1,7 +1,7 @@
 """Footprints, finger clearance, slots and regions: which things on the table come too near to one another."""
 
 from pico.geometry.fingers import finger_height, finger_zones
-from pico.geometry.grid import Grid, overlapping
+from pico.geometry.grid import Grid
 from pico.geometry.shape import (
     CONTACT,
     Shape,
@@ -30,7 +30,6 @@ __all__ = [
     "moved",
     "outline",
     "overhang",
-    "overlapping",
     "placed",
     "polygon",
     "reaches",

@@ -51,14 +51,3 @@ class Grid(Generic[K]):
     def conflicts(self, shape: Shape, margin: float) -> list[K]:
         """Return the keys of the shapes that come nearer to `shape` than `margin` mm, or touch it."""
         return [key for key in self.near(shape, margin) if conflict(shape, self.shapes[key], margin)]
-
-
-def overlapping(shapes: Mapping[K, Shape], margin: float = 0.0) -> list[tuple[K, K]]:
-    """Return every pair that comes nearer than `margin` mm or touches, each once, in the order of `shapes`."""
-    grid = Grid.of(shapes)
-    order = {key: i for i, key in enumerate(shapes)}
-    pairs = [
-        (a, b) for a, shape in shapes.items() for b in grid.near(shape, margin)
-        if order[a] < order[b] and conflict(shape, shapes[b], margin)
-    ]  # fmt: skip
-    return sorted(pairs, key=lambda p: (order[p[0]], order[p[1]]))

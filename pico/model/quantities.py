@@ -140,10 +140,8 @@ Length = Annotated[float, Unit("mm")]
 Angle = Annotated[float, Unit("deg")]
 Milliseconds = Annotated[float, Unit("ms")]
 Seconds = Annotated[float, Unit("s")]
-Power = Annotated[float, Unit("mW")]
 Mass = Annotated[float, Unit("kg")]
 Speed = Annotated[float, Unit("mm/s")]
-AngularSpeed = Annotated[float, Unit("deg/s")]
 
 Value = float | bool | str
 """The value of a tunable other than the pose, in the unit that its type declares."""

@@ -134,16 +134,6 @@ def column_of(robot: Robot, joints: Joints) -> Column | None:
     return None
 
 
-def ik(robot: Robot, x: float, y: float, z: float, yaw: float) -> tuple[Joints, ...]:
-    """Return every joint vector within limits that holds the tool vertical at (x, y, z) [mm, table frame].
-
-    `yaw` [deg, table frame] is the direction in which the jaws close; the part in hand turns with it, so `yaw` and
-    `yaw` + 180 are different answers here. Joints 3 and 5 are zero; see `columns` for the rest and the order. Empty
-    where the point is out of reach.
-    """
-    return tuple(joints for column in columns(robot, x, y, yaw) if (joints := column.at(z)) is not None)
-
-
 def reaches(robot: Robot, x: float, y: float, z: float) -> bool:
     """Return whether a vertical tool reaches (x, y, z) [mm]; its yaw never matters, joint 7 turns twice around."""
     radius = math.hypot(x - robot.mount.x, y - robot.mount.y)

@@ -24,8 +24,6 @@ DETOUR_TRIES = 4
 """Pairs tried with ways around after that."""
 WOUND = 0.02
 """What a turn of joints 1 and 7 away from zero counts where ways are else alike."""
-TRANSIT_DIP = 0.5
-"""No swing comes lower than this below the transit height [mm]."""
 STRAIGHTENED = 0.02
 """A tool that was stopped askew is made plumb on the spot where no joint turns by more than this for it [rad]."""
 _TOUCHING = -1.0

@@ -35,8 +35,3 @@ JOINT_JERK = 500.0
 """Greatest jerk of a joint [rad/s3]; an assumption."""
 TOOL_SPEED = 1000.0
 """Greatest speed of the tool center point [mm/s]."""
-
-
-def within_limits(joints: tuple[float, ...]) -> bool:
-    """Return whether every joint [rad] is in its range."""
-    return all(low <= q <= high for q, (low, high) in zip(joints, LIMITS, strict=True))

@@ -332,10 +332,6 @@ class Journal:
                     operation, after = operation_from_json(json.loads(intent)), json.loads(end).get("after")
                     yield Success(run=run, operation=operation, after=observed_from_json(after), at=at)
 
-    def unfinished(self) -> tuple[JournalRecord, ...]:
-        """Return the `started` records without an end: what was under way when a process was killed."""
-        return self._select("WHERE phase = 1 AND key NOT IN (SELECT key FROM records WHERE phase = 2)")
-
     def _select(self, where: str, *values: str) -> tuple[JournalRecord, ...]:
         columns = "seq, key, kind, component, digest, token, at, data"
         with self._guarded():

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from pico.model.catalog import MarkerPlate
 from pico.model.lab import Setup
@@ -14,31 +13,13 @@ from pico.model.pose import Pose
 from pico.vision.calibration import Calibration
 from pico.vision.datums import check
 from pico.vision.judge import Verdict, combined, judged
-from pico.vision.markers import Markers, detect, read_marker
+from pico.vision.markers import Markers, read_marker
 from pico.vision.poses import View, edge, flat_start, from_rays, meet, plane_points, triangulated
 from pico.vision.rigid import planar
 from pico.vision.sighting import Drift, Finding, Seen, Sighting, Stranger
 
-if TYPE_CHECKING:
-    from pico.vision.frame import Frame
-
 _HEIGHT, _SIZE = 140.0, 24.0  # mm, of a marker that nothing is known about
 _NEAR = 20.0  # mm: closer than this, what two cameras see is one thing
-
-
-def localize(setup: Setup, frames: Sequence[Frame], calibration: Calibration, held: Collection[str] = ()) -> Sighting:
-    """Return where the components stand that `frames` show, one frame a camera, and what was wrong.
-
-    `calibration`: its cameras stand in the table's frame (`Calibration.placed` for the eye of a robot). `held`: what
-    robots hold, which is not where it stands. A black frame shows nothing and is said to.
-
-    Never a wrong identity: a part has a pose only where its number was read in full, once, and stands upright at the
-    height that its type has. Two plates of one size at one height that were swapped by hand can't be told by any
-    picture: the number is then what says which part it is.
-    """
-    dark = tuple(frame.camera for frame in frames if frame.black)
-    seen = recognize(setup, [detect(frame) for frame in frames if not frame.black], calibration, held)
-    return replace_dark(seen, dark)
 
 
 def replace_dark(sighting: Sighting, dark: tuple[str, ...]) -> Sighting:
@@ -50,7 +31,15 @@ def replace_dark(sighting: Sighting, dark: tuple[str, ...]) -> Sighting:
 def recognize(
     setup: Setup, pictures: Sequence[Markers], calibration: Calibration, held: Collection[str] = ()
 ) -> Sighting:
-    """Return where the components stand whose markers `pictures` show; see `localize`."""
+    """Return where the components stand whose markers `pictures` show, one picture a camera, and what was wrong.
+
+    `calibration`: its cameras stand in the table's frame (`Calibration.placed` for the eye of a robot). `held`: what
+    robots hold, which is not where it stands.
+
+    Never a wrong identity: a part has a pose only where its number was read in full, once, and stands upright at the
+    height that its type has. Two plates of one size at one height that were swapped by hand can't be told by any
+    picture: the number is then what says which part it is.
+    """
     parts = _parts(setup)
     datums = {datum.marker for datum in setup.lab.datums.values()}
     views = _views(pictures, calibration)

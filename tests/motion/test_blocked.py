@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 from benchtop import ARM, DISC, PART, bench, moved, refused, stands
+from oracles.inverse import ik
 
 from pico.geometry.mass import center_of_mass
 from pico.model.body import Body
@@ -13,7 +14,7 @@ from pico.model.catalog import Footprint, Geometry, Grasp
 from pico.model.lab import Box2, KeepOut, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
-from pico.motion.kinematics import ik, tool_pose
+from pico.motion.kinematics import tool_pose
 from pico.motion.recheck import Recheck, Task
 from pico.motion.stability import check_stability
 

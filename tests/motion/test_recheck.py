@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 import pytest
 from benchtop import ARM, DISC, PART, TALL, TRIANGLE, WIDE, bench, depth_of, moved, refused, stands
+from oracles.inverse import ik
 
 from pico.model.catalog import Geometry
 from pico.model.lab import Box2, KeepOut, Margins, Mount, Robot
@@ -19,7 +20,6 @@ from pico.motion import frames
 from pico.motion.arm import attach_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.hulls import Placed, distance, of_geometry
-from pico.motion.kinematics import ik
 from pico.motion.recheck import Recheck, Task
 from pico.motion.types import MovePath, Segment
 from pico.motion.xarm7 import LIMITS

@@ -7,12 +7,12 @@ from dataclasses import replace
 import mujoco
 import pytest
 from benchtop import DISC, PART, TALL, TRIANGLE, bench, stands
+from oracles.inverse import ik
 
 from pico.model.lab import Box2, KeepOut, Margins, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm
 from pico.motion.arms import ArmMotion
-from pico.motion.kinematics import ik
 from pico.motion.scene import FREE, Scene, within_reach
 from pico.motion.solids import add_solids
 

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from oracles.inverse import ik
 
 from pico.model.lab import Mount, Robot
-from pico.motion.kinematics import columns, fk, ik
+from pico.motion.kinematics import columns, fk
 from pico.motion.paths import usable
 from pico.motion.timing import Limits, jaw_seconds, profile, straight, vertical
 from pico.motion.xarm7 import JOINT_ACCELERATION, JOINT_JERK, JOINT_SPEED, TOOL_SPEED

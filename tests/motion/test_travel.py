@@ -11,12 +11,12 @@ import pytest
 from benchtop import ARM, PART, bench, moved, stands
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from oracles.inverse import ik
 
 from pico.model.lab import Gripper, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion import timing
 from pico.motion.arms import ArmMotion
-from pico.motion.kinematics import ik
 from pico.motion.timing import Limits
 from pico.motion.types import MovePath
 

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 from benchtop import ARM, bench, moved
+from oracles.inverse import ik
 
 from pico.geometry import disc, polygon, separation
 from pico.model.lab import Mount, Robot, Table
 from pico.model.pose import Pose
 from pico.motion import frames
 from pico.motion.arms import ArmMotion
-from pico.motion.kinematics import ik
 from pico.motion.recheck import Recheck
 from pico.motion.zones import HAND, _shadow, enters, outermost, shared_zones
 

@@ -7,11 +7,11 @@ from importlib.util import find_spec
 from itertools import permutations
 
 import pytest
+from oracles.proven import prove, read_work
 
 from pico.diagnostics import PicoError
 from pico.model.record import as_json
 from pico.planning.ordering.arm_times import Work, least, soonest, timed
-from pico.planning.proven import prove, read_work
 
 SEEDS = range(12)
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sequencing_cases import Instance, cheapest, instance, keeps
 
-from pico.staging.sequencing import Effort, Sequence, best_order, makespan_bound
+from pico.staging.sequencing import Effort, Sequence, best_order
 
 LITTLE = Effort(moves=2000, steps=0, rounds=6)
 """No exact search: local search and the bound from cuts."""
@@ -109,9 +109,3 @@ def test_tables_that_do_not_fit_and_costs_that_are_none_are_errors() -> None:
         best_order([1, 1], [[0, 1]], [1, 1], [set(), set()])
     with pytest.raises(ValueError, match="finite"):
         best_order([1, 1], [[0, float("nan")], [1, 0]], [1, 1], [set(), set()])
-
-
-def test_no_schedule_ends_before_its_busiest_arm_or_its_longest_chain() -> None:
-    assert makespan_bound([30.0, 41.5], [12.0, 60.25]) == 60.25
-    assert makespan_bound([30.0, 41.5], [12.0]) == 41.5
-    assert makespan_bound([], []) == 0.0

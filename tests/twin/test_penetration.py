@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from oracles.penetration import Watch
 from physical import bench, finish, fresh, path_to, to
 
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.motion.kinematics import columns
-from pico.twin.penetration import Watch
 
 GOAL = Pose(395.0, 420.0, 30.0)
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from oracles.localize import localize
 from painted import Painted, bumped, picture, plate_of, scattered, scene, setup, stereo
 
 from pico.model.pose import Pose, angle_between
 from pico.vision.calibration import Accuracy, Calibration
 from pico.vision.frame import Frame
-from pico.vision.localize import localize
 from pico.vision.rigid import motion, rotation
 from pico.vision.sighting import Sighting
 

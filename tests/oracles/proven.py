@@ -1,6 +1,6 @@
 """The least time for several arms, proven by OR-Tools' CP-SAT: in a process of its own, where no highspy is imported.
 
-    python -m pico.planning.proven < work.json
+    python tests/oracles/proven.py < work.json
 
 Reads a `Work` as JSON; writes `makespan` and `lower_bound` [s], whether it is `proven`, and the `order`. For moves that
 are few: up to about twelve.
@@ -14,7 +14,10 @@ import sys
 from collections.abc import Iterator, Sequence
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from pico.diagnostics import PicoError, error
 from pico.model.record import as_json, record
@@ -39,9 +42,7 @@ class Proof:
 def prove(work: Work, python: str = sys.executable) -> Proof:
     """Return the order that ends soonest, from a process of `python`. Raises PicoError where OR-Tools is not there."""
     given = json.dumps(as_json(work))
-    done = subprocess.run(
-        [python, "-m", "pico.planning.proven"], input=given, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run([python, __file__], input=given, capture_output=True, text=True, check=False)
     if done.returncode:
         raise PicoError(error("missing-extra", done.stderr.strip() or "the process ended without an answer"))
     found = json.loads(done.stdout)
