@@ -36,7 +36,7 @@ sys.path.insert(0, str(ROOT))
 from pico.model.diff import Change  # noqa: E402
 from pico.model.plan import LabRef  # noqa: E402
 from pico.model.record import canonical  # noqa: E402
-from pico.model.run import Cause, RunDocument  # noqa: E402
+from pico.model.run import Cause, Run  # noqa: E402
 
 COLD, WARM = 5.0, 0.2
 PITCH = 100
@@ -190,7 +190,7 @@ def carried(history: History, version: Version, parents: tuple[int, ...]) -> dic
         return {}
     digest, name = "sha256:" + "0" * 64, f"r{version.number:06}"
     changed = [at for at, turn in version.truth.items() if turn.commit == version.number and at[1] == "pose"]
-    document = RunDocument(
+    document = Run(
         id=name, lab=LabRef(name="large", digest=digest), state_before=digest, state_after=digest, plan=digest,
         cause=Cause(kind="apply"), evidence="kinematic", started_at="2026-01-01T00:00:00Z", outcome="done",
         changes=tuple(Change(component=component, tunable=tunable) for component, tunable in changed),

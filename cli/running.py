@@ -19,7 +19,7 @@ from .views.run import Progress
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
-    from pico.execution.blocking import Run
+    from pico.execution.blocking import Execution
     from pico.model.event import Event
     from pico.model.plan import Plan
 
@@ -91,7 +91,7 @@ def _after(plan: Plan) -> str:
     return f"The manifest is as it was; {keep}. Go back with `pico undo`."
 
 
-def watched(run: Run, show: Callable[[Event], None]) -> tuple[int, ...]:
+def watched(run: Execution, show: Callable[[Event], None]) -> tuple[int, ...]:
     """Show a run until it is over, and say what a signal leads to; return the signals that ended it."""
     from pico.execution.attending import attend
 

@@ -50,8 +50,8 @@ def list_(
 def show(context: typer.Context, run: Run = None) -> int:
     """Show everything about a run: its operations with their times, what it changed, what proves it."""
     session = Session.of(context)
-    found = session.bench().recorded_run(run)
-    session.show(view, found)
+    found, commit = session.bench().recorded_run(run)
+    session.show(view, found, commit)
     if not session.json:
         session.report(found.diagnostics)
     return 0

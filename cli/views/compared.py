@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
-from pico.model.run import RunDocument
+from pico.model.run import Run
 
 from .diff import lines
 from .runs import deed, moment, shown
@@ -34,7 +34,7 @@ def text(found: Comparison) -> str:
     return "\n".join(block)
 
 
-def _title(letter: str, d: RunDocument) -> list[str]:
+def _title(letter: str, d: Run) -> list[str]:
     return [paint("bold", letter), shown(d.id), moment(d.started_at), d.evidence, deed(d)]
 
 

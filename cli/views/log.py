@@ -11,7 +11,7 @@ from pico.history.git.lanes import Row, lanes
 from pico.history.lab.folder import Entry
 from pico.history.messages.trailers import meta, without_trailers
 from pico.model.record import as_json
-from pico.model.run import RunDocument
+from pico.model.run import Run
 
 from .diff import brief, lines
 from .runs import shown
@@ -155,7 +155,7 @@ def proven(entry: Entry) -> list[str]:
     return found
 
 
-def ended(run: RunDocument) -> str:
+def ended(run: Run) -> str:
     """Return how a run ended: `5 moves done, 31 s`."""
     words = [f"{number} {outcome}" for outcome, number in run.tally.items() if number and outcome != "done"]
     done = run.tally.get("done", 0)

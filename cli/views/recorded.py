@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
-from pico.model.run import RunDocument
+from pico.model.run import Run
+from pico.runs.operations import operations
 
 from .diff import lines
 from .report import expectations
@@ -13,7 +14,8 @@ from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
 
 if TYPE_CHECKING:
-    from pico.history.runs.loading import Loaded
+    from pico.history.git.commit import Commit
+    from pico.runs.document import RecordedRun
     from pico.runs.operations import OperationRun
 
 PROVES = {
@@ -24,23 +26,22 @@ PROVES = {
 }
 
 
-def text(run: Loaded) -> str:
+def text(run: RecordedRun, commit: Commit | None) -> str:
     """Return what it was for, how it ended, what it changed, its operations, and what it ran with."""
-    d = run.document
-    block = [*_head(run), "", *_changed(d)]
-    if run.operations:
+    d, did = run.document, operations(run.trace)
+    block = [*_head(d, commit), "", *_changed(d)]
+    if did:
         head = [paint("dim", cell) for cell in ("from", "took", "planned", "operation", "", "how it ended")]
-        block += ["", "Operations:", *columns([head, *(_operation(op) for op in run.operations)], indent="  ")]
+        block += ["", "Operations:", *columns([head, *(_operation(op) for op in did)], indent="  ")]
     block += ["", *expectations(d.expectations)] if d.expectations else []
     return "\n".join([*block, "", *_with(run)])
 
 
-def _head(run: Loaded) -> list[str]:
-    d = run.document
+def _head(d: Run, commit: Commit | None) -> list[str]:
     where = "no commit has it yet"
-    if run.commit:
-        named = run.commit.label != run.commit.short
-        where = f"carried by {run.commit.label} ({run.commit.short})" if named else f"carried by {run.commit.short}"
+    if commit:
+        named = commit.label != commit.short
+        where = f"carried by {commit.label} ({commit.short})" if named else f"carried by {commit.short}"
     total = sum(d.tally.values())
     ended = f"{d.tally.get('done', 0)} of {count(total, 'operation')} done in {seconds(d.seconds)}"
     by = f" by {shown(d.operator)}" if d.operator else ""
@@ -52,7 +53,7 @@ def _head(run: Loaded) -> list[str]:
     ]
 
 
-def _changed(d: RunDocument) -> list[str]:
+def _changed(d: Run) -> list[str]:
     moved = [c for c in d.changes if not c.tolerated]
     within = len(d.changes) - len(moved)
     block = ["Changed:", *lines(moved)] if moved else ["It changed nothing beyond tolerance."]
@@ -95,7 +96,7 @@ def _ended(op: OperationRun) -> str:
     return paint(COLORS[op.outcome], said) if op.outcome in ("done", "failed") else paint("yellow", said)
 
 
-def _with(run: Loaded) -> list[str]:
+def _with(run: RecordedRun) -> list[str]:
     """Return what it ran with, and where its data is."""
     d = run.document
     rows = [["state", f"{_short(d.state_before)} → {_short(d.state_after)}"]]
@@ -110,9 +111,9 @@ def _with(run: Loaded) -> list[str]:
     rows += [["environment", shown(", ".join(f"{k} {v}" for k, v in d.environment.items()))]] if d.environment else []
     rows += [["versions", shown(", ".join(f"{k} {v}" for k, v in d.versions.items()))]] if d.versions else []
     rows += [["files", ", ".join(f"{shown(name)} {f.size} bytes" for name, f in d.files.items())]] if d.files else []
-    for here in run.artifacts:
-        where = "here" if here.present else paint("red", "not here: `pico data pull`")
-        rows.append(["artifact", f"{shown(here.artifact.name)} {here.artifact.size} bytes, {where}"])
+    for artifact in d.artifacts:
+        where = "here" if artifact.sha256 not in run.missing else paint("red", "not here: `pico data pull`")
+        rows.append(["artifact", f"{shown(artifact.name)} {artifact.size} bytes, {where}"])
     return columns([[paint("dim", name), value] for name, value in rows])
 
 
@@ -120,10 +121,12 @@ def _short(digest: str) -> str:
     return shown(digest.removeprefix("sha256:")[:12])
 
 
-def data(run: Loaded) -> dict[str, Any]:
+def data(run: RecordedRun, commit: Commit | None) -> dict[str, Any]:
     """Return `pico.recorded/v1`: `document`, `commit`, `operations`, `measurements`, `artifacts`, diagnostics."""
     found: dict[str, Any] = {"schema": "pico.recorded/v1", "document": as_json(run.document)}
-    found |= {"commit": run.commit.id} if run.commit else {}
-    for name in ("operations", "measurements", "artifacts", "diagnostics"):
-        found[name] = as_json(getattr(run, name))
-    return found
+    found |= {"commit": commit.id} if commit else {}
+    artifacts = [{"artifact": as_json(a), "present": a.sha256 not in run.missing} for a in run.document.artifacts]
+    return found | {
+        "operations": as_json(operations(run.trace)), "measurements": as_json(run.measurements),
+        "artifacts": artifacts, "diagnostics": as_json(run.diagnostics),
+    }  # fmt: skip

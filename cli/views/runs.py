@@ -7,29 +7,28 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic
 from pico.model.record import as_json
-from pico.model.run import RunDocument
+from pico.model.run import Run
 
 from .style import columns, count, paint, plain, seconds, shorten
 
 if TYPE_CHECKING:
-    from pico.history.runs.listing import Listed
+    from pico.history.git.commit import Commit
 
 COLORS = {"done": "green", "failed": "red", "interrupted": "yellow", "killed": "red"}
 
 
-def text(found: Sequence[Listed], _: Sequence[Diagnostic] = ()) -> str:
+def text(found: Sequence[tuple[Run, Commit | None]], _: Sequence[Diagnostic] = ()) -> str:
     """Return a line a run: id, what led where, evidence, outcome, seconds, commit."""
     if not found:
         return "No run here has moved anything; `pico runs list --all` looks at every branch and tag."
     head = [paint("dim", cell) for cell in ("run", "when (UTC)", "what", "evidence", "outcome", "took", "commit")]
-    rows = [_row(one) for one in found]
-    own = sum(one.commit is None for one in found)
+    rows = [_row(run, commit) for run, commit in found]
+    own = sum(commit is None for _, commit in found)
     last = [f"{count(own, 'run')} that no commit has yet: `pico commit` takes {'it' if own == 1 else 'them'}."]
     return "\n".join([*columns([head, *rows]), *(["", *last] if own else [])])
 
 
-def _row(one: Listed) -> list[str]:
-    d = one.document
+def _row(d: Run, commit: Commit | None) -> list[str]:
     return [
         shown(d.id),
         moment(d.started_at),
@@ -37,11 +36,11 @@ def _row(one: Listed) -> list[str]:
         d.evidence,
         paint(COLORS[d.outcome], d.outcome),
         seconds(d.seconds),
-        one.commit.label if one.commit else paint("yellow", "not yet"),
+        commit.label if commit else paint("yellow", "not yet"),
     ]
 
 
-def deed(d: RunDocument) -> str:
+def deed(d: Run) -> str:
     """Return what a run was for: `apply e1`, `undo 2026...`, `move p2`."""
     goal = shown(d.goal)
     if d.cause.kind in ("undo", "resume", "recover") or not d.cause.kind:
@@ -60,8 +59,8 @@ def shown(value: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in plain(value))
 
 
-def data(found: Sequence[Listed], wrong: Sequence[Diagnostic] = ()) -> dict[str, Any]:
+def data(found: Sequence[tuple[Run, Commit | None]], wrong: Sequence[Diagnostic] = ()) -> dict[str, Any]:
     """Return schema `pico.runs/v1`: `runs`, each `document` with its `commit` (absent where none has it yet), and
     `diagnostics`."""
-    runs = [{"document": as_json(one.document), **({"commit": one.commit.id} if one.commit else {})} for one in found]
+    runs = [{"document": as_json(run), **({"commit": commit.id} if commit else {})} for run, commit in found]
     return {"schema": "pico.runs/v1", "runs": runs, "diagnostics": as_json(list(wrong))}

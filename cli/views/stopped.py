@@ -15,9 +15,9 @@ def text(holder: Holder | None, run: RunRecord | None) -> str:
         return "Nothing moves: nobody has the bench."
     lines = [f"Stopped {holder.what} of {holder.user} (process {holder.pid})."]
     if run is not None and run.tally is not None:
-        counts = {k: int(run.tally.get(k, 0)) for k in ("done", "failed", "unknown", "skipped")}
         names = {"done": "done", "failed": "not completed", "unknown": "with unknown outcome", "skipped": "not started"}
-        lines.append(", ".join(f"{n} {names[k]}" for k, n in counts.items() if n or k == "done") + ".")
+        counts = {name: int(run.tally.get(end, 0)) for end, name in names.items()}
+        lines.append(", ".join(f"{n} {name}" for name, n in counts.items() if n or name == "done") + ".")
     return "\n".join([*lines, "Continue with `pico resume`; go back with `pico undo`."])
 
 

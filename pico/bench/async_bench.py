@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.bench.pictures.pictures import Drawings
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
-from pico.execution.watched import AsyncRun
+from pico.execution.async_execution import AsyncExecution
 from pico.history.lab.folder import LabFolder
 from pico.model.address import read_addresses
 from pico.model.diff import Change
@@ -273,7 +273,7 @@ class AsyncBench(Drawings):
         recording: Recording | None = None,
         resumes: str | None = None,
         stop_on_error: bool = False,
-    ) -> AsyncRun:
+    ) -> AsyncExecution:
         """Return the run of a plan: iterate over it for its events, then read its `report`.
 
         `recording`: keeps what a film of the run shows, see `film`; raises PicoError where nothing is simulated.
@@ -286,7 +286,7 @@ class AsyncBench(Drawings):
         elif recording is not None:
             raise PicoError(error("not-simulated", "only what is simulated can be recorded"))
         named = partial(self.goal_now, plan)
-        return AsyncRun(self.setup, plan, self.backend, named, resumes=resumes, stop_on_error=stop_on_error)
+        return AsyncExecution(self.setup, plan, self.backend, named, resumes=resumes, stop_on_error=stop_on_error)
 
     def goal_now(self, plan: Plan) -> str:
         """Return what a plan leads to as a person calls it, and that it is not that any more where it was edited since

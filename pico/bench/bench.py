@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from pico.bench.async_bench import AsyncBench, CommitMode
 from pico.diagnostics import Diagnostic
 from pico.execution.attending import attend
-from pico.execution.blocking import LoopThread, Run
+from pico.execution.blocking import Execution, LoopThread
 from pico.history.reader import Reader
 from pico.model.diff import Change
 from pico.model.expectation import Verified
@@ -33,15 +33,16 @@ if TYPE_CHECKING:
     from pico.drawing.picture import Image, View
     from pico.drawing.ruler import Measured
     from pico.history.data.lab import LabData
+    from pico.history.git.commit import Commit
     from pico.history.merge.commits import MergeMade
     from pico.history.restoring.selected import Taken
     from pico.history.restoring.stash import Stash
     from pico.history.restoring.transplant import Carried
     from pico.history.runs.comparing import Comparison
-    from pico.history.runs.listing import Listed
-    from pico.history.runs.loading import Loaded
+    from pico.model.run import Run
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
+    from pico.runs.document import RecordedRun
     from pico.twin.snapshot import Recording
 
 __all__ = ["AsyncBench", "Bench", "CommitMode", "new_lab"]
@@ -163,13 +164,13 @@ class Bench(Reader):
         """Return the plan that places a component `distance` mm after another along its beam."""
         return self._thread.wait(self._bench.place(component, after=after, distance=distance))
 
-    def runs(self, revision: str | None = None, **options: Any) -> tuple[Listed, ...]:
+    def runs(self, revision: str | None = None, **options: Any) -> tuple[tuple[Run, Commit | None], ...]:
         """Return the runs that commits carry, and those that none has yet; see `runs.listing.list_runs`."""
         from pico.history.runs.listing import list_runs
 
         return list_runs(self.folder, revision, **options)
 
-    def recorded_run(self, word: str | None = None) -> Loaded:
+    def recorded_run(self, word: str | None = None) -> tuple[RecordedRun, Commit | None]:
         """Return a run by the beginning of its id, the last one for None; see `pico.history.runs.loading.load_run`."""
         from pico.history.runs.loading import load_run
 
@@ -179,11 +180,11 @@ class Bench(Reader):
         """Return two runs side by side; see `pico.history.runs.comparing`."""
         from pico.history.runs.comparing import compare_runs
 
-        return compare_runs(self.setup, self.recorded_run(a), self.recorded_run(b))
+        return compare_runs(self.setup, self.recorded_run(a)[0], self.recorded_run(b)[0])
 
-    def run(self, plan: Plan, **options: Any) -> Run:
+    def run(self, plan: Plan, **options: Any) -> Execution:
         """Return the run of a plan: iterate over it for its events. `options`: see `AsyncBench.run`."""
-        return Run(self._bench.run(plan, **options), self._thread)
+        return Execution(self._bench.run(plan, **options), self._thread)
 
     def resume_plan(self) -> tuple[Plan, str]:
         """Return the plan to the goal of the last run, and its id; see `pico.bench.resuming`."""

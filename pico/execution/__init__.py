@@ -1,6 +1,5 @@
 """Runs a plan on a backend: checks, the walk of the graph, interruption, and what became of it."""
 
-from pico.execution.result import OperationReport, RunResult
 from pico.execution.run import run
 
-__all__ = ["OperationReport", "RunResult", "run"]
+__all__ = ["run"]

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
-from pico.execution.blocking import Run
+from pico.execution.blocking import Execution
 from pico.model.event import Event
 
 SAFELY = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"
@@ -21,7 +21,7 @@ ENDING = (signal.SIGTERM, signal.SIGHUP)
 
 
 def attend(
-    run: Run, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None
+    run: Execution, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None
 ) -> tuple[int, ...]:
     """Iterate a run to its end, showing each event; return the signals that ended it.
 
@@ -41,7 +41,7 @@ def attend(
 
 
 @contextmanager
-def interrupts(run: Run, say: Callable[[str], None]) -> Iterator[list[int]]:
+def interrupts(run: Execution, say: Callable[[str], None]) -> Iterator[list[int]]:
     """While a run goes on, let signals end it in order: nothing is raised, the events come to their end.
 
     SIGINT halts it at a safe waypoint; a second one, or SIGQUIT, stops it at once. SIGTERM and SIGHUP halt it too, and

@@ -10,7 +10,7 @@ from concurrent.futures import Future, wait
 from contextlib import suppress
 from typing import Any, TypeVar
 
-from pico.execution.watched import AsyncRun
+from pico.execution.async_execution import AsyncExecution
 from pico.model.event import Event
 from pico.model.plan import Plan
 from pico.model.report import RunReport
@@ -62,14 +62,14 @@ class LoopThread:
             self._loop = None
 
 
-class Run:
+class Execution:
     """A plan to be run: an iterator over its events, which begins with the first; `report` once it is `over`.
 
     An exception in the caller between two events does not end the run: go on iterating, or `halt` it first;
     `attending.attend` does.
     """
 
-    def __init__(self, run: AsyncRun, thread: LoopThread) -> None:
+    def __init__(self, run: AsyncExecution, thread: LoopThread) -> None:
         self._run, self._thread = run, thread
         self._queue: queue.SimpleQueue[Event | BaseException | None] = queue.SimpleQueue()
         self._begun = self.over = False

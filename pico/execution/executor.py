@@ -85,7 +85,7 @@ class Executor:
     @property
     def idle(self) -> bool:
         """Whether nothing is under way."""
-        return self.graph.count("running") == 0
+        return "running" not in self.graph.status.values()
 
 
 def retried(dispatch: Dispatch, result: OperationResult) -> Dispatch | None:

@@ -67,10 +67,6 @@ class Graph:
         """Return what has not started, in the plan's order."""
         return [op for op in self.operations if self.status[op.id] == "waiting"]
 
-    def count(self, status: Status) -> int:
-        """Return how many operations have this status."""
-        return sum(1 for s in self.status.values() if s == status)
-
 
 def ordered(operations: Sequence[Operation]) -> tuple[Operation, ...]:
     """Return the operations with each behind all that it comes after, else in the order given.

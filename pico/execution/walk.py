@@ -15,6 +15,7 @@ from pico.model.event import Event, EventKind
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Plan
 from pico.model.record import as_json
+from pico.model.run import tally
 from pico.runs.journal import Journal, RunOutcome
 
 
@@ -130,22 +131,19 @@ class Walk:
         self._emit(kind, op, {"seconds": result.seconds, **_failure(op, result)})
 
     def _finish(self) -> None:
-        graph, broken = self._executor.graph, self._executor.broken
-        left = graph.waiting()
-        unmet = bool(left or graph.count("failed") or graph.count("unknown"))
-        stopped = self._executor.interrupted and unmet
+        graph = self._executor.graph
+        left, counts = graph.waiting(), tally(graph.status.values())
         for op in left:
-            self._emit("operation_skipped", op, {"stopped": True} if broken else {"interrupted": True})
-        counts = {s: graph.count(s) for s in ("done", "failed", "unknown")}
-        counts["skipped"] = graph.count("skipped") + len(left)
+            self._emit("operation_skipped", op, {"stopped" if self._executor.broken else "interrupted": True})
         missed = counts["failed"] + counts["unknown"]
+        stopped = self._executor.interrupted and (left or missed)
         outcome: RunOutcome = "interrupted" if stopped else "failed" if missed else "done"
-        tally = {**counts, "seconds": self._now - self._begun}
+        data = {**counts, "seconds": self._now - self._begun}
         try:
             if self._journal:
-                self._journal.end_run(self._run, outcome, tally)
+                self._journal.end_run(self._run, outcome, data)
         finally:  # a journal that is gone must not hide what became of the run
-            self._emit("run_finished", data={"outcome": outcome, **tally})
+            self._emit("run_finished", data={"outcome": outcome, **data})
 
     async def _relay(self, events: AsyncIterator[Event]) -> None:
         """Pass on what the backend says of the operations of this run."""

@@ -24,7 +24,7 @@ def schemas() -> dict[str, dict[str, Any]]:
     from pico.model.event import Event
     from pico.model.lab import Lab
     from pico.model.plan import Plan
-    from pico.model.run import RunDocument
+    from pico.model.run import Run
 
     kinds = {
         "Lab": _manifest("Lab", Lab),
@@ -38,7 +38,7 @@ def schemas() -> dict[str, dict[str, Any]]:
         "manifest": _combined(kinds),
         "plan": _titled("A PICO plan, pico.plan/v1", _of(Plan)),
         "event": _titled("An event of an execution, pico.event/v1", _of(Event)),
-        "run": _titled("A run as a commit carries it, pico.run/v1", _of(RunDocument)),
+        "run": _titled("A run as a commit carries it, pico.run/v1", _of(Run)),
     }
 
 

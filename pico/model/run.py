@@ -1,8 +1,9 @@
-"""The document of a run, `pico.run/v1`: what led from one state of a bench to the next, and how far that is proven."""
+"""A run, `pico.run/v1`: what led from one state of a bench to the next, and how far that is proven."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any, Literal
 
@@ -18,6 +19,8 @@ RunEnd = Literal["done", "failed", "interrupted", "killed"]
 
 STRENGTH: Mapping[str, int] = {"planned": 0, "kinematic": 1, "physics": 2, "emulated": 3, "hardware": 4}
 """How much an evidence counts; only `hardware` says something of a real table."""
+OPERATION_ENDS = ("done", "failed", "unknown", "skipped")
+"""How an operation of a run ends; what did not begin is skipped."""
 
 
 @record
@@ -71,7 +74,7 @@ class Seen:
 
 
 @record
-class RunDocument:
+class Run:
     """One run.
 
     `parent`: the commit that was checked out when it was planned. `state_before`: the digest of the live state that it
@@ -143,3 +146,9 @@ class TraceEvent:
     attempt: int | None = None
     component: str | None = None
     data: Mapping[str, Any] = field(default_factory=dict)
+
+
+def tally(ends: Iterable[str]) -> dict[str, int]:
+    """Return how many operations ended how, by OPERATION_ENDS; one that has not ended yet counts as skipped."""
+    found = Counter(end if end in OPERATION_ENDS else "skipped" for end in ends)
+    return {end: found[end] for end in OPERATION_ENDS}

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 
-from pico.model.run import Artifact, RunDocument
+from pico.model.run import Artifact, Run
 from pico.runs.files import run_folder
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 
 
-def artifact_paths(run: RunDocument) -> dict[str, Artifact]:
+def artifact_paths(run: Run) -> dict[str, Artifact]:
     """Return the artifacts of a run by path relative to the lab, under names that are nothing but names.
 
     Two of one name are told apart by the beginnings of their hashes.

@@ -3,100 +3,82 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from pico.model.diff import Change
+from pico.diagnostics import Diagnostic
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.plan import LabRef
-from pico.model.record import digest
-from pico.model.run import STRENGTH, Cause, Evidence, RunDocument, RunEnd, Seen, TraceEvent
+from pico.model.record import digest, record
+from pico.model.run import STRENGTH, Cause, Run, Seen, TraceEvent
 from pico.model.state import LabState, state_from_json
-from pico.runs.journal import JournalRecord, RunRecord
+from pico.runs.journal import Journal, JournalRecord, RunRecord
 from pico.runs.states import changes, digest_of, state_left, state_seen, touched
-from pico.runs.trace import busy, measured, tally, trace_events
+from pico.runs.trace import busy, counted, measured, trace_events
 
 ASKED = ("asked", "parked", "interlock", "held")
 
 
-@dataclass(frozen=True)
-class Kept:
-    """What the journal kept of a run. `part`: how often it had been taken up again when a commit took what was before
-    that; 0 for a whole run."""
+@record
+class RecordedRun:
+    """A run with what lies beside its document. `after`: the state that was observed in the end, None where that is not
+    known. `missing`: the artifacts, by SHA-256, that are not here; `diagnostics`: what is wrong with the files."""
 
-    run: RunRecord
-    plan: Mapping[str, Any]
-    about: Sequence[Mapping[str, Any]]
-    seen: Mapping[str, Any] | None
-    records: Sequence[JournalRecord]
-    part: int = 0
-
-    @property
-    def id(self) -> str:
-        """The id of the document."""
-        return f"{self.run.run}-r{self.part}" if self.part else self.run.run
-
-    @property
-    def own(self) -> list[JournalRecord]:
-        """The records that no commit has yet: resumption n calls its operations `rn.op1`."""
-        return [r for r in self.records if _resumption(r) >= self.part]
+    document: Run
+    after: LabState | None = None
+    trace: tuple[TraceEvent, ...] = ()
+    measurements: tuple[TraceEvent, ...] = ()
+    missing: frozenset[str] = frozenset()
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
-@dataclass(frozen=True)
-class Recorded:
-    """A run, ready to be written; `after`: the state that was observed in the end."""
+def recorded(setup: Setup, journal: Journal, run: RunRecord, part: int = 0) -> RecordedRun | None:
+    """Return a run of a journal; `setup`: the bench as it is now. None where the journal did not keep its plan, or
+    nothing began.
 
-    document: RunDocument
-    after: LabState
-    trace: Sequence[TraceEvent] = field(default=())
-    measurements: Sequence[TraceEvent] = field(default=())
-
-
-def recorded(setup: Setup, kept: Kept) -> Recorded:
-    """Return a run as it is to be written; `setup`: the bench as it is now."""
-    run, plan, own = kept.run, kept.plan, kept.own
-    name = plan["lab"]["name"]
-    earlier = [r for r in kept.records if _resumption(r) < kept.part]
-    before = state_left(setup, state_from_json(name, plan["base"]["state"]), earlier)
-    after = state_seen(setup, kept.seen["components"]) if kept.seen else state_left(setup, before, own)
+    `part`: only what came since it was taken up again for the n-th time, where a commit has what was before that.
+    """
+    text, records = journal.document(run.run), journal.records(run=run.run)
+    own = [r for r in records if _resumption(r) >= part]
+    if text is None or not touched(own):
+        return None
+    plan = json.loads(text)  # plain data: it may be of an older PICO
+    starts, seen = journal.about(run.run)
+    earlier = [r for r in records if _resumption(r) < part]
+    before = state_left(setup, state_from_json(plan["lab"]["name"], plan["base"]["state"]), earlier)
+    after = state_seen(setup, seen["components"]) if seen else state_left(setup, before, own)
     trace, observed = trace_events(own), digest_of(setup, after)
-    about = kept.about[min(kept.part, len(kept.about) - 1)] if kept.about else {}
-    document = RunDocument(
-        id=kept.id,
+    about = starts[min(part, len(starts) - 1)] if starts else {}
+    document = Run(
+        id=f"{run.run}-r{part}" if part else run.run,
         number=run.number,
         lab=LabRef(**plan["lab"]),
         parent=plan["base"].get("commit"),
         state_before=digest_of(setup, before),
-        state_after=_reached(kept) or observed,
-        observed=Seen(at=kept.seen["at"] if kept.seen else own[-1].at, state=observed, looked=kept.seen is not None),
+        state_after=_reached(plan, seen) or observed,
+        observed=Seen(at=seen["at"] if seen else own[-1].at, state=observed, looked=seen is not None),
         plan=plan["digest"],
         goal=_goal(plan),
         goal_commit=plan["target"].get("commit"),
-        cause=_cause(kept, about),
-        evidence=_evidence(kept),
+        cause=Cause(kind="resume", of=run.run) if part else Cause(**about.get("cause", {})),
+        evidence=weakest(starts, plan),
         seed=about.get("seed"),
         operator=about.get("operator", ""),
         calibration=plan.get("calibration"),
         environment=about.get("environment", {}),
         versions=about.get("versions", {}),
-        started_at=own[0].at if kept.part else run.started_at,
+        started_at=own[0].at if part else run.started_at,
         ended_at=run.finished_at or own[-1].at,
-        outcome=_outcome(run),
+        outcome=run.outcome or "killed",
         seconds=busy(own),
-        tally=tally(own, int((run.tally or {}).get("skipped", 0))),
+        tally=counted(own, int((run.tally or {}).get("skipped", 0))),
         resumed=run.resumed,
-        expectations=_expectations(kept.seen),
+        expectations=tuple(Expected(**e) for e in seen["expectations"]) if seen else (),
         changes=changes(setup, before, after, touched(own)),
     )
-    return Recorded(document, after, trace, measured(kept.seen, trace[-1].t))
-
-
-def afterwards(setup: Setup, run: Recorded, now: LabState) -> tuple[Change, ...]:
-    """Return what has changed since the end of a run, beyond tolerance."""
-    found = changes(setup, run.after, now, run.after.components.keys() | now.components.keys())
-    return tuple(c for c in found if not c.tolerated)
+    measurements = measured(seen, trace[-1].t)
+    return RecordedRun(document=document, after=after, trace=trace, measurements=measurements)
 
 
 def _resumption(r: JournalRecord) -> int:
@@ -105,22 +87,17 @@ def _resumption(r: JournalRecord) -> int:
     return int(first[1:]) if dot and first.startswith("r") and first[1:].isdigit() else 0
 
 
-def _reached(kept: Kept) -> str | None:
+def _reached(plan: Mapping[str, Any], seen: Mapping[str, Any] | None) -> str | None:
     """Return the digest of the goal where all of it was reached, and it is that of a manifest."""
-    if kept.seen and kept.seen.get("reached") and not kept.plan["target"].get("title"):
-        return digest(kept.plan["target"]["state"])
+    if seen and seen.get("reached") and not plan["target"].get("title"):
+        return digest(plan["target"]["state"])
     return None
 
 
-def _evidence(kept: Kept) -> Evidence:
-    """Return the weakest evidence of all times that the run was taken up."""
-    known = [a["evidence"] for a in kept.about if a.get("evidence") in STRENGTH]
-    weakest: Evidence = min(known, key=lambda e: STRENGTH[e]) if known else kept.plan["fidelity"]
-    return weakest
-
-
-def _cause(kept: Kept, about: Mapping[str, Any]) -> Cause:
-    return Cause(kind="resume", of=kept.run.run) if kept.part else Cause(**about.get("cause", {}))
+def weakest(starts: Iterable[Mapping[str, Any]], plan: Mapping[str, Any]) -> Any:
+    """Return the weakest evidence of all times that a run was taken up, as its plan says where nothing else does."""
+    known = [about["evidence"] for about in starts if about.get("evidence") in STRENGTH]
+    return min(known, key=lambda e: STRENGTH[e]) if known else plan.get("fidelity")
 
 
 def _goal(plan: Mapping[str, Any]) -> str:
@@ -138,17 +115,3 @@ def _goal(plan: Mapping[str, Any]) -> str:
 def _address(op: Mapping[str, Any]) -> str:
     tunable = op["arguments"].get("tunable")
     return f"{op['component']}.{tunable}" if tunable else str(op["component"])
-
-
-def _outcome(run: RunRecord) -> RunEnd:
-    return run.outcome or "killed"
-
-
-def _expectations(seen: Mapping[str, Any] | None) -> tuple[Expected, ...]:
-    return tuple(Expected(**e) for e in seen["expectations"]) if seen else ()
-
-
-def read_plan(text: str) -> Mapping[str, Any]:
-    """Return a plan as the journal kept it, as plain data: it may be of an older PICO."""
-    found: Mapping[str, Any] = json.loads(text)
-    return found

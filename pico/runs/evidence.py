@@ -22,6 +22,7 @@ from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, place_of
+from pico.runs.document import weakest
 from pico.runs.journal import Journal
 
 Tunables = Collection[tuple[str, str]]
@@ -131,11 +132,8 @@ def _there(setup: Setup, state: LabState, one: tuple[str, str], part: ObservedCo
 
 def _of_run(journal: Journal, run: str) -> str | None:
     """Return the weakest evidence of all times that a run was taken up, as its plan says where nothing else does."""
-    known = [str(about["evidence"]) for about in journal.about(run)[0] if about.get("evidence") in STRENGTH]
-    if known:
-        return min(known, key=lambda e: STRENGTH[e])
-    fidelity = json.loads(journal.document(run) or "{}").get("fidelity")
-    return fidelity if fidelity in STRENGTH else None
+    found = weakest(journal.about(run)[0], json.loads(journal.document(run) or "{}"))
+    return found if found in STRENGTH else None
 
 
 def changed_by(documents: Iterable[bytes]) -> set[tuple[str, str]]:

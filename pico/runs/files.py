@@ -15,7 +15,7 @@ from pathlib import PurePosixPath
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.record import canonical
-from pico.model.run import Artifact, FileRef, RunDocument, TraceEvent
+from pico.model.run import Artifact, FileRef, Run, TraceEvent
 from pico.runs.reading import read_document
 
 DOCUMENT, TRACE, MEASUREMENTS = "run.json", "trace.jsonl", "measurements.jsonl"
@@ -27,13 +27,13 @@ Keep = Callable[[bytes], object]
 """Keeps bytes where they can be found by their SHA-256, as `Store.put` does."""
 
 
-def run_folder(document: RunDocument) -> str:
+def run_folder(document: Run) -> str:
     """Return where the files of a run lie, relative to the lab: `runs/2026/11/<id>`, by when it started."""
     return f"runs/{document.started_at[:4]}/{document.started_at[5:7]}/{document.id}"
 
 
 def run_files(
-    document: RunDocument,
+    document: Run,
     trace: Iterable[TraceEvent] = (),
     measurements: Iterable[TraceEvent] = (),
     *,
@@ -58,7 +58,7 @@ def run_files(
     return {f"{run_folder(document)}/{name}": data for name, data in files.items()}
 
 
-def read_runs(files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None = None) -> tuple[RunDocument, ...]:
+def read_runs(files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None = None) -> tuple[Run, ...]:
     """Return the documents among `files`, by path, in the order in which the runs started.
 
     What is no run's document is passed over; one that is damaged, too, and a warning that names it is appended to
@@ -69,13 +69,13 @@ def read_runs(files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None =
         match = _PATH.fullmatch(path)
         if match:
             document = read_document(path, data, match["id"])
-            found += [document] if isinstance(document, RunDocument) else []
+            found += [document] if isinstance(document, Run) else []
             if diagnostics is not None and isinstance(document, Diagnostic):
                 diagnostics.append(document)
     return tuple(sorted(found, key=lambda d: d.order))
 
 
-def intact(document: RunDocument, files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None = None) -> bool:
+def intact(document: Run, files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None = None) -> bool:
     """Return whether the files that a document names are there, as they were written.
 
     `files` by path, as `run_files` gave them; a warning for each that is not is appended to `diagnostics`.
@@ -105,7 +105,7 @@ def _artifact(name: str, data: bytes) -> Artifact:
     return Artifact(name=f"{name}.gz", sha256=_sha256(data), size=len(data), media_type="application/gzip")
 
 
-def _trouble(document: RunDocument, name: str, files: Mapping[str, bytes]) -> Diagnostic | None:
+def _trouble(document: Run, name: str, files: Mapping[str, bytes]) -> Diagnostic | None:
     path = str(PurePosixPath(run_folder(document)) / name)
     data, told = files.get(path), document.files[name]
     if data is None:

@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.run import SCHEMA, RunDocument, TraceEvent
+from pico.model.run import SCHEMA, Run, TraceEvent
 
 LARGEST = 1 << 20
 """Bytes above which no document of a run is read."""
@@ -20,7 +20,7 @@ _HASH = re.compile(r"[0-9a-f]{64}")
 _DAY = re.compile(r"\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}[.0-9]*(?:Z|[+-]\d{2}:\d{2})")
 
 
-def read_document(path: str, data: bytes, name: str) -> RunDocument | Diagnostic:
+def read_document(path: str, data: bytes, name: str) -> Run | Diagnostic:
     """Return the document of the run `name`, or a warning that names the file and says what is wrong with it.
 
     Keys that this version does not know are passed over.
@@ -36,7 +36,7 @@ def read_document(path: str, data: bytes, name: str) -> RunDocument | Diagnostic
         hint = "it may be of a newer PICO, or of another program"
         return warning("run-file", f"{path} is no {SCHEMA}, but {str(said)[:40]!r}", hint=hint)
     try:
-        document = _checked(content, RunDocument)
+        document = _checked(content, Run)
     except ValueError as exc:
         return _damaged(path, str(exc))
     wrong = _wrong(document, name)
@@ -64,7 +64,7 @@ def read_events(path: str, data: bytes, diagnostics: list[Diagnostic] | None = N
     return tuple(found)
 
 
-def _wrong(document: RunDocument, name: str) -> str:
+def _wrong(document: Run, name: str) -> str:
     """Return what no document that PICO wrote has."""
     if document.id != name or not _ID.fullmatch(name):
         return f"it says that it is of the run {document.id[:60]!r}"

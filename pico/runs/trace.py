@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pico.model.run import TraceEvent
+from pico.model.run import TraceEvent, tally
 from pico.runs.files import numbered
 from pico.runs.journal import JournalRecord
 
@@ -40,7 +40,7 @@ def busy(records: Sequence[JournalRecord]) -> float:
     return total
 
 
-def tally(records: Sequence[JournalRecord], skipped: int) -> dict[str, int]:
+def counted(records: Sequence[JournalRecord], skipped: int) -> dict[str, int]:
     """Return how many operations ended how, each by its last attempt, and as the bench was seen in the end."""
     last: dict[str, str] = {}
     for r in records:
@@ -51,8 +51,7 @@ def tally(records: Sequence[JournalRecord], skipped: int) -> dict[str, int]:
             last[operation] = "unknown"
         elif r.kind == "resolved":
             last[operation] = str(r.data["outcome"])
-    counts = {kind: sum(end == kind for end in last.values()) for kind in ENDS}
-    return counts | {"skipped": skipped}
+    return tally(last.values()) | {"skipped": skipped}
 
 
 def measured(seen: Mapping[str, Any] | None, t: float) -> tuple[TraceEvent, ...]:

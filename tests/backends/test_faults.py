@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 from benches import apply, execute, plan_to, shel, sim
+from results import RunResult
 
 from pico.backends.sim.faults import KINDS, Faults, parse, save_faults
 from pico.backends.sim.hand import nudge, power_cycle, remove
 from pico.backends.sim.store import change_world, load_world
 from pico.diagnostics import PicoError
-from pico.execution import RunResult
 from pico.model.diff import diff_observed
 from pico.model.plan import Plan
 

@@ -9,10 +9,11 @@ from typing import Any
 import pytest
 from benches import execute, plan_to, shel, sim
 from oracles.unfinished import unfinished
+from results import RunResult
 
 from pico.backends.sim.halting import phase_at, way_out
 from pico.backends.sim.store import load_world
-from pico.execution import RunResult, run
+from pico.execution import run
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.motion.types import MovePath, Segment

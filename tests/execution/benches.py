@@ -8,8 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from results import RunResult
+
 from pico.backends.sim.backend import SimBackend
-from pico.execution import RunResult, run
+from pico.execution import run
 from pico.manifest.load import load_folder
 from pico.model.event import Event
 from pico.model.lab import Setup

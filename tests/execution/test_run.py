@@ -11,13 +11,14 @@ from typing import Any
 import pytest
 from benches import apply, changed, execute, plan_to, shel, sim
 from oracles.unfinished import unfinished
+from results import RunResult
 
 from pico.backends.sim.backend import SimBackend
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import change_world
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.execution import RunResult, run
+from pico.execution import run
 from pico.model.event import Event
 from pico.model.operation import Operation
 from pico.model.plan import Plan
@@ -160,7 +161,6 @@ def test_a_failure_skips_what_depends_on_it_and_nothing_else_and_the_next_apply_
     lost = later[0].component
     result, events = while_running(bench, chained, lambda e: e.kind == "operation_started", lambda: hidden(bench, lost))
     assert result.outcome == "failed"
-    assert result.exit_code == ExitCode.ERROR
     failed = {k: r for k, r in result.operations.items() if r.outcome == "failed"}
     assert later[0].id in failed
     assert f"{lost} is not on the table" in failed[later[0].id].data["diagnostic"]["summary"]
@@ -189,7 +189,7 @@ def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing
 
     events = asyncio.run(go())
     result = RunResult.of(events)
-    assert (result.outcome, result.exit_code) == ("interrupted", ExitCode.INTERRUPTED)
+    assert result.outcome == "interrupted"
     under_way = {e.operation for e in events if e.kind == "operation_started"}
     assert {k for k, r in result.operations.items() if r.outcome == "done"} == under_way
     assert result.skipped == len(planned.operations) - len(under_way)

@@ -13,7 +13,7 @@ from pico.history.runs.committed import places_in_history
 from pico.history.runs.proof import Standings
 from pico.model.proof import Standing
 from pico.model.report import Committed
-from pico.model.run import RunDocument
+from pico.model.run import Run
 
 
 def git(folder: Path, *arguments: str, code: int = 0) -> str:
@@ -77,7 +77,7 @@ def carried(folder: Path) -> dict[str, str]:
     return {name: place.commit for name, place in places_in_history(repository, folder).items()}
 
 
-def own(folder: Path) -> list[RunDocument]:
+def own(folder: Path) -> list[Run]:
     """Return the runs that no commit has yet."""
     return [run.document for run in unrecorded(LabFolder(folder))]
 

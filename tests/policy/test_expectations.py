@@ -73,3 +73,4 @@ def test_an_expectation_that_does_not_hold_or_is_unknown_ends_a_command_with_6(h
     assert Verified(goal="e1", expectations=found).exit_code == code
     assert RunReport(run="r", goal="e1", outcome="done", expectations=found).exit_code == code
     assert RunReport(run="r", goal="e1", outcome="failed", expectations=found).exit_code == ExitCode.ERROR
+    assert RunReport(run="r", goal="e1", outcome="interrupted", expectations=found).exit_code == ExitCode.INTERRUPTED

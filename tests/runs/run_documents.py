@@ -9,18 +9,18 @@ from hypothesis import strategies as st
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.plan import LabRef
-from pico.model.run import Artifact, Cause, RunDocument, Seen, TraceEvent
+from pico.model.run import Artifact, Cause, Run, Seen, TraceEvent
 
 A, B = "sha256:" + "a" * 64, "sha256:" + "b" * 64
 
 
-def run_document(**fields: Any) -> RunDocument:
+def run_document(**fields: Any) -> Run:
     """Return a document with some fields of one's own."""
     known: dict[str, Any] = {
         "id": "20261121T101155Z-af9bba", "lab": LabRef(name="shel", digest=A), "state_before": A, "state_after": B,
         "plan": A, "evidence": "kinematic", "started_at": "2026-11-21T10:11:55Z", "outcome": "done",
     }  # fmt: skip
-    return RunDocument(**(known | fields))
+    return Run(**(known | fields))
 
 
 _TEXT = st.text(st.characters(codec="utf-8"), max_size=20)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from run_documents import DOCUMENTS, EVENTS, run_document
 
 from pico.diagnostics import Diagnostic
-from pico.model.run import RunDocument, TraceEvent
+from pico.model.run import Run, TraceEvent
 from pico.runs.files import INLINE, intact, read_runs, run_files, run_folder
 from pico.runs.reading import read_events
 
@@ -26,7 +26,7 @@ def events(number: int, text: str = "x") -> list[TraceEvent]:
 
 @given(DOCUMENTS, EVENTS, EVENTS)
 @settings(max_examples=60, deadline=None)
-def test_what_is_written_is_read(document: RunDocument, trace: list[TraceEvent], measured: list[TraceEvent]) -> None:
+def test_what_is_written_is_read(document: Run, trace: list[TraceEvent], measured: list[TraceEvent]) -> None:
     wrong: list[Diagnostic] = []
     files = run_files(document, trace, measured)
     (read,) = read_runs(files, wrong)
@@ -126,7 +126,7 @@ def test_what_a_newer_pico_adds_is_passed_over() -> None:
 
 @given(DOCUMENTS, st.integers(0, 10**6), st.binary(max_size=4), st.integers(0, 8))
 @settings(max_examples=100, deadline=None)
-def test_whatever_happens_to_the_bytes_nothing_is_raised(document: RunDocument, at: int, put: bytes, gone: int) -> None:
+def test_whatever_happens_to_the_bytes_nothing_is_raised(document: Run, at: int, put: bytes, gone: int) -> None:
     files = run_files(document)
     path = f"{run_folder(document)}/run.json"
     place = at % len(files[path])

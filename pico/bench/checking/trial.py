@@ -87,8 +87,8 @@ def run(setup: Setup, world: World, plan: Plan, *, fidelity: str, lab: Path) -> 
     became of it; raises PicoError where the simulator refuses the plan."""
     from pico.backends.sim.backend import SimBackend
     from pico.backends.sim.store import save_world
-    from pico.execution.blocking import LoopThread, Run
-    from pico.execution.watched import AsyncRun
+    from pico.execution.async_execution import AsyncExecution
+    from pico.execution.blocking import Execution, LoopThread
 
     own = simulated(setup)
     plan = replace(plan, fidelity=fidelity, lab=LabRef(name=plan.lab.name, digest=own.digest()))
@@ -100,10 +100,10 @@ def run(setup: Setup, world: World, plan: Plan, *, fidelity: str, lab: Path) -> 
         save_world(folder, world, durable=False)
         backend = SimBackend(own, folder, fidelity)
         try:
-            watched = Run(AsyncRun(own, plan, backend, holder="pico check"), thread)
-            for _ in watched:
+            execution = Execution(AsyncExecution(own, plan, backend, holder="pico check"), thread)
+            for _ in execution:
                 pass
-            return watched.report
+            return execution.report
         finally:
             thread.wait(backend.close())
             thread.close()

@@ -12,8 +12,9 @@ from datetime import datetime
 from typing import Any
 from urllib.parse import quote
 
-from pico.bench.publishing.parts import File, PublishedRun, Revision
-from pico.model.run import RunDocument
+from pico.bench.publishing.parts import File, Revision
+from pico.model.run import Run
+from pico.runs.files import run_folder
 
 NAME = "ro-crate-metadata.json"
 SPECIFICATION, PROFILE = "https://w3id.org/ro/crate/1.1", "https://w3id.org/ro/wfrun/process/0.5"
@@ -65,7 +66,7 @@ def _entities(revision: Revision) -> Iterator[Entity]:
     yield from (_file(f) for f in revision.files)
     yield from _license(revision)
     yield _person(_author(revision))
-    for evidence in sorted({revision.evidence, *(run.document.evidence for run in revision.runs)}):
+    for evidence in sorted({revision.evidence, *(run.evidence for run in revision.runs)}):
         yield _evidence(evidence)
     for run in revision.runs:
         yield from _run(revision, run)
@@ -91,7 +92,7 @@ def _root(revision: Revision, inside: list[str]) -> Entity:
         "additionalProperty": _ref(f"#evidence-{revision.evidence}"),
         "hasPart": _refs(inside),
     }
-    return entity | ({"mentions": _refs(_action(run.document) for run in revision.runs)} if revision.runs else {})
+    return entity | ({"mentions": _refs(_action(run) for run in revision.runs)} if revision.runs else {})
 
 
 def _file(file: File) -> Entity:
@@ -105,41 +106,41 @@ def _file(file: File) -> Entity:
     }
 
 
-def _run(revision: Revision, run: PublishedRun) -> Iterator[Entity]:
+def _run(revision: Revision, run: Run) -> Iterator[Entity]:
     """Yield the action that a run was, and what it was done by and with."""
-    document = run.document
-    software = [_software(name, version) for name, version in sorted(document.versions.items())]
+    files = (f.path for f in revision.files if f.path.startswith(f"{run_folder(run)}/"))
+    software = [_software(name, version) for name, version in sorted(run.versions.items())]
     yield from software
     own = next((s["@id"] for s in software if s["name"] == "pico"), "#pico")
     needed = [s["@id"] for s in software if s["@id"] != own]
-    pico = _software("pico", document.versions.get("pico", "unknown")) | {"@id": own}
+    pico = _software("pico", run.versions.get("pico", "unknown")) | {"@id": own}
     yield pico | ({"softwareRequirements": [_ref(name) for name in needed]} if needed else {})
-    bench = _bench(revision, document)
+    bench = _bench(revision, run)
     yield bench
-    done = document.outcome == "done"
-    reached = ["state.json"] if document.state_after == revision.state else []
+    done = run.outcome == "done"
+    reached = ["state.json"] if run.state_after == revision.state else []
     entity = {
-        "@id": _action(document),
+        "@id": _action(run),
         "@type": "CreateAction",
-        "name": f"{document.cause.kind or 'run'}: {document.goal or document.id}",
-        "description": f"{EVIDENCE[document.evidence]}; {_tally(document)}",
+        "name": f"{run.cause.kind or 'run'}: {run.goal or run.id}",
+        "description": f"{EVIDENCE[run.evidence]}; {_tally(run)}",
         "instrument": [_ref(own), _ref(bench["@id"])],
         "object": _ref("lab/"),
-        "result": _refs([*run.files, *reached]),
-        "startTime": _time(document.started_at),
+        "result": _refs([*files, *reached]),
+        "startTime": _time(run.started_at),
         "actionStatus": f"http://schema.org/{'Completed' if done else 'Failed'}ActionStatus",
-        "additionalProperty": _ref(f"#evidence-{document.evidence}"),
+        "additionalProperty": _ref(f"#evidence-{run.evidence}"),
     }
-    entity |= {"endTime": _time(document.ended_at)} if document.ended_at else {}
-    entity |= {} if done else {"error": f"it ended {document.outcome}"}
-    if document.operator:
-        person = _person(document.operator)
+    entity |= {"endTime": _time(run.ended_at)} if run.ended_at else {}
+    entity |= {} if done else {"error": f"it ended {run.outcome}"}
+    if run.operator:
+        person = _person(run.operator)
         yield person
         entity["agent"] = _ref(person["@id"])
     yield entity
 
 
-def _bench(revision: Revision, run: RunDocument) -> Entity:
+def _bench(revision: Revision, run: Run) -> Entity:
     """Return the bench: a simulated one is software, a real one a thing."""
     simulated = run.evidence in ("kinematic", "physics", "emulated")
     lab = revision.setup.lab
@@ -204,11 +205,11 @@ def _title(path: str, revision: Revision) -> str:
         "catalog/": "component types of PICO",
         "pictures/": "the table as it should stand",
     }
-    run = next((r.document for r in revision.runs if path == f"{r.folder}/"), None)
+    run = next((r for r in revision.runs if path == f"{run_folder(r)}/"), None)
     return f"run {run.id}: {run.goal}" if run else known.get(path, path.rstrip("/"))
 
 
-def _tally(run: RunDocument) -> str:
+def _tally(run: Run) -> str:
     counted = ", ".join(f"{n} {how}" for how, n in sorted(run.tally.items()) if n)
     return f"operations: {counted or 'none'}; {run.seconds:g} s on the clock of the bench"
 
@@ -218,7 +219,7 @@ def _time(moment: str) -> str:
     return datetime.fromisoformat(moment).isoformat(timespec="milliseconds")
 
 
-def _action(run: RunDocument) -> str:
+def _action(run: Run) -> str:
     return f"#run-{quote(run.id)}"
 
 

@@ -9,12 +9,11 @@ from typing import Any
 
 from pico.bench.publishing.computed import pictures_of, plan_between, states, types
 from pico.bench.publishing.parts import File, Revision, file
-from pico.bench.publishing.run_files import chosen_runs, published_runs
+from pico.bench.publishing.run_files import chosen_runs, files_of
 from pico.diagnostics import PicoError
 from pico.history.lab.folder import LabFolder
-from pico.history.runs.committed import CarriedRun
 from pico.model.lab import Setup
-from pico.model.run import STRENGTH
+from pico.model.run import STRENGTH, Run
 from pico.model.state import LabState, home_state
 from pico.runs.store import Store
 
@@ -31,7 +30,7 @@ def gather(folder: LabFolder, store: Store, revision: str, runs: Sequence[str], 
     commit = replace(folder.history().resolve(revision), refs=())  # names come and go, a commit gives the same bytes
     setup, state = folder.historic(commit.id)
     chosen = chosen_runs(folder, commit.id, state.digest(), runs)
-    carried = published_runs(folder, store, chosen)
+    files_of_runs, with_it = files_of(folder, store, chosen), tuple(run for run, _ in chosen)
     before = _state_before(folder, setup, commit.parents)
     changes = folder.entry(commit).changes
     lab = _lab_files(folder, commit.id)
@@ -41,15 +40,15 @@ def gather(folder: LabFolder, store: Store, revision: str, runs: Sequence[str], 
         *states(state, before, changes, commit.parents),
         plan_between(setup, before, state, commit),
         *(pictures_of(setup, state) if pictures else ()),
-        *(f for _, files in carried for f in files),
+        *files_of_runs,
     ]
     return Revision(
         commit=commit,
         setup=setup,
         state=state.digest(),
-        evidence=_evidence(chosen, state.digest()),
+        evidence=_evidence(with_it, state.digest()),
         changes=changes,
-        runs=tuple(run for run, _ in carried),
+        runs=with_it,
         files=tuple(sorted(files, key=lambda f: f.path)),
         license=next((f.path for f in lab if _LICENSE.fullmatch(f.path)), None),
     )
@@ -70,8 +69,8 @@ def _state_before(folder: LabFolder, setup: Setup, parents: tuple[str, ...]) -> 
     return LabState(lab=setup.lab.name, components={**home.components, **known})
 
 
-def _evidence(chosen: Iterable[CarriedRun], digest: str) -> str:
-    led = [r.document.evidence for r in chosen if r.document.state_after == digest and r.document.outcome == "done"]
+def _evidence(runs: Iterable[Run], digest: str) -> str:
+    led = [run.evidence for run in runs if run.state_after == digest and run.outcome == "done"]
     return max(led, key=lambda e: STRENGTH[e], default="planned")
 
 

@@ -8,7 +8,7 @@ from pico.history.git.commit import Commit
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.record import record
-from pico.model.run import RunDocument
+from pico.model.run import Run
 
 JSON, JSON_LINES, TEXT, YAML, PNG = (
     "application/json",
@@ -36,15 +36,6 @@ class File:
 
 
 @record
-class PublishedRun:
-    """A run, the folder of its files, and their paths."""
-
-    document: RunDocument
-    folder: str
-    files: tuple[str, ...]
-
-
-@record
 class Revision:
     """A revision with all that is published of it. `evidence` is the strongest among the runs that led to its state, or
     `planned`; `license` the path of the file that states one."""
@@ -54,7 +45,7 @@ class Revision:
     state: str
     evidence: str
     changes: tuple[Change, ...]
-    runs: tuple[PublishedRun, ...]
+    runs: tuple[Run, ...]
     files: tuple[File, ...]
     license: str | None
 

@@ -55,7 +55,7 @@ def publish(
         commit=found.commit.id,
         state=found.state,
         evidence=found.evidence,
-        runs=tuple(run.document.id for run in found.runs),
+        runs=tuple(run.id for run in found.runs),
         files=files,
         diagnostics=tuple(_notes(found)),
     )

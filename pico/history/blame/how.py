@@ -11,7 +11,7 @@ from pico.history.blame.follow import Address
 from pico.history.git.commit import Commit
 from pico.history.messages.trailers import EVIDENCE, LAB, values
 from pico.model.record import record
-from pico.model.run import RunDocument
+from pico.model.run import Run
 
 
 @record
@@ -55,7 +55,7 @@ def brief_from(data: list[Any]) -> RunBrief:
     return RunBrief(how, started_at, tuple((c, t) for c, t in made), tuple((c, t) for c, t in after))
 
 
-def brief_of(document: RunDocument) -> RunBrief:
+def brief_of(document: Run) -> RunBrief:
     """Return what blame needs to know of a run."""
     cause = document.cause
     how = How(

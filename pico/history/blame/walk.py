@@ -20,7 +20,7 @@ from pico.history.blame.how import RunBrief, brief_of
 from pico.history.git.cache import VERSION, Cache
 from pico.history.repository.repository import Repository
 from pico.manifest.which import MAX_BYTES, is_manifest
-from pico.model.run import RunDocument
+from pico.model.run import Run
 from pico.resources import catalog_dir
 
 CACHE = "pico/blame.sqlite"
@@ -103,7 +103,7 @@ class Walker:
         from pico.runs.reading import read_document
 
         document = read_document(path, self._content(name), PurePosixPath(path).parent.name)
-        return brief_of(document) if isinstance(document, RunDocument) else None
+        return brief_of(document) if isinstance(document, Run) else None
 
     def _content(self, name: str) -> bytes:
         blob = self._git[name]  # of one that is too large, as much as makes the reader say so

@@ -10,7 +10,7 @@ from pico.disk import disk_trouble, write_whole
 from pico.history.data.places import LfsObjects
 from pico.history.repository.repository import Repository
 from pico.model.record import record
-from pico.model.run import RunDocument
+from pico.model.run import Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import read_runs
 from pico.runs.store import Store
@@ -54,7 +54,7 @@ def write_pointers(repository: Repository, lab: Path, store: Store, runs: Sequen
     return Pointed(files=tuple(written), size=size, attributes=bool(named) and _attribute(lab / ".gitattributes"))
 
 
-def _runs(lab: Path, names: Sequence[str]) -> list[RunDocument]:
+def _runs(lab: Path, names: Sequence[str]) -> list[Run]:
     there = [p for p in sorted(lab.glob("runs/*/*/*/run.json")) if not p.is_symlink()]
     found = {d.id: d for d in read_runs({p.relative_to(lab).as_posix(): p.read_bytes() for p in there})}
     unknown = [name for name in names if name not in found]

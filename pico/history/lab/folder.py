@@ -31,7 +31,7 @@ from pico.model.lab import Setup
 from pico.model.proof import Standing
 from pico.model.record import record
 from pico.model.report import Captured
-from pico.model.run import RunDocument
+from pico.model.run import Run
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class Entry:
     commit: Commit
     changes: tuple[Change, ...] = ()
     unreadable: str = ""
-    runs: tuple[RunDocument, ...] = ()
+    runs: tuple[Run, ...] = ()
     first: bool = False
     standing: Standing | None = None
 

@@ -17,7 +17,7 @@ from pico.diagnostics import Diagnostic, warning
 from pico.history.git.cache import Cache
 from pico.history.git.commit import Commit
 from pico.history.repository.repository import Repository
-from pico.model.run import RunDocument
+from pico.model.run import Run
 from pico.runs.reading import read_document
 
 _PLACE = re.compile(r"\d{4}/\d{2}/")
@@ -37,17 +37,9 @@ class RunPlace:
     commit: str
 
 
-@dataclass(frozen=True, slots=True)
-class CarriedRun:
-    """A run, and where a commit has it; None for one that no commit has yet."""
-
-    document: RunDocument
-    place: RunPlace | None = None
-
-
 def runs_added(
     repository: Repository, commit: str | Commit, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None
-) -> tuple[RunDocument, ...]:
+) -> tuple[Run, ...]:
     """Return the runs that a commit (its id) added to the lab in `folder`, in the order in which they started.
 
     A merge adds what none of its parents has. A warning for each damaged document is appended to `diagnostics`.
@@ -55,15 +47,12 @@ def runs_added(
     name = commit if isinstance(commit, str) else commit.id
     trees = _Trees(repository, repository.relative(folder))
     added = trees.added(repository.handle[name])
-    return tuple(run.document for run in read_carried(repository, added, diagnostics))
+    return read_carried(repository, added, diagnostics)
 
 
-def runs_at(
-    repository: Repository, commit: str, folder: str | Path = "", diagnostics: list[Diagnostic] | None = None
-) -> tuple[CarriedRun, ...]:
-    """Return the runs whose files a commit (its id) holds, whichever commit added them."""
-    trees = _Trees(repository, repository.relative(folder))
-    return read_carried(repository, trees.places(repository.handle[commit]).values(), diagnostics)
+def places_at(repository: Repository, commit: str, folder: str | Path = "") -> dict[str, RunPlace]:
+    """Return where the runs are whose files a commit (its id) holds, by id, whichever commit added them."""
+    return _Trees(repository, repository.relative(folder)).places(repository.handle[commit])
 
 
 def places_in_history(
@@ -105,19 +94,19 @@ def find_runs(repository: Repository, folder: str | Path, runs: Mapping[str, flo
 
 def read_carried(
     repository: Repository, places: Iterable[RunPlace], diagnostics: list[Diagnostic] | None = None
-) -> tuple[CarriedRun, ...]:
+) -> tuple[Run, ...]:
     """Return the runs at some places, in the order in which they started; damaged documents as warnings."""
     found = []
     for place in places:
         document = read_place(repository, place)
-        if isinstance(document, RunDocument):
-            found.append(CarriedRun(document, place))
+        if isinstance(document, Run):
+            found.append(document)
         elif diagnostics is not None:
             diagnostics.append(document)
-    return tuple(sorted(found, key=lambda run: run.document.order))
+    return tuple(sorted(found, key=lambda run: run.order))
 
 
-def read_place(repository: Repository, place: RunPlace) -> RunDocument | Diagnostic:
+def read_place(repository: Repository, place: RunPlace) -> Run | Diagnostic:
     """Return the document of the run at a place, or a warning that says what is wrong with it."""
     path, data = f"{place.path}/run.json", files_at(repository, place, ("run.json",))
     if path not in data:

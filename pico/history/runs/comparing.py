@@ -6,14 +6,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from pico.history.runs.loading import Loaded
 from pico.model.diff import Change, show_value
 from pico.model.lab import Setup
 from pico.model.record import as_json, record
-from pico.model.run import RunDocument
-from pico.model.state import LabState
-from pico.runs.operations import OperationRun
-from pico.runs.states import changes, state_seen
+from pico.model.run import Run
+from pico.runs.document import RecordedRun
+from pico.runs.operations import OperationRun, operations
+from pico.runs.states import changes
 
 
 @record
@@ -41,37 +40,27 @@ class Comparison:
     """Two runs. `same`: they led to the same state. `changes`: from where the first ended to where the second did, as
     observed, None where one of them was not observed; `differing`: outcome, goal, evidence, calibration, versions..."""
 
-    a: RunDocument
-    b: RunDocument
+    a: Run
+    b: Run
     same: bool
     changes: tuple[Change, ...] | None = None
     operations: tuple[Pair, ...] = ()
     differing: tuple[Differing, ...] = ()
 
 
-def compare_runs(setup: Setup, a: Loaded, b: Loaded) -> Comparison:
+def compare_runs(setup: Setup, a: RecordedRun, b: RecordedRun) -> Comparison:
     """Return two runs side by side; `setup`: the bench as it is now, whose tolerances count."""
-    ends = [_end(setup, run) for run in (a, b)]
     found = None
-    if ends[0] is not None and ends[1] is not None:
-        found = changes(setup, ends[0], ends[1], ends[0].components.keys() | ends[1].components.keys())
+    if a.measurements and b.measurements and a.after and b.after:  # else somebody did not look afterwards
+        found = changes(setup, a.after, b.after, a.after.components.keys() | b.after.components.keys())
     return Comparison(
         a=a.document,
         b=b.document,
         same=a.document.state_after == b.document.state_after,
         changes=found,
-        operations=tuple(_pairs(a.operations, b.operations)),
+        operations=tuple(_pairs(operations(a.trace), operations(b.trace))),
         differing=tuple(_differing(_facts(a.document), _facts(b.document))),
     )
-
-
-def _end(setup: Setup, run: Loaded) -> LabState | None:
-    """Return the bench as it was observed after a run; None where nobody looked, or what was seen is not here."""
-    seen = {e.component: e.data for e in run.measurements if e.kind == "observation" and e.component}
-    try:
-        return state_seen(setup, seen) if seen else None
-    except (KeyError, TypeError, ValueError):  # written by another program
-        return None
 
 
 def _pairs(a: Iterable[OperationRun], b: Iterable[OperationRun]) -> Iterator[Pair]:
@@ -96,7 +85,7 @@ def _by_deed(found: Iterable[OperationRun]) -> dict[tuple[str, str, str, int], O
     return keyed
 
 
-def _facts(run: RunDocument) -> dict[str, Any]:
+def _facts(run: Run) -> dict[str, Any]:
     """Return what is compared of two documents besides states and operations."""
     facts: dict[str, Any] = {
         "outcome": run.outcome, "goal": run.goal, "cause": run.cause.kind, "evidence": run.evidence, "seed": run.seed,

@@ -7,18 +7,9 @@ from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
 from pico.history.repository.ranges import read_range
 from pico.history.repository.repository import Repository
-from pico.history.runs.committed import CarriedRun, places_in_history, read_carried
+from pico.history.runs.committed import RunPlace, places_in_history, read_carried
 from pico.history.runs.uncommitted import unrecorded
-from pico.model.record import record
-from pico.model.run import RunDocument
-
-
-@record
-class Listed:
-    """One run: its document, and the oldest commit that carries it; None where no commit has it yet."""
-
-    document: RunDocument
-    commit: Commit | None = None
+from pico.model.run import Run
 
 
 def list_runs(
@@ -28,35 +19,34 @@ def list_runs(
     every: bool = False,
     component: str | None = None,
     diagnostics: list[Diagnostic] | None = None,
-) -> tuple[Listed, ...]:
-    """Return the runs in the history of a revision (HEAD), of a range `A..B`, or of `every` branch and tag.
+) -> tuple[tuple[Run, Commit | None], ...]:
+    """Return the runs in the history of a revision (HEAD), of a range `A..B`, or of `every` branch and tag, each with
+    the oldest commit that carries it; None where no commit has it yet.
 
     The newest comes first. Unless a revision is named, those that this bench alone knows yet count, too. `component`:
     only what changed that one. Damaged files are warnings in `diagnostics`. Raises PicoError for what there is not.
     """
-    own = [] if revision else [CarriedRun(run.document) for run in unrecorded(folder, diagnostics)]
-    carried = _carried(folder, revision, every, diagnostics)
-    known = {run.document.id for run in carried}
-    found = [*carried, *(run for run in own if run.document.id not in known)]
+    own = [] if revision else [run.document for run in unrecorded(folder, diagnostics)]
+    places = _places(folder, revision, every)
+    carried = read_carried(folder.history(), places.values(), diagnostics) if places else ()
+    found = [*carried, *(run for run in own if run.id not in places)]
     if component is not None:
         found = _of_component(folder, component, found)
-    commits = folder.history().commits({r.place.commit for r in found if r.place}) if carried else {}
-    listed = [Listed(document=r.document, commit=commits[r.place.commit] if r.place else None) for r in found]
-    return tuple(sorted(listed, key=lambda one: one.document.order, reverse=True))
+    found.sort(key=lambda run: run.order, reverse=True)
+    names = {run.id: places[run.id].commit for run in found if run.id in places}
+    commits = folder.history().commits(set(names.values())) if names else {}
+    return tuple((run, commits[names[run.id]] if run.id in names else None) for run in found)
 
 
-def _carried(
-    folder: LabFolder, revision: str | None, every: bool, diagnostics: list[Diagnostic] | None
-) -> list[CarriedRun]:
+def _places(folder: LabFolder, revision: str | None, every: bool) -> dict[str, RunPlace]:
     if every and revision:
         hint = "leave out one of them"
         raise PicoError(error("usage", "--all is every branch and tag, and a revision is one", hint=hint))
     repository = folder.history() if revision else folder.repository
     if repository is None:
-        return []
+        return {}
     tips, hidden = (None, ()) if every else _span(repository, revision)
-    places = places_in_history(repository, folder.root, tips, hidden=hidden)
-    return list(read_carried(repository, places.values(), diagnostics))
+    return places_in_history(repository, folder.root, tips, hidden=hidden)
 
 
 def _span(repository: Repository, revision: str | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -72,9 +62,9 @@ def _span(repository: Repository, revision: str | None) -> tuple[tuple[str, ...]
     return (b,), (a,)
 
 
-def _of_component(folder: LabFolder, component: str, runs: list[CarriedRun]) -> list[CarriedRun]:
+def _of_component(folder: LabFolder, component: str, runs: list[Run]) -> list[Run]:
     """Return the runs that changed a component; raises PicoError for one that neither the bench nor a run knows."""
-    found = [run for run in runs if any(c.component == component for c in run.document.changes)]
+    found = [run for run in runs if any(c.component == component for c in run.changes)]
     if not found and component not in folder.setup.lab.inventory:
         hint = did_you_mean(component, folder.setup.lab.inventory)
         raise PicoError(error("unknown-component", f"there is no component `{component}`", hint=hint))

@@ -3,48 +3,29 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import RunPlace, files_at, places_in_history, read_carried, read_place
 from pico.history.runs.uncommitted import unrecorded
-from pico.model.record import record
-from pico.model.run import Artifact, RunDocument, TraceEvent
-from pico.runs.document import Recorded
+from pico.model.lab import Setup
+from pico.model.run import Run, TraceEvent
+from pico.model.state import LabState
+from pico.runs.document import RecordedRun
 from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
-from pico.runs.operations import OperationRun, operations
 from pico.runs.reading import read_events
+from pico.runs.states import state_seen
 from pico.runs.store import Store
 
 LARGEST = 256 << 20
 """Bytes above which no packed file of a run is unpacked."""
 
 
-@record
-class Here:
-    """An artifact of a run, and whether the content store of this repository has it."""
-
-    artifact: Artifact
-    present: bool
-
-
-@record
-class Loaded:
-    """A run: its document, the commit that carries it (None: none yet), its operations, what was measured, its
-    artifacts; and what is wrong with its files."""
-
-    document: RunDocument
-    commit: Commit | None = None
-    operations: tuple[OperationRun, ...] = ()
-    measurements: tuple[TraceEvent, ...] = ()
-    artifacts: tuple[Here, ...] = ()
-    diagnostics: tuple[Diagnostic, ...] = ()
-
-
-def load_run(folder: LabFolder, word: str | None = None) -> Loaded:
-    """Return the run whose id begins or ends with `word`, the last one where None.
+def load_run(folder: LabFolder, word: str | None = None) -> tuple[RecordedRun, Commit | None]:
+    """Return the run whose id begins or ends with `word`, the last one where None; and the commit that carries it, None
+    where none does yet.
 
     Raises PicoError for one that there is not, for a word that fits several, and for a document that is damaged.
     """
@@ -52,10 +33,10 @@ def load_run(folder: LabFolder, word: str | None = None) -> Loaded:
     own = {run.document.id: run for run in unrecorded(folder, wrong)}
     places = places_in_history(folder.repository, folder.root) if folder.repository else {}
     name = _last(folder, own, places) if word is None else _chosen(word, sorted({*own, *places}))
-    return _own(own[name]) if name in own else _carried(folder, places[name], wrong)
+    return (own[name], None) if name in own else _carried(folder, places[name], wrong)
 
 
-def _last(folder: LabFolder, own: Mapping[str, Recorded], places: Mapping[str, RunPlace]) -> str:
+def _last(folder: LabFolder, own: Mapping[str, RecordedRun], places: Mapping[str, RunPlace]) -> str:
     """Return the run that started last; what no commit has yet comes after what commits have."""
     if own:
         return list(own)[-1]
@@ -63,7 +44,7 @@ def _last(folder: LabFolder, own: Mapping[str, Recorded], places: Mapping[str, R
         raise PicoError(error("no-run", "no run of this lab has moved anything yet", hint="`pico apply` runs a plan"))
     day = max(places)[:8]  # a name begins with the time
     late = read_carried(folder.history(), (place for name, place in places.items() if name >= day))
-    return late[-1].document.id if late else max(places)
+    return late[-1].id if late else max(places)
 
 
 def _chosen(word: str, names: Sequence[str]) -> str:
@@ -81,11 +62,7 @@ def _chosen(word: str, names: Sequence[str]) -> str:
     raise PicoError(error("run", f"there is no run `{word[:60]}`", hint=hint))
 
 
-def _own(run: Recorded) -> Loaded:
-    return Loaded(document=run.document, operations=operations(run.trace), measurements=tuple(run.measurements))
-
-
-def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> Loaded:
+def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> tuple[RecordedRun, Commit]:
     repository = folder.history()
     document = read_place(repository, place)
     if isinstance(document, Diagnostic):
@@ -93,18 +70,29 @@ def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> Loa
     store = Store(repository.common / "pico" / "cas")
     files = files_at(repository, place)
     intact(document, files, wrong)
-    return Loaded(
+    trace, measurements = (_events(document, files, store, name, wrong) for name in (TRACE, MEASUREMENTS))
+    run = RecordedRun(
         document=document,
-        commit=repository.commits([place.commit])[place.commit],
-        operations=operations(_events(document, files, store, TRACE, wrong)),
-        measurements=_events(document, files, store, MEASUREMENTS, wrong),
-        artifacts=tuple(Here(artifact=a, present=store.has(a.sha256)) for a in document.artifacts),
+        after=_after(folder.setup, measurements),
+        trace=trace,
+        measurements=measurements,
+        missing=frozenset(a.sha256 for a in document.artifacts if not store.has(a.sha256)),
         diagnostics=tuple(wrong),
     )
+    return run, repository.commits([place.commit])[place.commit]
+
+
+def _after(setup: Setup, measurements: Iterable[TraceEvent]) -> LabState | None:
+    """Return the bench as it was observed after a run; None where nobody looked, or what was seen is not here."""
+    seen = {e.component: e.data for e in measurements if e.kind == "observation" and e.component}
+    try:
+        return state_seen(setup, seen) if seen else None
+    except (KeyError, TypeError, ValueError):  # written by another program
+        return None
 
 
 def _events(
-    document: RunDocument, files: Mapping[str, bytes], store: Store, name: str, wrong: list[Diagnostic]
+    document: Run, files: Mapping[str, bytes], store: Store, name: str, wrong: list[Diagnostic]
 ) -> tuple[TraceEvent, ...]:
     """Return the events of a file of a run, from the commit or from the content store."""
     path = f"{run_folder(document)}/{name}"

@@ -16,9 +16,9 @@ from pico.history.git.cache import Cache
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
 from pico.history.messages import trailers
-from pico.history.runs.committed import CACHE, CarriedRun, files_at, places_in_history, read_carried, runs_added
+from pico.history.runs.committed import CACHE, RunPlace, files_at, places_in_history, read_carried, runs_added
 from pico.model.proof import Standing, Verdict
-from pico.model.run import STRENGTH, RunDocument
+from pico.model.run import STRENGTH, Run
 from pico.runs.files import intact
 
 
@@ -42,23 +42,25 @@ class Standings:
     """
 
     folder: LabFolder
-    own: Sequence[RunDocument] = ()
+    own: Sequence[Run] = ()
     diagnostics: list[Diagnostic] = field(default_factory=list)
     _cache: Cache | None = None
 
     @cached_property
-    def runs(self) -> Mapping[str, Sequence[CarriedRun]]:
+    def runs(self) -> Mapping[str, Sequence[Run]]:
         """The runs by the digest of the state that they led to, the strongest evidence first, then the latest."""
-        places = places_in_history(self.folder.history(), self.folder.root)
-        carried = read_carried(self.folder.history(), places.values(), self.diagnostics)
-        found: dict[str, list[CarriedRun]] = {}
-        for run in (*carried, *(CarriedRun(document) for document in self.own)):
-            found.setdefault(run.document.state_after, []).append(run)
-        for runs in found.values():
-            runs.sort(key=lambda r: (STRENGTH[r.document.evidence], r.document.ended_at), reverse=True)
+        carried = read_carried(self.folder.history(), self._places.values(), self.diagnostics)
+        found: dict[str, list[Run]] = {}
+        for run in sorted((*carried, *self.own), key=lambda r: (STRENGTH[r.evidence], r.ended_at), reverse=True):
+            found.setdefault(run.state_after, []).append(run)
         return found
 
-    def at_a_glance(self, commit: Commit, added: Sequence[RunDocument]) -> Standing | None:
+    @cached_property
+    def _places(self) -> Mapping[str, RunPlace]:
+        """Where commits have runs, by id."""
+        return places_in_history(self.folder.history(), self.folder.root)
+
+    def at_a_glance(self, commit: Commit, added: Sequence[Run]) -> Standing | None:
         """Return the standing of a commit of which the runs that it `added` are known, for a list of many; None where
         nothing claims, and nothing proves, that its state was ever on a bench."""
         claimed = any(trailers.values(commit.message, key) for key in (trailers.EVIDENCE, trailers.RUN))
@@ -94,10 +96,15 @@ class Standings:
             return Standing(verdict="unknown", commit=commit.id, why=exc.diagnostics[0].summary)
         wrong: list[Diagnostic] = []
         for run in self.runs.get(state, ()):
-            if run.place is None or intact(run.document, files_at(self.folder.history(), run.place), wrong):
-                return _verified(commit.id, state, run, tuple(wrong))
+            place = self._places.get(run.id)
+            if place is None or intact(run, files_at(self.folder.history(), place), wrong):
+                return Standing(
+                    verdict="verified", commit=commit.id, state=state, evidence=run.evidence, run=run.id,
+                    at=run.ended_at, carried=place.commit if place else None,
+                    why=f"the run {run.id} led to exactly this state", diagnostics=tuple(wrong),
+                )  # fmt: skip
         if wrong:
-            why = f"the run {self.runs[state][0].document.id} led to it, but its files are damaged: they prove nothing"
+            why = f"the run {self.runs[state][0].id} led to it, but its files are damaged: they prove nothing"
             return Standing(verdict="inherited", commit=commit.id, state=state, why=why, diagnostics=tuple(wrong))
         added = runs_added(self.folder.history(), commit, self.folder.root, wrong)
         carries = len(commit.parents) > 1 and bool(self.runs)
@@ -134,12 +141,3 @@ def unproven(claim: Claim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing
     if claim.parents > 1 and claim.carries:
         return judged("inherited", "a merge: its sides may have been on a bench, the two together were not")
     return judged("planned", "no run in this history led to it")
-
-
-def _verified(commit: str, state: str, run: CarriedRun, diagnostics: tuple[Diagnostic, ...]) -> Standing:
-    document = run.document
-    return Standing(
-        verdict="verified", commit=commit, state=state, evidence=document.evidence, run=document.id,
-        at=document.ended_at, carried=run.place.commit if run.place else None,
-        why=f"the run {document.id} led to exactly this state", diagnostics=diagnostics,
-    )  # fmt: skip

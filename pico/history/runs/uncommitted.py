@@ -6,7 +6,7 @@ a run is carried by the commit of the state that it led to, or by the next one w
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import replace
 from datetime import datetime
@@ -20,18 +20,19 @@ from pico.history.runs.proof import Standings
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.proof import Standing
-from pico.model.run import RunDocument
+from pico.model.run import Run
 from pico.model.state import LabState
-from pico.runs.document import Kept, Recorded, afterwards, read_plan, recorded
+from pico.runs.document import RecordedRun, recorded
 from pico.runs.files import Keep, run_files
 from pico.runs.journal import Journal, RunRecord
+from pico.runs.states import changes
 
 
 def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
     """Return the files of the runs that no commit has yet, by path relative to the lab; raises PicoError.
 
     `seen`: the bench as it is, which makes the `state` that is to be committed (None: that of the manifests) the one to
-    which the last run led, where it stands so (see `RunDocument.state_after`). What is too big for a commit goes to the
+    which the last run led, where it stands so (see `Run.state_after`). What is too big for a commit goes to the
     content store of the repository. What a commit that failed left of them in the working tree goes.
     """
     runs = unrecorded(folder)
@@ -45,7 +46,7 @@ def pending(folder: LabFolder, seen: Observation | None = None, state: LabState 
     return files
 
 
-def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -> list[Recorded]:
+def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -> list[RecordedRun]:
     """Return the runs of this bench that no commit has yet, in the order in which they began.
 
     A journal that can't be read raises PicoError; where there are `diagnostics`, that is appended to them, and there
@@ -60,14 +61,17 @@ def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -
         return []
 
 
-def _unrecorded(folder: LabFolder) -> list[Recorded]:
+def _unrecorded(folder: LabFolder) -> list[RecordedRun]:
     path = folder.root / ".pico" / "journal.sqlite"
     if not path.exists():
         return []
     with closing(Journal(path, looking=True)) as journal:
         moving = journal.moving()
         over = [run for run in journal.runs() if run.run in moving and not _goes_on(folder.root, run)]
-        return [recorded(folder.setup, kept) for kept in _kept(folder, journal, over)]
+        carried = _carried(folder, over)
+        fresh = ((run, part) for run in over if (part := carried.get(run.run, -1) + 1) <= run.resumed)
+        found = (recorded(folder.setup, journal, run, part) for run, part in fresh)
+        return [run for run in found if run is not None]
 
 
 def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | None:
@@ -82,20 +86,6 @@ def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | No
     return replace(found, diagnostics=(*wrong, *found.diagnostics))
 
 
-def _kept(folder: LabFolder, journal: Journal, over: list[RunRecord]) -> Iterator[Kept]:
-    """Yield what no commit has of some runs; of one that was taken up again since, what came then."""
-    carried = _carried(folder, over)
-    for run in over:
-        part = carried.get(run.run, -1) + 1
-        document = journal.document(run.run) if part <= run.resumed else None
-        if document is None:  # carried, or of a PICO that did not keep plans
-            continue
-        about, seen = journal.about(run.run)
-        kept = Kept(run, read_plan(document), about, seen, journal.records(run=run.run), part)
-        if any(r.kind == "started" for r in kept.own):
-            yield kept
-
-
 def _carried(folder: LabFolder, runs: list[RunRecord]) -> dict[str, int]:
     """Return the runs that commits have, each with how often it had been taken up again by then."""
     if folder.repository is None:
@@ -106,7 +96,7 @@ def _carried(folder: LabFolder, runs: list[RunRecord]) -> dict[str, int]:
     for name, place in places.items():
         run = of[name]
         document = read_place(folder.repository, place) if run.resumed else None
-        resumed = document.resumed if isinstance(document, RunDocument) else run.resumed
+        resumed = document.resumed if isinstance(document, Run) else run.resumed
         found[run.run] = max(found.get(run.run, 0), resumed)
     return found
 
@@ -116,10 +106,12 @@ def _names(run: RunRecord) -> list[str]:
     return [run.run, *(f"{run.run}-r{n}" for n in range(1, run.resumed + 1))]
 
 
-def _committed(folder: LabFolder, run: Recorded, seen: Observation, state: LabState) -> Recorded:
+def _committed(folder: LabFolder, run: RecordedRun, seen: Observation, state: LabState) -> RecordedRun:
     """Return the last run, as leading to the `state` that is committed, where the bench stands so."""
-    live = live_state(folder.setup, seen)
-    document = replace(run.document, afterwards=afterwards(folder.setup, run, live))
+    live, after = live_state(folder.setup, seen), run.after
+    assert after is not None  # of a journal
+    since = changes(folder.setup, after, live, after.components.keys() | live.components.keys())
+    document = replace(run.document, afterwards=tuple(c for c in since if not c.tolerated))
     if not any(not c.tolerated for c in drift_of(folder.setup, seen, state)):
         document = replace(document, state_after=state.digest())
     return replace(run, document=document)

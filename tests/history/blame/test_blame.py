@@ -32,7 +32,7 @@ from pico.history.repository.repository import Repository
 from pico.model.diff import Change, place_json
 from pico.model.lab import Setup
 from pico.model.plan import LabRef
-from pico.model.run import Cause, RunDocument
+from pico.model.run import Cause, Run
 from pico.model.state import LabState, place_of
 from pico.runs.files import run_files
 
@@ -514,19 +514,19 @@ def test_only_what_is_new_is_read(git: Git, lab: Path, monkeypatch: pytest.Monke
 # --- how it was changed
 
 
-def run_document(name: str, changes: Sequence[str], afterwards: Sequence[str] = (), **cause: str) -> RunDocument:
+def run_document(name: str, changes: Sequence[str], afterwards: Sequence[str] = (), **cause: str) -> Run:
     def made(addresses: Sequence[str]) -> tuple[Change, ...]:
         return tuple(Change(component=a.partition(".")[0], tunable=a.partition(".")[2]) for a in addresses)
 
     nothing = "sha256:" + "0" * 64
-    return RunDocument(
+    return Run(
         id=name, lab=LabRef(name="t", digest=nothing), state_before=nothing, state_after=nothing, plan=nothing,
         cause=Cause(**({"kind": "apply"} | cause)), evidence="physics", started_at=f"2026-01-01T00:00:{name[-2:]}Z",
         outcome="done", changes=made(changes), afterwards=made(afterwards),
     )  # fmt: skip
 
 
-def carry(root: Path, *documents: RunDocument) -> None:
+def carry(root: Path, *documents: Run) -> None:
     for document in documents:
         for path, data in run_files(document, (), ()).items():
             (root / path).parent.mkdir(parents=True, exist_ok=True)

@@ -27,10 +27,11 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.history.examples.example import make_example
 from pico.history.lab.folder import LabFolder
 from pico.history.repository.repository import Repository
-from pico.history.runs.committed import runs_added, runs_at
+from pico.history.runs.committed import places_at, read_carried, runs_added
 from pico.history.runs.loading import load_run
-from pico.model.run import RunDocument
+from pico.model.run import Run
 from pico.runs.journal import Journal
+from pico.runs.operations import operations
 
 
 @pytest.fixture(scope="module")
@@ -56,11 +57,11 @@ def added(folder: Path, revision: str = "HEAD", wrong: list[Diagnostic] | None =
     return [d.id for d in runs_added(repository, repository.resolve(revision), folder, wrong)]
 
 
-def document(folder: Path, run: str) -> RunDocument:
+def document(folder: Path, run: str) -> Run:
     repository = Repository.discover(folder)
     assert repository is not None
     head = repository.resolve("HEAD").id
-    return next(r.document for r in runs_at(repository, head, folder) if r.document.id == run)
+    return next(r for r in read_carried(repository, places_at(repository, head, folder).values()) if r.id == run)
 
 
 # what a commit carries
@@ -433,14 +434,14 @@ def test_what_is_too_big_for_a_commit_goes_to_the_content_store(lab: Path, monke
     monkeypatch.setattr("pico.runs.files.INLINE", 500)
     run, _ = turned(lab, "p1", 5)
     assert [Path(path).name for path in files_of(lab, run)] == ["run.json"]
-    found = load_run(LabFolder(lab), run)
-    assert [here.artifact.name for here in found.artifacts] == ["trace.jsonl.gz", "measurements.jsonl.gz"]
-    assert all(here.present for here in found.artifacts)
-    assert [op.outcome for op in found.operations] == ["done"]
+    found, carrier = load_run(LabFolder(lab), run)
+    assert [artifact.name for artifact in found.document.artifacts] == ["trace.jsonl.gz", "measurements.jsonl.gz"]
+    assert carrier and carrier.id == git(lab, "rev-parse", "HEAD").strip() and not found.missing
+    assert [op.outcome for op in operations(found.trace)] == ["done"]
     assert (found.diagnostics, standing(lab).run) == ((), run)
     shutil.rmtree(lab / ".git" / "pico" / "cas")
-    away = load_run(LabFolder(lab), run)
-    assert (away.operations, [here.present for here in away.artifacts]) == ((), [False, False])
+    away, _ = load_run(LabFolder(lab), run)
+    assert (away.trace, away.missing) == ((), {artifact.sha256 for artifact in away.document.artifacts})
     assert "trace.jsonl.gz" in away.diagnostics[0].summary
 
 

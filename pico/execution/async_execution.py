@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import secrets
 import time
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 
 from pico.backends.protocol import Backend
 from pico.diagnostics import Diagnostic, PicoError
 from pico.execution.about import seen_after
-from pico.execution.result import RunResult
 from pico.execution.run import run
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of, uncertain
@@ -25,7 +24,7 @@ from pico.model.state import place_of, state_from_json
 from pico.runs.journal import Journal
 
 
-class AsyncRun:
+class AsyncExecution:
     """A plan under way: iterate over it for its events, then read its `report`."""
 
     def __init__(
@@ -80,7 +79,7 @@ class AsyncRun:
         evidence = (await self._backend.describe()).evidence
         wall = time.monotonic() - started
         seen = await self._backend.observe()
-        report = run_report(self._setup, self.plan, RunResult.of(events), seen, wall=wall, evidence=evidence)
+        report = run_report(self._setup, self.plan, events, seen, wall=wall, evidence=evidence)
         goal = self._named() if report.goal == self.plan.target.name else report.goal
         self._report = replace(report, goal=goal, diagnostics=(*report.diagnostics, *self._keep(report, seen)))
 
@@ -102,20 +101,15 @@ def new_run_id() -> str:
 
 
 def run_report(
-    setup: Setup, plan: Plan, result: RunResult, seen: Observation, *, wall: float, evidence: str
+    setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation, *, wall: float, evidence: str
 ) -> RunReport:
-    """Return the report of a run that ended with `result`, and then was observed as `seen`."""
+    """Return the report of a run with these `events`, the last of which ended it, after which `seen` was observed."""
     asked = plan.asked
     whole = not asked and not plan.target.scope
     return RunReport(
-        run=result.run,
+        run=events[-1].run,
+        **events[-1].data,
         goal="what was asked" if asked and plan.target.name == "the manifest" else plan.target.name,
-        outcome=result.outcome,
-        done=result.done,
-        failed=result.failed,
-        unknown=result.unknown,
-        skipped=result.skipped,
-        seconds=result.seconds,
         clock="simulated" if plan.backend == "sim" else "on the bench",
         wall=wall,
         evidence=evidence,
@@ -126,7 +120,7 @@ def run_report(
         remaining=_remaining(setup, plan, seen, whole),
         absent=_absent(setup, plan, seen) if whole else (),
         expectations=_expectations(setup, plan, seen) if whole else (),
-        diagnostics=tuple(_diagnostics(result)),
+        diagnostics=tuple(_diagnostics(events)),
     )
 
 
@@ -173,6 +167,7 @@ def _expectations(setup: Setup, plan: Plan, seen: Observation) -> tuple[Expected
     return check_expectations(setup, seen, plan.target.expect)
 
 
-def _diagnostics(result: RunResult) -> Sequence[Diagnostic]:
-    found = [report.data.get("diagnostic") for report in result.operations.values()]
-    return [Diagnostic(**{**d, "source": None}) for d in found if isinstance(d, dict)]
+def _diagnostics(events: Sequence[Event]) -> Iterator[Diagnostic]:
+    for event in events:
+        if event.kind in ("operation_failed", "operation_unknown"):
+            yield Diagnostic(**{**event.data["diagnostic"], "source": None})
