@@ -141,10 +141,13 @@ class BenchLock:
         return writing(self._folder, what=f"the bench cannot be locked in {self._folder}", code="lock-file")
 
     def _last_token(self) -> int:
-        """Return the highest token given out; kept in the lock's own file, which only its holder writes."""
+        """Return the highest token given out; kept in the lock's own file, which only its holder writes. Where somebody
+        deleted that since the bench was used, the clock's seconds: more than were ever counted."""
         assert self._file is not None
         digits = os.pread(self._file, 32, 0).split(b"\n")[0].strip()
-        return int(digits) if digits.isdigit() else 0
+        if digits.isdigit():
+            return int(digits)
+        return int(time.time()) if (self._folder / "journal.sqlite").exists() else 0
 
     def _write_holder(self, lease: Lease) -> None:
         assert self._file is not None

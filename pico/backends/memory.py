@@ -16,9 +16,9 @@ from pico.diagnostics import PicoError
 from pico.disk import write_whole
 from pico.model.observation import Observation, Uncertainty
 from pico.model.pose import Pose
-from pico.model.record import as_json, record
+from pico.model.record import Format, as_json, record
 
-SCHEMA = "pico.seen/v1"
+FORMAT = Format("pico.seen")
 
 
 @record
@@ -45,9 +45,7 @@ def memory_path(root: Path) -> Path:
 def recall(root: Path) -> dict[str, Seen]:
     """Return where parts were last; nothing where the file is missing or can't be read, for it is only a memory."""
     try:
-        data = json.loads(memory_path(root).read_text(encoding="utf-8"))
-        if data["schema"] != SCHEMA:
-            return {}
+        data = FORMAT.lifted(json.loads(memory_path(root).read_text(encoding="utf-8")))
         return {
             name: Seen(
                 pose=Pose(**part["pose"]),
@@ -73,7 +71,7 @@ def noted(last: Mapping[str, Seen], seen: Observation) -> dict[str, Seen]:
 
 def remember(root: Path, parts: Mapping[str, Seen]) -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
-    document = {"schema": SCHEMA, "parts": as_json(parts)}
+    document = {"schema": FORMAT.schema, "parts": as_json(parts)}
     data = json.dumps(document, separators=(",", ":"), sort_keys=True).encode()
     with suppress(PicoError):
         write_whole(memory_path(root), data, folders=True, durable=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any
@@ -9,10 +10,10 @@ from typing import Any
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
-from pico.model.record import as_json, canonical, digest, record
+from pico.model.record import Document, Format, as_json, canonical, digest, record
 from pico.model.state import Expectation
 
-SCHEMA = "pico.plan/v1"
+FORMAT = Format("pico.plan")
 
 
 @record
@@ -87,7 +88,7 @@ class Plan:
     then the plan must not be applied.
     """
 
-    schema: str = SCHEMA
+    schema: str = FORMAT.schema
     digest: str = ""
     lab: LabRef
     calibration: str | None = None
@@ -142,31 +143,39 @@ class Plan:
         return replace(self, target=replace(self.target, cause=cause, of=of)).sealed()
 
     def sealed(self) -> Plan:
-        """Return the plan with its digest set. The digest leaves out itself and the time of the observation."""
-        content = as_json(replace(self, digest=""))
-        content["base"].pop("observed_at", None)
-        return replace(self, digest=digest(content))
+        """Return the plan with its digest set."""
+        return replace(self, digest=_digest(as_json(self)))
 
     def to_json(self) -> str:
         """Return the plan as canonical JSON, as `pico plan --out` writes it."""
         return canonical(self)
 
 
+def _digest(content: Document) -> str:
+    """Return the digest of a plan's document, whatever its version; it leaves out itself and when it was observed."""
+    base = {k: v for k, v in content["base"].items() if k != "observed_at"}
+    return digest({**content, "digest": "", "base": base})
+
+
 def plan_from_json(text: str | bytes) -> Plan:
-    """Return the plan that `Plan.to_json` wrote; raises PicoError where it is none, or was changed since."""
+    """Return the plan that `Plan.to_json` wrote, in this version of the format or an older one; raises PicoError where
+    it is none, or was changed since."""
     from pydantic import TypeAdapter, ValidationError
 
     try:
-        plan: Plan = TypeAdapter(Plan).validate_json(text)
+        written = json.loads(text)
+        content = FORMAT.lifted(written)
+    except ValueError as exc:
+        raise PicoError(error("plan-file", f"the saved plan cannot be read: it is {exc}")) from exc
+    try:
+        plan: Plan = TypeAdapter(Plan).validate_python(content)
     except ValidationError as exc:
         first = exc.errors()[0]
         where = ".".join(str(word) for word in first["loc"])
         raise PicoError(
             error("plan-file", f"this is no saved plan: {where + ': ' if where else ''}{first['msg']}")
         ) from exc
-    if plan.schema != SCHEMA:
-        raise PicoError(error("plan-file", f"this plan has schema `{plan.schema}`; this PICO reads `{SCHEMA}`"))
-    if plan.digest != plan.sealed().digest:
+    if plan.digest != _digest(written):
         raise PicoError(
             error("plan-file", "this plan was changed after it was saved: its digest does not fit", hint="plan again")
         )

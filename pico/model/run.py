@@ -10,9 +10,9 @@ from typing import Any, Literal
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.plan import LabRef
-from pico.model.record import record
+from pico.model.record import Format, record
 
-SCHEMA = "pico.run/v1"
+FORMAT = Format("pico.run")
 
 Evidence = Literal["planned", "kinematic", "physics", "emulated", "hardware"]
 RunEnd = Literal["done", "failed", "interrupted", "killed"]
@@ -91,7 +91,7 @@ class Run:
     or by itself. `files`: those beside this one. `planned` evidence never occurs: a run ran.
     """
 
-    schema: str = SCHEMA
+    schema: str = FORMAT.schema
     id: str
     number: int = 0
     lab: LabRef

@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.run import SCHEMA, Run, TraceEvent
+from pico.model.run import FORMAT, Run, TraceEvent
 
 LARGEST = 1 << 20
 """Bytes above which no document of a run is read."""
@@ -31,10 +31,10 @@ def read_document(path: str, data: bytes, name: str) -> Run | Diagnostic:
         content = _from_json(data)
     except ValueError as exc:
         return _damaged(path, str(exc))
-    if not isinstance(content, dict) or content.get("schema") != SCHEMA:
-        said = content.get("schema") if isinstance(content, dict) else None
-        hint = "it may be of a newer PICO, or of another program"
-        return warning("run-file", f"{path} is no {SCHEMA}, but {str(said)[:40]!r}", hint=hint)
+    try:
+        content = FORMAT.lifted(content)
+    except ValueError as exc:
+        return warning("run-file", f"{path} is {exc}")
     try:
         document = _checked(content, Run)
     except ValueError as exc:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
-from pico.model.record import as_json, digest, record
+from pico.model.record import Format, as_json, digest, record
 from pico.vision.camera import CameraModel
 from pico.vision.rigid import motion, rotation, rotation_vector
 
@@ -62,7 +62,7 @@ class Calibration:
     def as_json(self) -> dict[str, Any]:
         """Return schema `pico.calibration/v1`: cameras with lens, position [mm] and rotation vector [deg]."""
         return {
-            "schema": SCHEMA,
+            "schema": FORMAT.schema,
             "made_at": self.made_at,
             "accuracy": as_json(self.accuracy),
             "residuals": {name: round(value, 4) for name, value in sorted(self.residuals.items())},
@@ -70,7 +70,7 @@ class Calibration:
         }
 
 
-SCHEMA = "pico.calibration/v1"
+FORMAT = Format("pico.calibration")
 FILE = "calibration.json"
 """In the folder of a lab, so that Git keeps what the bench's cameras were when."""
 
@@ -88,9 +88,7 @@ def read_calibration(folder: Path) -> Calibration | None:
     if not path.exists():
         return None
     try:
-        data = json.loads(path.read_text())
-        if data["schema"] != SCHEMA:
-            raise ValueError(f"it has schema `{data['schema']}`, not `{SCHEMA}`")
+        data = FORMAT.lifted(json.loads(path.read_text()))
         return Calibration(
             cameras={name: _camera(name, camera) for name, camera in data["cameras"].items()},
             accuracy=Accuracy(**data["accuracy"]),

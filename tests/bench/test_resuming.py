@@ -137,3 +137,11 @@ def test_a_journal_that_keeps_names_of_slots_is_undone_into_them(bench: Bench, m
     monkeypatch.setattr(Journal, "document", older)
     assert bench.apply(bench.undo_plan()).reached
     assert bench.observe().components["p2"].pose == Pose(200, 220, 0)
+
+
+def test_a_bench_whose_lock_file_was_deleted_goes_on(bench: Bench) -> None:
+    bench.apply("e1")
+    bench.apply("C3")
+    (bench.root / ".pico" / "lock").unlink()
+    assert bench.apply("e1").outcome == "done"
+    assert bench.apply("C3").outcome == "done"

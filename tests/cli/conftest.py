@@ -1,4 +1,4 @@
-"""The command line in process: `pico("plan", "e1")` gives exit code, output and errors."""
+"""The example laboratory, for commands to work in."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ import shutil
 from pathlib import Path
 
 import pytest
-from commanding import Answer, Pico
-from pico_cli.main import main
 
 from pico.history.examples.example import make_example
 from pico.history.git.attributes import install
@@ -34,14 +32,3 @@ def shel(example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
     monkeypatch.setenv("GIT_CONFIG_SYSTEM", os.devnull)
     return folder
-
-
-@pytest.fixture
-def pico(capsys: pytest.CaptureFixture[str]) -> Pico:
-    def call(*words: str) -> Answer:
-        capsys.readouterr()
-        code = main(words)
-        captured = capsys.readouterr()
-        return Answer(int(code), captured.out, captured.err)
-
-    return call

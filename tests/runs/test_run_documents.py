@@ -101,7 +101,7 @@ def altered(**fields: Any) -> bytes:
         (b"<<<<<<< ours\n", "damaged"),
         (b" " * (1 << 21), "damaged"),
         (b"[]", "no pico.run/v1"),
-        (b'{"schema": "pico.run/v2"}', "no pico.run/v1, but 'pico.run/v2'"),
+        (b'{"schema": "pico.run/v2"}', "of a newer PICO (pico.run/v2"),
         (altered(id="another"), "damaged"),
         (altered(state_after="sha256:0"), "damaged"),
         (altered(started_at="yesterday"), "damaged"),

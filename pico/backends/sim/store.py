@@ -12,7 +12,7 @@ from typing import Any
 from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock
 from pico.backends.sim.reconcile import reconcile
-from pico.backends.sim.world import SCHEMA, Body, FreePose, Shape, World, new_world
+from pico.backends.sim.world import FORMAT, Body, FreePose, Shape, World, new_world
 from pico.cameras.errors import CameraShift
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import write_whole, writing
@@ -86,10 +86,7 @@ def reset_world(setup: Setup, root: Path, holder: str) -> None:
 
 def world_from_json(data: Any) -> World:
     """Return the world whose `as_json` gave `data`; raises KeyError, TypeError or ValueError for anything else."""
-    if not isinstance(data, dict):
-        raise TypeError("it holds no world")
-    if data.get("schema") != SCHEMA:
-        raise ValueError(f"its schema is {data.get('schema')!r}, this PICO reads {SCHEMA!r}")
+    data = FORMAT.lifted(data)
     shapes = {
         k: Shape(footprint=_footprint(v["footprint"]), height=_number(v["height"])) for k, v in data["shapes"].items()
     }

@@ -16,11 +16,11 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
 from pico.model.pose import Pose
 from pico.model.quantities import Value
-from pico.model.record import record
+from pico.model.record import Format, record
 from pico.model.state import home_state, place_of
 from pico.motion import gantry
 
-SCHEMA = "pico.world/v1"
+FORMAT = Format("pico.world")
 
 
 @record
@@ -65,7 +65,7 @@ class World:
     the table.
     """
 
-    schema: str = SCHEMA
+    schema: str = FORMAT.schema
     lab: str
     seed: int = 1
     clock: float = 0.0
