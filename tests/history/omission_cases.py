@@ -185,8 +185,10 @@ def unfetched(box: Box, unit: str, rng: random.Random) -> None:
         (box.lab / top).rmdir()
 
 
-def kept(box: Box, unit: str, rng: random.Random) -> None:
-    """Nothing is left out: at a revision, that is a submodule of which the objects are here."""
+def never_fetched(box: Box, unit: str, rng: random.Random) -> None:
+    """A submodule of which nothing is in this clone, as at a revision only that counts."""
+    unfetched(box, unit, rng)
+    shutil.rmtree(box.lab / ".git" / "modules" / unit.partition("/")[0], ignore_errors=True)
 
 
 def changed(box: Box, unit: str, rng: random.Random) -> None:
@@ -214,7 +216,7 @@ IN_FOLDER = {
 }  # fmt: skip
 AT_REVISION = {
     "extension": Kind(renamed), "link": Kind(linked), "elsewhere": Kind(elsewhere), "damaged": Kind(changed, lost=True),
-    "submodule": Kind(kept, modules=True), "submodule not fetched": Kind(unfetched, modules=True),
+    "submodule": Kind(never_fetched, modules=True),
 }  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -11,6 +12,8 @@ import pytest
 from omission_cases import AT_REVISION, DELETING, IN_FOLDER, UNITS, WORKING, Box, at_revision, in_folder, read_lab
 
 from pico.diagnostics import PicoError
+from pico.history.blame.blamed import blame
+from pico.history.diff.commits import CommitDiffs
 from pico.history.lab.folder import LabFolder
 
 ALL = frozenset({"p0", "p1", "p2", "p3"})
@@ -95,8 +98,48 @@ def test_a_state_set_aside_is_named_with_its_parts_and_where_it_belongs(box: Box
 
 def test_submodules_that_are_checked_out_are_read(box: Box) -> None:
     box.begin(modules=True)
-    found = read_lab(box.lab)
-    assert (found.state, found.said) == (ALL, ())
+    for found in (read_lab(box.lab), read_lab(box.lab, "HEAD")):
+        assert (found.state, found.said) == (ALL, ())
+
+
+@pytest.mark.parametrize("aside", ["deinit", "embedded", "worktree"])
+def test_a_revision_is_read_with_the_commits_of_its_submodules_wherever_these_lie(box: Box, aside: str) -> None:
+    box.begin(modules=True)
+    (box.lab / "optics" / "up").symlink_to(".")  # leads to what is read
+    box.commit(box.lab / "optics")
+    box.commit()
+    path = box.lab / "optics" / "lenses.yaml"
+    path.write_text(path.read_text().replace("x: 400", "x: 410"))
+    root = box.lab
+    if aside == "deinit":
+        box.git("submodule", "--quiet", "deinit", "--force", "optics")
+    elif aside == "embedded":
+        path.with_name(".git").unlink()
+        shutil.move(box.lab / ".git" / "modules" / "optics", path.with_name(".git"))
+        box.git("config", "-f", str(path.with_name(".git") / "config"), "--unset", "core.worktree")
+    elif aside == "worktree":
+        root = box.folder / "away" / "worktree"
+        box.git("worktree", "add", "-q", "--detach", str(root))
+    folder = LabFolder(root, history=True)
+    pose = folder.state_at("HEAD").components["p1"].pose
+    assert pose and pose.x == 400
+    assert not folder.manifests_at("HEAD").diagnostics
+
+
+def test_log_and_blame_name_the_commit_that_changed_a_part_in_a_submodule(box: Box) -> None:
+    box.begin(modules=True)
+    path = box.lab / "optics" / "lenses.yaml"
+    path.write_text(path.read_text().replace("x: 400", "x: 410"))
+    box.commit(path.parent)
+    (edited,) = blame(box.lab, ["p1.pose"]).leaves
+    assert edited.last.commit is None
+    box.commit()
+    folder, head = LabFolder(box.lab, history=True), box.git("rev-parse", "HEAD").strip()
+    (change,) = CommitDiffs(folder).entry(folder.history().resolve("HEAD")).changes
+    assert change.component == "p1"
+    (leaf,) = blame(box.lab, ["p1.pose"], history=True).leaves
+    assert leaf.last.commit == head and len(leaf.history or ()) == 4
+    assert [row.last.commit is None for row in blame(box.lab).leaves] == [False] * 5
 
 
 def test_where_every_part_is_named_elsewhere_what_nobody_can_look_at_is_a_warning(box: Box) -> None:

@@ -18,6 +18,7 @@ from pico.history.blame.flat import loads as flat_from
 from pico.history.blame.follow import Blame, Delta, Step, walk
 from pico.history.blame.how import RunBrief, brief_of
 from pico.history.git.cache import VERSION, Cache
+from pico.history.git.unread import modules
 from pico.history.repository.repository import Repository
 from pico.manifest.which import MAX_BYTES, is_manifest
 from pico.model.run import Run
@@ -26,6 +27,7 @@ from pico.resources import catalog_dir
 CACHE = "pico/blame.sqlite"
 _RUN = re.compile(r"runs/\d{4}/\d{2}/[^/]+/run\.json")
 _MOST_UNREAD = 20
+_MODULE = 0o160000
 RunFile = tuple[str, str]
 """A `run.json` that a commit added: its path below the lab, and the id of its content."""
 
@@ -38,11 +40,14 @@ class Walker:
         self._git: Any = repository.handle
         self.cache = Cache(repository.common / CACHE)
         self.shallow = _shallow(repository.common)
-        self._lab = _digest(VERSION, folder, _catalog_stamp(), sorted(self.shallow))
+        here = sorted(str(path) for path in repository.common.glob("modules/*"))
+        self._lab = _digest(VERSION, folder, _catalog_stamp(), sorted(self.shallow), here)
         self._unread: list[Unread] = []
         self._runs: dict[str, tuple[RunFile, ...]] = {}
         self._known: dict[str, tuple[RunBrief, ...]] = {}
         self._folders: dict[str, str] = {}  # where the lab was at a commit, if it was moved since
+        self._modules = modules(repository, folder)
+        self._foreign: dict[str, Any] = {}  # files in submodules, which lie in repositories of their own
 
     def answer(self, commit: str) -> Answer:
         """Return the blame of a commit, and keep it; raises PicoError where Git's objects are damaged."""
@@ -73,7 +78,7 @@ class Walker:
 
     def files(self, commit: str) -> dict[str, str]:
         """Return the manifests of a commit: their ids by path below the lab."""
-        return {path: name for path, name in _below(self._tree(commit)) if is_manifest(path)}
+        return {path: name for path, name in self._below(self._tree(commit)) if is_manifest(path)}
 
     def content(self, commit: str, path: str) -> bytes:
         """Return a file of the lab at a commit; empty where there is none."""
@@ -106,7 +111,9 @@ class Walker:
         return brief_of(document) if isinstance(document, Run) else None
 
     def _content(self, name: str) -> bytes:
-        blob = self._git[name]  # of one that is too large, as much as makes the reader say so
+        blob = (
+            self._foreign.get(name) or self._git[name]
+        )  # of one that is too large, as much as makes the reader say so
         return bytes(blob.data) if blob.size <= MAX_BYTES else b"#" * (MAX_BYTES + 1)
 
     def _kept(self, commit: str) -> Answer | None:
@@ -161,13 +168,13 @@ class Walker:
 
     def _before(self, commit: str, parent: str, here: str) -> str:
         """Return the folder that held at `parent` the Lab that `here` holds at `commit`; `here` where none did."""
-        found = [name for path, name in _below(self._tree(commit, here)) if "/" not in path and is_manifest(path)]
+        found = [name for path, name in self._below(self._tree(commit, here)) if "/" not in path and is_manifest(path)]
         labs = {name for name in found if self.flat(name).inventory}
-        before = next((path for path, name in _below(self._git[parent].tree) if name in labs), None)
+        before = next((path for path, name in self._below(self._git[parent].tree) if name in labs), None)
         return here if before is None else before.rpartition("/")[0]
 
     def _delta(self, commit: str, base: str | None) -> Delta:
-        changed = dict(_changed(self._tree(base) if base else None, self._tree(commit)))
+        changed = dict(self._changed(self._tree(base) if base else None, self._tree(commit)))
         runs = tuple((path, name) for path, name in changed.items() if name and _RUN.fullmatch(path))
         if runs:
             runs = self._not_merged(commit, runs)
@@ -181,6 +188,34 @@ class Walker:
         """Return the runs that no parent but the first has either."""
         others = [self._tree(str(p)) for p in self._git[commit].parent_ids[1:]]
         return tuple(run for run in runs if not any(tree is not None and run[0] in tree for tree in others))
+
+    def _changed(self, before: Any, after: Any) -> Iterator[tuple[str, str | None]]:
+        """Yield the files that differ between two trees, by path, with their new id; None for what is no file any
+        more."""
+        if before is None or after is None:
+            yield from ((path, None) for path, _ in self._below(before))
+            yield from self._below(after)
+            return
+        if before.id == after.id:
+            return
+        for delta in before.diff_to_tree(after).deltas:
+            file = delta.new_file
+            yield file.path, str(file.id) if _regular(file.mode) else None
+            for tree, told in ((before, False), (after, True)):
+                if _MODULE in (delta.old_file.mode, file.mode) and file.path in tree:
+                    found = self._below([tree[file.path]], file.path.rpartition("/")[0])
+                    yield from ((path, name if told else None) for path, name in found)
+
+    def _below(self, tree: Any, at: str = "", *, foreign: bool = False) -> Iterator[tuple[str, str]]:
+        for entry in tree if tree is not None else ():
+            path = f"{at}/{entry.name}".lstrip("/")
+            if entry.type_str == "tree":
+                yield from self._below(entry, path, foreign=foreign)
+            elif _regular(entry.filemode):
+                self._foreign |= {str(entry.id): entry} if foreign else {}
+                yield path, str(entry.id)
+            else:
+                yield from self._below(self._modules(path, entry), path, foreign=True)
 
     def has_lab(self, commit: str) -> bool:
         """Return whether the lab's folder is there at a commit."""
@@ -206,27 +241,6 @@ def packaged_units(kind: str) -> Mapping[str, str]:
     if not kind.isidentifier() or not path.is_file():
         return {}
     return flatten(path.read_bytes()).units.get(kind, {})
-
-
-def _changed(before: Any, after: Any) -> Iterator[tuple[str, str | None]]:
-    """Yield the files that differ between two trees, by path, with their new id; None for what is no file any more."""
-    if before is None or after is None:
-        yield from _below(after)
-        yield from ((path, None) for path, _ in _below(before))
-        return
-    if before.id == after.id:
-        return
-    for delta in before.diff_to_tree(after).deltas:
-        file = delta.new_file
-        yield file.path, str(file.id) if _regular(file.mode) else None
-
-
-def _below(tree: Any, at: str = "") -> Iterator[tuple[str, str]]:
-    for entry in tree if tree is not None else ():
-        if entry.type_str == "tree":
-            yield from _below(entry, f"{at}{entry.name}/")
-        elif _regular(entry.filemode):
-            yield at + entry.name, str(entry.id)
 
 
 def _regular(mode: int) -> bool:

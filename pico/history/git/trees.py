@@ -16,11 +16,18 @@ MAX_ENTRIES = 300_000
 """Files and folders of a revision. A tree of a few kilobytes can hold ten thousand million of them."""
 
 
-def manifests(tree: Any, odd: list[Odd] | None = None) -> Iterator[Odd]:
-    """Yield the manifests of a tree, by path; add to `odd` what may hide one: links, submodules, other spellings."""
+Module = Callable[[str, Any], Any]
+"""Returns the tree of the submodule at a path of which a tree holds an entry; None where its content is not here."""
+
+
+def manifests(tree: Any, odd: list[Odd] | None = None, module: Module = lambda path, entry: None) -> Iterator[Odd]:
+    """Yield the manifests of a tree, by path; add to `odd` what may hide one: links, submodules, other spellings.
+
+    What `module` returns of a submodule is read as a folder is.
+    """
     from pygit2.enums import FileMode
 
-    for path, entry in entries(tree, lambda folder: not hidden(folder)):
+    for path, entry in entries(tree, lambda folder: not hidden(folder), module):
         elsewhere = entry.filemode in (FileMode.COMMIT, FileMode.LINK)
         if is_manifest(path) and not elsewhere:
             yield path, entry
@@ -28,7 +35,9 @@ def manifests(tree: Any, odd: list[Odd] | None = None) -> Iterator[Odd]:
             odd.append((path, entry))
 
 
-def entries(tree: Any, enter: Callable[[str], bool] = lambda folder: True) -> Iterator[tuple[str, Any]]:
+def entries(
+    tree: Any, enter: Callable[[str], bool] = lambda folder: True, module: Module = lambda path, entry: None
+) -> Iterator[Odd]:
     """Yield what is no folder in a tree and in those of its folders that `enter` (a path) allows, by path.
 
     Raises PicoError for a tree that is too deep or too large to be a lab's.
@@ -44,10 +53,11 @@ def entries(tree: Any, enter: Callable[[str], bool] = lambda folder: True) -> It
         path = f"{at}{entry.name}"
         if len(below) > MAX_LEVELS or seen > MAX_ENTRIES:
             raise PicoError(_too_much(at, deep=len(below) > MAX_LEVELS))
-        if entry.type_str == "tree":
-            below += [(f"{path}/", iter(entry))] if enter(path) else []
-        else:
+        folder = entry if entry.type_str == "tree" else module(path, entry) if entry.type_str == "commit" else None
+        if folder is None:
             yield path, entry
+        elif enter(path):
+            below.append((f"{path}/", iter(folder)))
 
 
 def _too_much(at: str, *, deep: bool) -> Diagnostic:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.git.trees import Odd, entries, manifests, subtree
+from pico.history.git.trees import Module, Odd, entries, manifests, subtree
 from pico.manifest.behind import behind, lost
 from pico.manifest.which import MAX_BYTES, about, alike, declared, hidden, is_manifest, linked, misnamed, unseen
 
@@ -35,7 +35,7 @@ def read_tree(
     odd: list[Odd] = []
     files: dict[str, bytes] = {}
     unread: list[Diagnostic] = []
-    for path, entry in manifests(subtree(top, lab) or (), odd):
+    for path, entry in manifests(subtree(top, lab) or (), odd, modules(repository, lab)):
         data = content_of(entry)
         if data is None:
             hint = "`git fsck` says what is missing; `git fetch` may bring it back"
@@ -95,9 +95,8 @@ class _Tree:
             return behind(root / self.lab / posixpath.dirname(path) / target, root / self.lab, shown, target)
         if self._is_read(at):
             return None
-        try:
-            goal = self.top[at] if at != "." else self.top
-        except KeyError:
+        goal = self._entry(at)
+        if goal is None:
             return lost(shown, target)
         if goal.type_str == "tree":
             holds = next((p for p, e in _ours(goal) if not self._is_read(posixpath.join(at, p))), "")
@@ -111,7 +110,18 @@ class _Tree:
             return True
         if inside.startswith("../") or inside == ".." or hidden(inside):
             return False
-        return at in self.top and (self.top[at].type_str == "tree" or is_manifest(inside))
+        entry = self._entry(at)
+        return entry is not None and (entry.type_str == "tree" or is_manifest(inside))
+
+    def _entry(self, at: str) -> Any:
+        """Return what stands at a path of the commit, or in a submodule of it that is here; None for nothing."""
+        found, done, module = self.top, "", modules(self.repository)
+        for part in at.split("/") if at != "." else ():
+            done = posixpath.join(done, part)
+            if found.type_str != "tree" or part not in found:
+                return None
+            found = module(done, found[part]) or found[part]
+        return found
 
 
 def _ours(tree: Any) -> Iterable[Odd]:
@@ -122,13 +132,23 @@ def _ours(tree: Any) -> Iterable[Odd]:
 
 def submodule(repository: Roots, path: str, commit: str, shown: str) -> Diagnostic | None:
     """Return what to say of the submodule at `path` (from the top) whose content at a commit is not among the files."""
-    hint = f"`git submodule update --init {path}`, or `git rm {path}` if it is not wanted"
+    fetch = (
+        f"git -C {path} fetch" if (repository.root / path / ".git").exists() else f"git submodule update --init {path}"
+    )
+    hint = f"`{fetch}`, or `git rm {path}` if it is not wanted"
     tree = _tree_of(repository, path, commit)
     if tree is None:
-        return unseen(shown, "a submodule that is not checked out", hint)
+        return unseen(shown, "a submodule whose content is not here", hint)
     holds = next((p for p, _ in _ours(tree)), "")
     text = f"a submodule, and the manifest {holds} in it is not read"
     return about(shown, "submodule", text, hint) if holds else None
+
+
+def modules(repository: Roots, lab: str = "") -> Module:
+    """Return what finds the content of submodules below the folder `lab` that this clone has."""
+    return lambda path, entry: (
+        _tree_of(repository, posixpath.join(lab, path), str(entry.id)) if entry.type_str == "commit" else None
+    )
 
 
 def _tree_of(repository: Roots, path: str, commit: str) -> Any:
