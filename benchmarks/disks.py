@@ -366,7 +366,7 @@ def tried(judge: Judge, kept: Path, case: Case, fault: str, at: int, good: Good)
         code = judge.run(judge.lab, *case.words)
     if not control.refused:
         return ()
-    said, now, left = judge.said.read_text(), judge.state(case.out), judge.left() - good.left
+    said, now, left = judge.said.read_text(), judge.state(case.out), judge.left() - good.left - good.before
     wrong = [*answered(judge, case, fault, code, said, good)]
     if code == good.code and now != good.after:
         wrong.append("untrue success")
@@ -420,6 +420,8 @@ class Good:
     count: int
     after: dict[str, object]
     left: set[str]
+    before: set[str]
+    """What lay about before it: of a command that was killed."""
 
 
 def judged(judge: Judge, name: str, points: int, seed: int) -> Score:
@@ -427,13 +429,14 @@ def judged(judge: Judge, name: str, points: int, seed: int) -> Score:
     case, score = CASES[name], Score()
     kept = judge.prepare(case)
     judge.again(kept)
+    before = judge.left()
     with judge.disk.failing(judge.area) as control:
         code = judge.run(judge.lab, *case.words)
     if code is None or "error[" in judge.said.read_text():
         print(f"  {name} fails on a good disk: {judge.said.read_text()}")
         score.wrong["fails on a good disk"] += 1
         return score
-    good = Good(code, control.count, judge.state(case.out), judge.left())
+    good = Good(code, control.count, judge.state(case.out), judge.left(), before)
     score.points = good.count
     draw = random.Random(f"{seed}/{name}")
     for fault in FAULTS:

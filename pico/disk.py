@@ -10,6 +10,7 @@ import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO, cast
 
 from pico.diagnostics import Diagnostic, PicoError, error
 
@@ -45,7 +46,7 @@ def write_whole(
             return
         if folders:
             path.parent.mkdir(parents=True, exist_ok=True)
-        _sweep(path)
+        sweep(path.parent, glob.escape(path.name))
         replace_whole(path, (data,), beside(path), durable=durable)
 
 
@@ -54,7 +55,7 @@ def write_all(files: Mapping[Path, bytes]) -> None:
     with ExitStack() as fresh:
         for path, data in files.items():
             with writing(path):
-                _sweep(path)
+                sweep(path.parent, glob.escape(path.name))
                 fresh.enter_context(removed(beside(path)))
                 _fill(beside(path), (data,), path)
         for path in files:
@@ -73,11 +74,27 @@ def _is_stream(path: Path) -> bool:
     return named or (path.exists() and not path.is_file())
 
 
-def _sweep(path: Path) -> None:
-    """Clear what processes left that were killed, or whose disk did not let go of it."""
-    for old in path.parent.glob(f".{glob.escape(path.name)}.*.tmp"):
+def sweep(folder: Path, name: str = "*") -> None:
+    """Clear what processes left in a folder beside files (of a name) that were killed, or whose disk did not let go of
+    it. Raises OSError."""
+    for old in folder.glob(f".{name}.*.tmp"):
         if (number := old.name.split(".")[-2]).isdigit() and not _alive(int(number)):
             old.unlink(missing_ok=True)
+
+
+def unnamed(data: bytes = b"") -> BinaryIO:
+    """Return a file without a name that holds `data`, to be read from its start or written on: nothing is left of it
+    whatever happens. In memory, which no disk can refuse, where the system has that."""
+    file: BinaryIO
+    try:
+        file = os.fdopen(os.memfd_create("pico"), "w+b")
+    except AttributeError:
+        import tempfile
+
+        file = cast(BinaryIO, tempfile.TemporaryFile())  # noqa: SIM115
+    file.write(data)
+    file.seek(0)
+    return file
 
 
 def _alive(process: int) -> bool:

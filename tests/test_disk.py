@@ -14,6 +14,9 @@ import pytest
 
 from pico.diagnostics import PicoError
 from pico.disk import mount_point, number_of, replace_whole, spoken, unwritable, write_all, write_whole
+from pico.history.git import command
+from pico.history.merge.lines import merge_lines
+from pico.history.merge.markers import Labels
 
 
 def names(folder: Path) -> list[str]:
@@ -62,6 +65,17 @@ def test_what_a_killed_writer_left_is_cleared_and_what_a_living_one_writes_is_no
         (tmp_path / f".plan.{number}.tmp").write_text("half")
     write_whole(tmp_path / "plan", b"new")
     assert names(tmp_path) == [f".plan.{os.getppid()}.tmp", "plan"]
+
+
+def test_git_is_listened_to_and_merges_lines_where_there_is_no_room_for_temporary_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "full"))
+    said = merge_lines(b"1\n2\n3\n", b"one\n2\n3\n", b"1\n2\nthree\n", Labels("ours", "base", "theirs"))
+    assert said == (b"one\n2\nthree\n", True)
+    assert list(command.stream(tmp_path, ["version"], doing="say its version"))
+    with pytest.raises(PicoError, match="git did not fail"):
+        list(command.stream(tmp_path, ["cat-file", "-p", "HEAD"], doing="fail"))
 
 
 @pytest.mark.skipif(not os.access("/dev/shm", os.W_OK), reason="there is no /dev/shm here")

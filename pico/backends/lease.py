@@ -20,7 +20,7 @@ from pico import attachment
 from pico.attachment import bench_folder, require_attached
 from pico.backends.protocol import Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.disk import write_whole, writing
+from pico.disk import sweep, write_whole, writing
 from pico.model.record import record
 
 
@@ -69,6 +69,9 @@ class BenchLock:
             raise PicoError(self._taken(), ExitCode.LOCKED)
         try:
             require_attached(self._root)  # it may have been taken to another worktree meanwhile
+            with self._writing():
+                for folder in (self._folder, self._folder / "sim"):
+                    sweep(folder)
         except PicoError:
             os.close(file)
             raise

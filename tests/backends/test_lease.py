@@ -76,3 +76,15 @@ def test_a_file_in_the_way_is_a_diagnostic(tmp_path: Path) -> None:
     (tmp_path / ".pico").write_text("")
     with pytest.raises(PicoError, match="cannot be locked"):
         BenchLock(tmp_path).acquire("test")
+
+
+def test_what_a_killed_mover_was_writing_is_cleared_by_whoever_takes_the_bench_next(tmp_path: Path) -> None:
+    process = holder(tmp_path)
+    process.kill()
+    process.communicate()
+    folder = tmp_path / ".pico" / "sim"
+    folder.mkdir()
+    for number in (process.pid, os.getpid()):
+        (folder / f".world.json.{number}.tmp").touch()
+    with BenchLock(tmp_path).held("test"):
+        assert [path.name for path in folder.iterdir()] == [f".world.json.{os.getpid()}.tmp"]

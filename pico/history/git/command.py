@@ -11,7 +11,6 @@ import errno
 import os
 import re
 import subprocess
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -20,7 +19,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from pico.diagnostics import PicoError, error
-from pico.disk import refusing, spoken, unwritable
+from pico.disk import refusing, spoken, unnamed, unwritable
 from pico.history.git.holders import held
 
 # git's words, the code of the diagnostic, and what to do. The first that matches counts.
@@ -111,7 +110,7 @@ def stream(root: Path, arguments: Sequence[str], *, doing: str) -> Iterator[str]
     Raises PicoError with git's own words where it fails.
     """
     options, looking = _guards(root, arguments)
-    with tempfile.TemporaryFile() as said:
+    with unnamed() as said:
         try:
             running = subprocess.Popen(
                 ["git", *options, *arguments], cwd=root, env={**_environment(root), **looking},

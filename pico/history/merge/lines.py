@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import subprocess
-import tempfile
-from pathlib import Path
 
 from pico.diagnostics import PicoError, error
+from pico.disk import unnamed
 from pico.history.merge.markers import Labels
-
-_NAMES = ("ours", "base", "theirs")
 
 
 def merge_lines(base: bytes, ours: bytes, theirs: bytes, labels: Labels) -> tuple[bytes, bool]:
@@ -17,13 +14,12 @@ def merge_lines(base: bytes, ours: bytes, theirs: bytes, labels: Labels) -> tupl
 
     Binary content comes back as ours, in conflict. Raises PicoError where there is no git.
     """
-    with tempfile.TemporaryDirectory(prefix="pico-merge-") as folder:
-        for name, data in zip(_NAMES, (ours, base, theirs), strict=True):
-            (Path(folder) / name).write_bytes(data)
+    with unnamed(ours) as a, unnamed(base) as b, unnamed(theirs) as c:
+        files = [file.fileno() for file in (a, b, c)]
         said = [word for name in (labels.ours, labels.base, labels.theirs) for word in ("-L", name)]
-        command = ["git", "merge-file", "-p", f"--marker-size={labels.size}", *said, *_NAMES]
+        command = ["git", "merge-file", "-p", f"--marker-size={labels.size}", *said, *(f"/dev/fd/{n}" for n in files)]
         try:
-            done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+            done = subprocess.run(command, capture_output=True, check=False, pass_fds=files)
         except FileNotFoundError:
             hint = "install git, or add it to PATH"
             raise PicoError(error("git-missing", "there is no `git` command to merge with", hint=hint)) from None
