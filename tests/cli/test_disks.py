@@ -50,5 +50,6 @@ def judged(*words: str) -> str:
     return done.stdout
 
 
+@pytest.mark.slow
 def test_no_plan_is_left_that_is_empty_or_half() -> None:
     assert " 9  0" in judged("plan --out", "--points", "3")

@@ -84,6 +84,7 @@ def test_each_arm_has_storage_of_its_own_and_both_reach_the_middle(lab: tuple[Se
     }
 
 
+@pytest.mark.slow
 def test_states_are_reached_from_one_another_and_only_what_crosses_is_put_down(
     lab: tuple[Setup, States, ArmMotion],
 ) -> None:
@@ -134,6 +135,7 @@ def chain(setup: Setup, robot: str, joints: tuple[float, ...]) -> np.ndarray:
     return np.array(points) @ turn + np.array([mounted.mount.x, mounted.mount.y, mounted.mount.z])
 
 
+@pytest.mark.slow
 def test_arms_never_come_near_one_another_while_the_bench_follows_its_history(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

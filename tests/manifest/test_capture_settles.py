@@ -59,7 +59,7 @@ def planned(seen: Observation, wanted: LabState) -> Plan:
     return plan(SETUP, seen, wanted, motion=None, backend="sim", fidelity="kinematic", base=base, target=target)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 @given(st.data())
 def test_after_a_capture_nothing_is_to_be_moved_and_the_form_is_kept(data: st.DataObject) -> None:
     places = {name: data.draw(said(name)) for name in PARTS}

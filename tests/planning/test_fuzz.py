@@ -14,9 +14,9 @@ def judged(seeds: range, most: int = 30) -> list[Verdict]:
 
 
 def test_random_rearrangements_are_planned_without_a_fault() -> None:
-    verdicts = judged(range(100))
-    assert sum(v.staged > 0 for v in verdicts) > 30, "the cases are too easy to mean anything"
-    assert sum(bool(v.refused) for v in verdicts if v.components > SMALL) <= 5
+    verdicts = judged(range(40))
+    assert sum(v.staged > 0 for v in verdicts) > 12, "the cases are too easy to mean anything"
+    assert sum(bool(v.refused) for v in verdicts if v.components > SMALL) <= 2
 
 
 def test_nothing_solvable_is_refused_on_a_small_table() -> None:
