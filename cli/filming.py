@@ -31,7 +31,6 @@ def film(session: Session, bench: Bench, plan: Plan, recording: Recording, event
         except KeyboardInterrupt:
             pass
     if not done:
-        (session.folder / path).unlink(missing_ok=True)
         session.say("No film: it was interrupted before its first picture.")
         return
     first, last = recording.snapshots[0].time, recording.snapshots[-1].time

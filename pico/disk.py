@@ -77,8 +77,8 @@ def _is_stream(path: Path) -> bool:
 def sweep(folder: Path, name: str = "*") -> None:
     """Clear what processes left in a folder beside files (of a name) that were killed, or whose disk did not let go of
     it. Raises OSError."""
-    for old in folder.glob(f".{name}.*.tmp"):
-        if (number := old.name.split(".")[-2]).isdigit() and not _alive(int(number)):
+    for old in folder.glob(f".{name}.*.tmp*"):
+        if (number := old.name.rpartition(".tmp")[0].rpartition(".")[2]).isdigit() and not _alive(int(number)):
             old.unlink(missing_ok=True)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -71,6 +72,45 @@ def test_a_film_ended_early_can_be_played(setup: Setup, run: list[Snapshot], tmp
         next(going)
         going.close()
         assert len(pictures(tmp_path / f"a{kind}")) >= 2
+
+
+@pytest.mark.parametrize("kind", [".mp4", ".gif"])
+@pytest.mark.parametrize("room", [40, 3000])
+def test_a_film_for_which_there_is_no_room_leaves_the_one_before(
+    setup: Setup, run: list[Snapshot], kind: str, room: int, tmp_path: Path
+) -> None:
+    path = tmp_path / f"a{kind}"
+    path.write_text("the one before")
+    allowed = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, allowed[1]))  # bytes of a file
+        with pytest.raises(PicoError, match=f"cannot write the film {path}: file too large"):
+            list(write_film(setup, run, path, fps=4, size=SIZE))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, allowed)
+    assert path.read_text() == "the one before" and list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("kind", [".mp4", ".gif"])
+def test_while_a_film_is_written_and_before_its_first_picture_the_one_before_stays(
+    setup: Setup, run: list[Snapshot], kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / f"a{kind}"
+    path.write_text("the one before")
+    going = write_film(setup, run, path, fps=4, size=SIZE)
+    next(going)
+    assert path.read_text() == "the one before"
+    going.close()
+    assert path.read_bytes() != b"the one before" and list(tmp_path.iterdir()) == [path]
+    path.write_text("the one before")
+    monkeypatch.setattr("pico.drawing.film.film.build_set", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        next(write_film(setup, run, path, fps=4, size=SIZE))
+    assert path.read_text() == "the one before" and list(tmp_path.iterdir()) == [path]
+
+
+def interrupted(*_: object) -> None:
+    raise KeyboardInterrupt
 
 
 def test_looking_only_where_something_moved_shows_the_same(setup: Setup, run: list[Snapshot]) -> None:

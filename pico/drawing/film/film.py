@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import glob
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.disk import beside, removed, sweep, writing
 from pico.drawing.film.camerawork import Set, build_set
-from pico.drawing.film.movie_file import open_reel
+from pico.drawing.film.movie_file import open_reel, require_kind
 from pico.model.lab import Setup
 from pico.twin.snapshot import Snapshot, at
 
@@ -46,8 +48,26 @@ def write_film(
     """Write a film of `snapshots` (one or more) to `path`, .mp4 or .gif, in simulated time.
 
     Yields (pictures done, of how many) after each picture; ended early, the film is what was done until then. Raises
-    PicoError where it can't be written.
+    PicoError where it can't be written; `path` is then as it was, as it is where not even one picture was done.
     """
+    require_kind(path)
+    fresh, done = beside(path).with_suffix(f".tmp{path.suffix}"), 0
+    with writing(path, what=f"cannot write the film {path}"), removed(fresh):
+        sweep(path.parent, glob.escape(path.name))
+        try:
+            for done, count in _shot(setup, snapshots, fresh, captions, fps, size):
+                yield done, count
+        except (KeyboardInterrupt, GeneratorExit):
+            if done:
+                fresh.replace(path)
+            raise
+        fresh.replace(path)
+
+
+def _shot(
+    setup: Setup, snapshots: Sequence[Snapshot], path: Path, captions: Sequence[Caption], fps: float,
+    size: tuple[int, int],
+) -> Iterator[tuple[int, int]]:  # fmt: skip
     first, last = snapshots[0].time, snapshots[-1].time
     step = 1 / fps
     count = int((last - first) / step + 1e-9) + 2  # the end is always shown

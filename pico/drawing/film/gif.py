@@ -9,8 +9,6 @@ import struct
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import PicoError, error
-
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -31,10 +29,7 @@ class GifReel:
         self._before: NDArray[np.uint8] | None = None
         self._palette: Any = None
         self._table: Any = None
-        try:
-            self._file = path.open("wb")
-        except OSError as exc:
-            raise PicoError(error("unwritable", f"cannot write the film {path}: {exc.strerror}")) from exc
+        self._file = path.open("wb")
 
     def add(self, picture: Image) -> None:
         """Write the next picture (height, width, 3), sRGB."""
@@ -53,8 +48,8 @@ class GifReel:
 
     def close(self) -> None:
         """End the file."""
-        self._file.write(b";")
-        self._file.close()
+        with self._file:
+            self._file.write(b";")
 
     def _begin(self, picture: Image) -> None:
         self._palette = _palette(picture)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from pico.diagnostics import PicoError, error
+from pico.disk import refusing
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,8 +36,10 @@ def require_kind(path: Path) -> None:
 
 
 def open_reel(path: Path, fps: float, size: tuple[int, int]) -> Reel:
-    """Return a new film of `fps` pictures a second, `size` (width, height) [pixels]; raises PicoError."""
-    require_kind(path)
+    """Return a new film of `fps` pictures a second, `size` (width, height) [pixels].
+
+    It and its `close` raise PicoError or OSError where it can't be written.
+    """
     from pico.drawing.film.gif import GifReel
 
     return GifReel(path, fps) if path.suffix.lower() == ".gif" else Mp4Reel(path, fps, size)
@@ -47,15 +51,23 @@ class Mp4Reel:
     def __init__(self, path: Path, fps: float, size: tuple[int, int]) -> None:
         import cv2
 
+        self._path, self._count = path, 0
         self._writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"mp4v"), fps, size)
         if not self._writer.isOpened():
-            hint = "is the folder writable? A film as .gif needs no codec"
-            raise PicoError(error("unwritable", f"cannot write the film {path}", hint=hint))
+            hint = "a film as .gif needs no codec"
+            no_codec = PicoError(error("unwritable", f"cannot write the film {path}", hint=hint))
+            raise refusing(path.parent) or no_codec
 
     def add(self, picture: Image) -> None:
         import numpy as np
 
+        self._count += 1
         self._writer.write(np.ascontiguousarray(picture[:, :, ::-1]))
 
     def close(self) -> None:
+        """End the file, and see that it is whole: OpenCV does not say what a disk did not take."""
+        import cv2
+
         self._writer.release()
+        if self._count and cv2.VideoCapture(str(self._path)).get(cv2.CAP_PROP_FRAME_COUNT) != self._count:
+            raise refusing(self._path.parent) or OSError(errno.EIO, "")
