@@ -4,30 +4,26 @@ from __future__ import annotations
 
 import copy
 import os
+import re
 import sys
 import traceback
-from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 
-from .commands import register
+from . import commands
+from .arguments import PREFIX, remember
+from .commands import files, stem
+from .help import help_text
 from .output import unsaid, write
 from .session import Session
-from .summary import COMMANDS, MOVERS
 
-LOCK_TIMEOUT = "--lock-timeout"
-PREFIX = "session_"  # so that a command may have an argument called `folder` of its own
-
-
-def _remember(context: typer.Context, parameter: typer.CallbackParam, value: Any) -> Any:
-    """Keep an option that was given, before or after the command's name; the later one wins."""
-    if value is not None and value is not False:
-        context.meta.setdefault("pico.session", {})[str(parameter.name).removeprefix(PREFIX)] = value
-    return value
+PLAIN: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False, "add_completion": False}
 
 
 def _version(value: bool) -> None:
@@ -40,25 +36,25 @@ def _version(value: bool) -> None:
 
 def root(
     session_folder: Annotated[
-        Path | None, typer.Option("-C", metavar="DIR", help="Work as if started in DIR.", callback=_remember)
+        Path | None, typer.Option("-C", metavar="DIR", help="Work as if started in DIR.", callback=remember)
     ] = None,
-    session_json: Annotated[bool, typer.Option("--json", help="Answer with JSON.", callback=_remember)] = False,
+    session_json: Annotated[bool, typer.Option("--json", help="Answer with JSON.", callback=remember)] = False,
     session_debug: Annotated[
-        bool, typer.Option("--debug", help="Show the traceback of an internal error.", callback=_remember)
+        bool, typer.Option("--debug", help="Show the traceback of an internal error.", callback=remember)
     ] = False,
     session_backend: Annotated[
         str | None,
-        typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=_remember),
+        typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=remember),
     ] = None,
     session_lock_timeout: Annotated[
         float | None,
         typer.Option(
-            LOCK_TIMEOUT,
+            "--lock-timeout",
             metavar="SECONDS",
             help="Wait so long for who has the bench.",
             min=0,
             hidden=True,
-            callback=_remember,
+            callback=remember,
         ),
     ] = None,
     version: Annotated[bool, typer.Option("--version", help="Show the version.", callback=_version)] = False,
@@ -66,56 +62,75 @@ def root(
     """Version control for the optical table."""
 
 
-def build(words: Sequence[str]) -> Any:
-    """Return the command line as a command group; the command that `words` ask for is complete, others are names."""
-    app = typer.Typer(
-        name="pico", rich_markup_mode=None, pretty_exceptions_enable=False, no_args_is_help=True, add_completion=False
-    )
+class Commands(TyperGroup):
+    """The commands, each imported and made once it is asked for: it brings its views along, and they the model."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Return the names of all commands."""
+        return list(files())
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Return a command with the options that all commands take; None where there is no such file."""
+        if cmd_name not in files():
+            return None
+        name = stem(files()[cmd_name])
+        module = import_module(f"{commands.__name__}.{name}")
+        app = getattr(module, "app", None)
+        if app is None:
+            app = typer.Typer(**PLAIN)
+            settings, kind = getattr(module, "SETTINGS", None), getattr(module, "CLASS", None)
+            app.command(cmd_name, cls=kind, context_settings=settings)(getattr(module, name))
+        made = typer.main.get_command(app)
+        made.name = cmd_name
+        _share(
+            made,
+            [
+                _hidden_from_function(p)
+                for p in self.params
+                if p.name.startswith(PREFIX) and not getattr(p, "hidden", False)
+            ],
+        )
+        return made
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write what `pico --help` says, also after another option."""
+        formatter.write(help_text() + "\n")
+
+
+def build() -> Any:
+    """Return the command line."""
+    app = typer.Typer(name="pico", cls=Commands, no_args_is_help=True, **PLAIN)
     app.callback()(root)
-    register(app, asked(words))
-    group = typer.main.get_command(app)
-    shared = [_hidden_from_function(p) for p in group.params if p.name.startswith(PREFIX)]
-    _share(group, shared)
-    return group
-
-
-def asked(words: Sequence[str]) -> str | None:
-    """Return the command that `words` begin with, after options."""
-    values = ("-C", "--backend", LOCK_TIMEOUT)
-    names = [w for i, w in enumerate(words) if not w.startswith("-") and (i == 0 or words[i - 1] not in values)]
-    return names[0] if names and names[0] in COMMANDS else None
+    return typer.main.get_command(app)
 
 
 def _hidden_from_function(option: Any) -> Any:
     """Return the option as a command takes it: its callback remembers the value, the function never sees it."""
     own = copy.copy(option)
     own.expose_value = False
-    own.hidden = False
     return own
 
 
-def _share(group: Any, options: list[Any], within: str = "") -> None:
-    for own, command in group.commands.items():
-        name = f"{within}{own}"
-        taken = {word for p in command.params for word in p.opts} | (set() if name in MOVERS else {LOCK_TIMEOUT})
-        command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
-        if hasattr(command, "commands"):
-            _share(command, options, f"{name} ")
+def _share(command: Any, options: list[Any]) -> None:
+    taken = {word for p in command.params for word in p.opts}
+    command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
+    for below in getattr(command, "commands", {}).values():
+        _share(below, options)
 
 
 def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
-    session = Session(json="--json" in words, debug="--debug" in words)
+    session, stepping = Session(json="--json" in words, debug="--debug" in words), "bisect-step" in words
     unsaid.clear()
     try:
-        group = build(words)
+        group = build()
         with group.make_context("pico", list(words)) as context:
             code = group.invoke(context)
     except typer.Exit as exc:
         code = exc.exit_code
     except (Exception, KeyboardInterrupt) as exc:
         found, code = _explain(exc, words)
-        if asked(words) == "bisect-step" and code < 128:
+        if stepping and code < 128:
             code += 128  # to `git bisect run` 1 would mean a bad commit
         if isinstance(exc, KeyboardInterrupt) and sys.stderr.isatty():
             write(sys.stderr, "")  # the terminal shows ^C where the cursor was
@@ -176,19 +191,20 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
     context = getattr(exc, "ctx", None)
     path = context.command_path if context else "pico"
     if type(exc).__name__ == "NoArgsIsHelpError":
-        known = ", ".join(context.command.commands) if context else ""
+        known = ", ".join(context.command.list_commands(context)) if context else ""
         return error("usage", f"`{path}` needs one of: {known}", hint=f"`{path} --help` says what they do")
     message = exc.format_message().rstrip(".")
+    if (allowed := re.search(r"'([^']*)' is not one of (.*)", message)) and getattr(exc, "param", None):
+        near = did_you_mean(allowed[1], re.findall("'(.*?)'", allowed[2]))
+        return error("usage", f"{exc.param.opts[0]} can't be `{allowed[1]}`", hint=near)
     hint = f"`{path} --help` shows how it is used"
     if " (Possible options: " in message:
         message, _, near = message.removesuffix(")").partition(" (Possible options: ")
         hint = f"did you mean `{near.split(',')[0]}`? {hint}"
     if message.startswith("No such command"):
-        from pico.diagnostics import did_you_mean
-
         unknown = message.split("'")[1] if "'" in message else next((w for w in words if not w.startswith("-")), "")
         message = f"{path} has no command `{unknown}`"
-        near = did_you_mean(unknown, COMMANDS if path == "pico" else context.command.commands)
+        near = did_you_mean(unknown, context.command.list_commands(context) if context else ())
         hint = near if near.startswith("did") else f"`{path} --help` lists the commands"
     return error("usage", message[:1].lower() + message[1:], hint=hint)
 

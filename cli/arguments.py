@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import typer
+
+from pico.diagnostics import PicoError, error
+
+PREFIX = "session_"  # so that a command may have an argument called `folder` of its own
+
+
+def remember(context: typer.Context, parameter: typer.CallbackParam, value: Any) -> Any:
+    """Keep an option for `Session.of`, given before or after the command's name; the later one wins."""
+    if value is not None and value is not False:
+        context.meta.setdefault("pico.session", {})[str(parameter.name).removeprefix(PREFIX)] = value
+    return value
+
 
 Component = Annotated[str, typer.Argument(metavar="COMPONENT", help="A component of the inventory.")]
 Revision = Annotated[
@@ -27,7 +40,7 @@ Targets = Annotated[
     list[str] | None,
     typer.Option(
         "--target",
-        metavar="NAME",
+        metavar="COMPONENT",
         help="Plan for this component only; may be given again. The plan names what must move with it, and what stays "
         "different.",
     ),
@@ -36,12 +49,12 @@ Exclude = Annotated[
     list[str] | None,
     typer.Option(
         "--exclude",
-        metavar="NAME",
+        metavar="COMPONENT",
         help="Leave this component alone; may be given again. The plan names what can't be done without it.",
     ),
 ]
 Prefer = Annotated[
-    str,
+    Literal["fewest-moves", "shortest-time"],
     typer.Option("--prefer", metavar="fewest-moves|shortest-time", help="What counts first in the choice of a plan."),
 ]
 Mainline = Annotated[
@@ -52,3 +65,44 @@ NoCommit = Annotated[bool, typer.Option("--no-commit", help="Write the manifests
 Speed = Annotated[float | None, typer.Option("--speed", metavar="SHARE", help="Share of the joint limits, up to 1.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the plan of it and move nothing.")]
 Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="Arguments.")]
+LockTimeout = Annotated[
+    float | None,
+    typer.Option(
+        "--lock-timeout", metavar="SECONDS", help="Wait so long for who has the bench.", min=0, callback=remember
+    ),
+]
+"""Of commands that take the bench; `Session.of` knows it."""
+StopOnError = Annotated[
+    bool, typer.Option("--stop-on-error", help="Start nothing more once an operation fails, not even beside it.")
+]
+GitWords = Annotated[
+    list[str] | None, typer.Argument(metavar="REMOTE|REF", help="For git, as it is; git's options, too.")
+]
+
+
+def pairs(words: list[str] | None, positional: tuple[str, ...] = ()) -> dict[str, str]:
+    """Return `key=value` words as a mapping; bare words take the names of `positional` in turn.
+
+    Raises PicoError for a word without `=` that has no name.
+    """
+    found: dict[str, str] = {}
+    names = iter(positional)
+    for word in words or []:
+        key, equals, value = word.partition("=")
+        if not equals:
+            key, value = _named(word, names), word
+        if key in found:
+            raise PicoError(error("usage", f"`{key}` is given twice"))
+        found[key] = value
+    return found
+
+
+def _named(word: str, names: Iterator[str]) -> str:
+    if word.startswith("--"):
+        raise PicoError(error("usage", f"no such option: {word}"))
+    if "/" in word:
+        return "slot"
+    name = next(names, None)
+    if name is None:
+        raise PicoError(error("usage", f"`{word}` is no `key=value`", hint="for example `angle=3`"))
+    return name

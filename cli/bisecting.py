@@ -54,7 +54,7 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
     name = bench.name_of(proposal.commit)
     if not search.task.expect or (proposal.plan.operations and not auto_approve):
         session.show(view.Proposed, search, proposal, name)
-    if proposal.plan.operations and not auto_approve and not session.confirm(view.question(proposal)):
+    if proposal.plan.operations and not session.confirm(view.question(proposal), auto_approve):
         session.say(f"Nothing moved. {AGAIN}; `pico bisect skip` leaves this one out.")
         return ExitCode.ERROR
     seconds, code = bring(session, bench, proposal.plan)
@@ -86,8 +86,7 @@ def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
     from .views import report as report_view
 
     session.show(report_view, report)
-    if not session.json:
-        session.report(report.diagnostics)
+    session.tell(report.diagnostics)
     return report.seconds, ExitCode.INTERRUPTED if report.outcome == "interrupted" else ExitCode.ERROR
 
 

@@ -1,129 +1,19 @@
-"""What Tab offers: from tables and straight from the files, for completion must not wait for a parser."""
+"""What Tab offers: what the files of commands and labs say, read as text, for completion must not wait for a parser."""
 
 from __future__ import annotations
 
 import re
 import stat
-import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from .summary import COMMANDS, MOVERS
+from .commands import files
 
-SHARED = ("-C", "--json", "--debug", "--backend", "--help")
-VALUES = (
-    "--meta",
-    "--at", "-C", "--backend", "--lock-timeout", "--out", "--fidelity", "--view", "--format", "--speed", "--example",
-    "--expect", "--measure-seconds", "--suspicion", "-m", "--message", "--mainline", "--interval", "--looks", "--grace",
-    "--run", "--pictures",
-    "--component", "--merge", "--report", "--junit", "--pictures",
-    "--since", "--until", "--author", "--grep",
-    "-n", "--number", "--explain", "--target", "--record", "--size", "--paper", "--done", "--not-done",
-    "--exclude", "--prefer", "--picture", "--types", "--after", "--distance", "--dx", "--dy", "--dz", "--dyaw",
-)  # fmt: skip
-_CHOICE = ("--target", "--exclude", "--prefer")
-_APPLY = ("--auto-approve", "--exact", "--fidelity", *_CHOICE)
-_ONE = ("--dry-run", "--fidelity")
-OPTIONS: dict[str, tuple[str, ...]] = {
-    "init": ("--example",),
-    "status": ("--all",),
-    "plan": ("--out", "--detailed-exitcode", "--exact", "--fidelity", "--explain", "--picture", *_CHOICE),
-    "apply": (*_APPLY, "--record", "--refresh", "--stop-on-error"),
-    "stop": ("--now",),
-    "resume": ("--auto-approve", "--fidelity", "--stop-on-error"),
-    "undo": ("--auto-approve", "--fidelity"),
-    "recover": ("--done", "--not-done", "--auto-approve", "--fidelity"),
-    "checkout": ("--auto-approve", "--files-only", "--fidelity"),
-    "explain": ("--fidelity",),
-    "graph": ("--format", "--out", "--fidelity"),
-    "fmt": ("--check",),
-    "parts": ("--free",),
-    "capture": ("--dry-run",),
-    "commit": ("-m", "--message", "-e", "--edit", "--capture", "--planned", "--meta"),
-    "log": (
-        "--graph",
-        "--oneline",
-        "--all",
-        "-n",
-        "--number",
-        "--since",
-        "--until",
-        "--author",
-        "--grep",
-        "--first-parent",
-        "--merges",
-        "--no-merges",
-    ),
-    "drift": ("--detailed-exitcode",),
-    "runs list": ("--all", "--component"),
-    "blame": ("--at", "--history", "--all"),
-    "watch": ("--interval", "--looks", "--heal"),
-    "do": ("--speed", *_ONE),
-    "move": ("--speed", *_ONE),
-    "rotate": ("--speed", *_ONE),
-    "place": ("--after", "--distance", "--speed", *_ONE),
-    "stow": ("--speed", *_ONE),
-    "set": _ONE,
-    "home": _ONE,
-    "diff": ("--picture", "--stat", "--exit-code"),
-    "push": ("--no-data",),
-    "publish": ("--out", "--run", "--pictures"),
-    "merge": ("-m", "--message"),
-    "check": ("--merge", "--report", "--markdown", "--junit", "--pictures", "--fidelity"),
-    "revert": ("-m", "--message", "--mainline", "--no-commit"),
-    "cherry-pick": ("--mainline", "--no-commit"),
-    "stash": ("-m", "--message"),
-    "render": ("--out", "--view", "--manifest", "--plan", "--size"),
-    "ruler": ("--picture",),
-    "scan": ("--picture",),
-    "find": ("--picture",),
-    "import": ("--types", "--dry-run"),
-    "bisect start": ("--expect", "--measure-seconds", "--trust", "--suspicion", "--auto-approve", "--fidelity"),
-    "bisect run": ("--expect", "--measure-seconds", "--trust", "--suspicion", "--auto-approve", "--fidelity"),
-    "bisect continue": ("--expect", "--auto-approve", "--fidelity"),
-    "bisect good": ("--auto-approve", "--fidelity"),
-    "bisect bad": ("--auto-approve", "--fidelity"),
-    "bisect skip": ("--auto-approve", "--fidelity"),
-    "bisect-step": ("--expect", "--fidelity"),
-    "calibrate": (),
-    "markers": ("--out", "--paper"),
-    "data gc": ("--grace", "--dry-run", "--auto-approve"),
-    "sim reset": (),
-    "sim bump": ("--dx", "--dy", "--dz", "--dyaw"),
-    "sim nudge": ("--dx", "--dy", "--dyaw"),
-    "sim remove": (),
-    "sim person": (),
-    "sim view": (),
-    "sim power-cycle": (),
-    "sim faults": (),
-}
-OPTIONS |= {name: (*OPTIONS.get(name, ()), "--lock-timeout") for name in MOVERS}
-GROUPS = {
-    "bisect": ("start", "run", "continue", "good", "bad", "skip", "status", "log", "reset"),
-    "sim": ("reset", "person", "nudge", "bump", "remove", "view", "power-cycle", "faults"),
-    "catalog": ("list", "show"),
-    "git": ("install", "uninstall", "attach"),
-    "runs": ("list", "show", "compare"),
-    "data": ("status", "push", "pull", "fsck", "gc", "pointers"),
-}
-FIXED = {
-    "--backend": ("sim", "hardware"),
-    "--fidelity": ("kinematic", "physics"),
-    "--view": ("perspective", "top"),
-    "--prefer": ("fewest-moves", "shortest-time"),
-    "--format": ("dot", "mermaid"),
-    "--pictures": ("all", "none"),
-    "--paper": ("a4", "letter"),
-    "--example": ("minimal", "shel", "crowded", "two_arms"),
-}
-COMPONENTS = ("--component", "--after", "--explain", "--target", "--exclude")
-_COMPONENT = (
-    "ruler", "find", "do", "move", "rotate", "place", "stow", "set", "get", "home", "note", "sim nudge", "sim remove",
-)  # fmt: skip
-_REVISION = (
-    "plan", "apply", "checkout", "explain", "graph", "log", "diff", "merge", "revert", "cherry-pick", "show", "render",
-    "verify", "publish", "runs list", "bisect start", "bisect run", "bisect good", "bisect bad", "bisect skip",
-)  # fmt: skip
+if TYPE_CHECKING:
+    from .declared import Declared
+
+SHARED = {"-C": "DIR", "--json": "", "--debug": "", "--backend": "sim|hardware", "--help": ""}
 _SAFE = re.compile(r"[^\s\\'\"`$&|;<>()*?!#{}\[\]\x00-\x1f\x7f-\x9f]+")
 """What a shell takes as it stands: bash puts what is offered into the command line as it is."""
 _LARGEST = 2 * 1024 * 1024
@@ -137,42 +27,49 @@ def candidates(words: Sequence[str]) -> list[str]:
     return sorted({c for c in _offered(before, last, folder) if c.startswith(last) and _SAFE.fullmatch(c)})
 
 
-def _offered(before: Sequence[str], last: str, folder: Path) -> Sequence[str]:
-    if before and before[-1] in VALUES:
-        return list(_inventory(folder)) if before[-1] in COMPONENTS else FIXED.get(before[-1], ())
-    plain = [w for i, w in enumerate(before) if not w.startswith("-") and (i == 0 or before[i - 1] not in VALUES)]
-    if not plain:
-        return (*SHARED, "--version") if last.startswith("-") else tuple(COMMANDS)
-    command, *given = plain
-    if command in GROUPS:
-        if not given:
-            return GROUPS[command]
-        command, given = f"{command} {given[0]}", given[1:]
+def _offered(before: Sequence[str], last: str, folder: Path) -> Iterable[str]:
+    options = {**SHARED, "--lock-timeout": "SECONDS"}
+    command, *below = [*_plain(before, options), ""]
+    taken = _taken(command)
+    own, metavars = taken.get("") or taken.get(below[0] if below else "") or ({}, [])
+    options |= own
+    given = _plain(before, options)[1 if "" in taken else 2 :]
+    metavars = [*metavars, *(m for m in metavars[-1:] for _ in given if m.endswith("..."))]
+    if before and options.get(before[-1]):
+        return _meant(options[before[-1]], folder)
     if "--" in before:
-        return list(_inventory(folder))
+        return _inventory(folder)
     if last.startswith("-"):
-        return (*OPTIONS.get(command, ()), *SHARED)
-    return list(_arguments(command, given, folder))
+        return (*own, *SHARED, *(() if command else ("--version",)))
+    if "" not in taken and not (below and below[0]):
+        return taken if command else files()
+    return (c for metavar in metavars[len(given) :][:1] for c in _meant(metavar, folder))
 
 
-def _arguments(command: str, given: Sequence[str], folder: Path) -> Iterator[str]:
-    if (command in _COMPONENT and not given) or command in ("blame", "capture", "commit"):
-        yield from _inventory(folder)
-    elif command == "do" and len(given) == 1:
-        yield from ("move", "stow", "set", "home")
-    elif command in _REVISION and len(given) < (2 if command in ("diff", "bisect start", "bisect run") else 1):
-        yield from _revisions(folder)
-        if command in ("apply", "explain", "graph", "show"):
-            yield from (p.name for p in folder.glob("*.plan"))
-    elif command == "explain" and len(given) == 1:
-        yield from _inventory(folder)
-    elif command == "stash" and not given:
-        yield from ("push", "pop", "list", "drop")
-    elif command == "completion":
-        yield from ("bash", "zsh", "fish")
+def _taken(command: str) -> dict[str, Declared]:
+    """Return what a command takes, nothing for what is none; see `declared`."""
+    if command not in files():
+        return {}
+    from .declared import declared
+
+    return declared(files()[command])
+
+
+def _plain(before: Sequence[str], options: Mapping[str, str]) -> list[str]:
+    """Return the words that are neither options nor their values."""
+    return [w for i, w in enumerate(before) if not w.startswith("-") and not (i and options.get(before[i - 1]))]
+
+
+def _meant(metavar: str, folder: Path) -> Iterator[str]:
+    """Yield what a metavar stands for: each of `a|b|FILE` that is written in small letters, or what its words mean."""
+    yield from (word for word in metavar.strip("[].").split("|") if word.islower())
+    for word in set(re.findall("[A-Z]+", metavar)) & _MEANING.keys():
+        yield from _MEANING[word](folder)
 
 
 def _revisions(folder: Path) -> Sequence[str]:
+    import subprocess
+
     command = ["git", "-C", str(folder), "for-each-ref", "--format=%(refname:short)", "refs/heads", "refs/tags"]
     try:
         return subprocess.run(command, capture_output=True, text=True, check=False, timeout=1).stdout.split()
@@ -203,6 +100,14 @@ def _readable(path: Path) -> bool:
         return False
     return stat.S_ISREG(found.st_mode) and found.st_size <= _LARGEST
 
+
+_MEANING: dict[str, Callable[[Path], Iterable[str]]] = {
+    **dict.fromkeys(("REV", "BAD", "GOOD"), _revisions),
+    **dict.fromkeys(("COMPONENT", "PART", "OTHER"), _inventory),
+    "PLANFILE": lambda folder: (p.name for p in folder.glob("*.plan")),
+    "PRIMITIVE": lambda _: ("move", "stow", "set", "home"),
+}
+"""What the words of metavars stand for."""
 
 SCRIPTS = {
     "bash": """_pico() {

@@ -44,7 +44,7 @@ def _at_once(words: list[str]) -> str | None:
 
         return "\n".join(candidates(words))
     if words in ([], ["--help"], ["-h"], ["help"]):
-        from .summary import help_text
+        from .help import help_text
 
         return help_text()
     if words in (["--version"], ["-V"]):

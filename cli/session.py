@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
+
+from pico.diagnostics import PicoError, error
 
 from .output import write
 from .views.style import inert_json
@@ -83,6 +86,15 @@ class Session:
         else:
             self.say(view.text(*args, **options))
 
+    def draw(self, shown: Path | None, what: str, draw: Callable[[Path], object]) -> None:
+        """Have a picture of `what` drawn where somebody asked for one, and say where it is."""
+        if shown is not None:
+            from .views import picture
+
+            with waiting("Drawing"):
+                draw(self.folder / shown)
+            self.say(f"\n{picture.text(self.folder / shown, shown=shown, what=what)}")
+
     def document(self, data: Any) -> None:
         """Print one JSON document, in one line."""
         write(sys.stdout, inert_json(json.dumps(data, ensure_ascii=False, default=str)))
@@ -91,7 +103,7 @@ class Session:
         """Print text for people; nothing with `--json`. Return whether somebody may still read."""
         return self.json or write(sys.stdout, text)
 
-    def report(self, diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> None:
+    def report(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Print diagnostics: on standard error for people, on standard output as JSON."""
         from .views import diagnostics as view
 
@@ -100,13 +112,20 @@ class Session:
         elif diagnostics:
             write(sys.stderr, view.text(diagnostics))
 
-    def tell(self, diagnostics: tuple[Diagnostic, ...]) -> None:
+    def tell(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Print what came up beside the answer, for people alone: JSON is the answer."""
         if not self.json:
             self.report(diagnostics)
 
-    def confirm(self, question: str) -> bool:
-        """Ask, and return whether the answer is yes. Nobody there to answer is a no."""
+    def require_answer(self, auto_approve: bool) -> None:
+        """Raise PicoError where a question would have to be asked and JSON is the answer."""
+        if self.json and not auto_approve:
+            raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
+
+    def confirm(self, question: str, auto_approve: bool) -> bool:
+        """Ask, unless told not to, and return whether the answer is yes. Nobody there to answer is a no."""
+        if auto_approve:
+            return True
         write(sys.stdout, f"{question} [y/N] ", end="")
         try:
             answer = input()

@@ -38,7 +38,7 @@ def commands() -> Iterator[str]:
 @pytest.mark.parametrize("line", sorted(set(commands())))
 def test_every_command_and_option_exists(line: str) -> None:
     words = shlex.split(line.partition(">")[0])[1:]
-    command = build(words).commands[words[0]]
+    command = build().get_command(None, words[0])
     known = {option for parameter in command.params for option in parameter.opts}
     assert {w for w in words[1:] if w.startswith("-")} <= known
 

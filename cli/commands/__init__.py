@@ -1,47 +1,43 @@
-"""One file a command. Only the one that is asked for is imported: it brings its views along, and they the model."""
+"""A file a command, and nothing to be added anywhere else: a function of the file's name, or a group called `app`.
+
+The first line of a file says where `pico --help` shows the command: under which heading, and which in turn; last where
+it says nothing. `SETTINGS` and `CLASS`, where it has them, are those of its typer command. Names, headings and what the
+commands do are read from the files as text: only the command that is asked for is imported (`cli.app.Commands`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from importlib import import_module
+import io
+import os
 
-import typer
-
-from ..scope import Scoped
-from ..summary import COMMANDS
-
-SINGLE = ("do", "move", "rotate", "place", "stow", "set", "get", "home")
-GROUPS = ("bisect", "catalog", "data", "git", "runs", "sim")
-SCOPED = ("plan", "apply", "checkout", "diff", "log")  # these take names after `--`
-LOOSE = {"ignore_unknown_options": True}  # -30 is then a number, not an option, and git gets its own
+HEADINGS = ("The main job", "Manifests", "History", "One operation at a time", "The simulator, and the rest")
 
 
-def register(app: typer.Typer, asked: str | None) -> None:
-    """Add every command to `app`: the one asked for in full, of the others name and first line."""
-    for name in COMMANDS:
-        if name in GROUPS:
-            app.add_typer(import_module(f".{name}", __name__).app if name == asked else _empty(name), name=name)
-        elif name == asked:
-            settings = LOOSE if name in ("do", "log", "move", "rotate", "set", "push", "pull") else None
-            kind = Scoped if name in SCOPED else None
-            app.command(name, cls=kind, context_settings=settings)(_function(name))
-        else:
-            app.command(name, help=COMMANDS[name])(_nothing)
+def files() -> dict[str, str]:
+    """Return the file of each command, by the command's name."""
+    found = sorted(
+        e.path for folder in __path__ for e in os.scandir(folder) if e.name[0] != "_" and e.name[-3:] == ".py"
+    )
+    return {stem(path).rstrip("_").replace("_", "-"): path for path in found}
 
 
-def _function(name: str) -> Callable[..., int]:
-    name = f"{name}_" if name in ("import", "set") else name  # words of Python
-    name = name.replace("-", "_")
-    module = import_module(".single" if name.rstrip("_") in SINGLE and name != "get" else f".{name}", __name__)
-    function: Callable[..., int] = getattr(module, name)
-    return function
+def stem(path: str) -> str:
+    """Return the name of the module in a file."""
+    return path.rpartition(os.sep)[2].removesuffix(".py")
 
 
-def _empty(name: str) -> typer.Typer:
-    group = typer.Typer(help=COMMANDS[name])
-    group.callback()(_nothing)
-    return group
+def summary() -> dict[str, dict[str, str]]:
+    """Return the commands under each heading with what each does, in order."""
+    found = sorted(_line(name, path) for name, path in files().items())
+    return {heading: {name: line for under, _, name, line in found if under == heading} for heading in HEADINGS}
 
 
-def _nothing() -> None:
-    pass
+def _line(name: str, path: str) -> tuple[str, int, str, str]:
+    """Return the heading of a command, its turn there, its name, and what it does."""
+    with io.open_code(path) as file:  # to import pathlib takes longer than all of this
+        text = file.read().decode()
+    heading, _, turn = text.strip('"').partition(": ")[0].rpartition(", ")
+    place = (heading, int(turn)) if heading in HEADINGS and turn.isdecimal() else (HEADINGS[-1], 999)
+    group, single = text.partition("\napp = ")[2], text.partition(f"\ndef {stem(path)}(")[2]
+    said = group.partition('help="')[2].partition('"') if group else single.partition('"""')[2].partition('"""')
+    return *place, name, said[0].partition("\n")[0]

@@ -1,33 +1,23 @@
-"""`pico apply`."""
+"""The main job, 4: `pico apply`."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
-from pico.diagnostics import ExitCode, PicoError, error
+from pico.diagnostics import PicoError, error
 
-from ..arguments import Exact, Exclude, Fidelity, PlanOrRevision, Prefer, Targets, Yes
-from ..running import execute, question
-from ..scope import scope_of
+from ..arguments import Exact, Exclude, Fidelity, LockTimeout, PlanOrRevision, Prefer, StopOnError, Targets, Yes
+from ..running import approve
+from ..scope import Scoped, scope_of
 from ..session import Session
-from ..views import plan as view
-from ..views import verified
-from ..views.report import expectations
 
-if TYPE_CHECKING:
-    from pico.bench.bench import Bench
-    from pico.model.plan import Plan
-
+CLASS = Scoped
 Record = Annotated[
     Path | None,
     typer.Option("--record", metavar="FILE", help="Film it in the simulator, in simulated time: FILE.mp4 or FILE.gif."),
-]
-
-StopOnError = Annotated[
-    bool, typer.Option("--stop-on-error", help="Start nothing more once an operation fails, not even beside it.")
 ]
 
 Refresh = Annotated[
@@ -47,6 +37,7 @@ def apply(
     record: Record = None,
     stop_on_error: StopOnError = False,
     refresh: Refresh = False,
+    lock_timeout: LockTimeout = None,
 ) -> int:
     """Move what the plan says.
 
@@ -64,49 +55,10 @@ def apply(
     targets = (*(target or ()), *scope_of(context))
     options = {"exact": exact, "prefer": prefer, "targets": targets, "exclude": exclude or ()}
     plan = bench.plan_of(what, folder=session.folder, **options)
-    if is_saved(bench, what, session.folder):
+    if what is not None and not isinstance(bench.find(what, session.folder), str):
         if refresh:
             plan = bench.refreshed(plan)
         bench.require_fresh(plan)
     elif refresh:
         raise PicoError(error("usage", "--refresh is for a saved plan", hint="without one every plan is a new one"))
     return approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
-
-
-def is_saved(bench: Bench, what: str | None, folder: Path) -> bool:
-    """Return whether a word means a saved plan."""
-    return what is not None and not isinstance(bench.find(what, folder), str)
-
-
-def _expected(session: Session, bench: Bench, plan: Plan) -> int:
-    """Check the expectations of a goal that the bench has reached already."""
-    if not plan.target.expect or plan.target.scope:
-        return ExitCode.DONE
-    found = bench.expected(plan)
-    if session.json:
-        session.document(verified.data(found))
-    session.say("\n".join(expectations(found.expectations)))
-    return found.exit_code
-
-
-def approve(
-    session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
-) -> int:
-    """Show a plan, ask, run it, and return the exit code; `options` are those of `AsyncBench.run`."""
-    if plan.operations and not auto_approve and session.json:
-        raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
-    session.show(view, plan, head=bench.head_name(), goal=bench.goal_name(plan))
-    if not session.json:
-        session.report(plan.diagnostics)
-    if plan.errored:
-        return ExitCode.IMPOSSIBLE
-    if plan.denied:
-        return ExitCode.DENIED
-    if not plan.operations:
-        bench.settle()
-        return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
-    session.say("")
-    if not auto_approve and not session.confirm(question(plan)):
-        session.say("Nothing moved.")
-        return ExitCode.ERROR
-    return execute(session, bench, plan, record, **options)

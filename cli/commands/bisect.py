@@ -1,4 +1,4 @@
-"""`pico bisect`: which configuration broke an expectation."""
+"""History, 7: `pico bisect`: which configuration broke an expectation."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pico.diagnostics import ExitCode, PicoError, error
-
-from ..arguments import Fidelity, Yes
+from ..arguments import Fidelity, LockTimeout, Yes
 from ..output import write
 from ..session import Session
 
@@ -40,7 +38,6 @@ Suspicion = Annotated[
 
 app = typer.Typer(
     rich_markup_mode=None,
-    no_args_is_help=False,
     help="Find which configuration broke an expectation, by trials on the bench.",
 )
 
@@ -48,13 +45,14 @@ app = typer.Typer(
 @app.callback(invoke_without_command=True)
 def main(context: typer.Context) -> None:
     if context.invoked_subcommand is None:
-        raise typer.Exit(status(context))
+        status(context)
 
 
 @app.command()
 def start(
     context: typer.Context, bad: Bad, good: Good, expect: Expect = None, measure_seconds: Measure = 5.0,
     trust: Trust = False, suspicion: Suspicion = 10.0, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Begin: bring the bench to the first configuration. With --expect it is judged, and so on; else you judge it.
 
@@ -69,6 +67,7 @@ def start(
 def run(
     context: typer.Context, bad: Bad, good: Good, expect: Expect = None, measure_seconds: Measure = 5.0,
     trust: Trust = False, suspicion: Suspicion = 10.0, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Find the first bad commit, by what --expect says, else by the `expect:` of the bad one.
 
@@ -81,7 +80,8 @@ def run(
 
 @app.command(name="continue")
 def continue_(
-    context: typer.Context, expect: Expect = None, auto_approve: Yes = False, fidelity: Fidelity = None
+    context: typer.Context, expect: Expect = None, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Go on with the bisection under way, from the bench as it stands."""
     from ..bisecting import go_on
@@ -93,7 +93,8 @@ def continue_(
 
 @app.command()
 def good(
-    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None
+    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """The configuration under trial is good; go on to the next."""
     return _told(context, "good", commit, auto_approve, fidelity)
@@ -101,7 +102,8 @@ def good(
 
 @app.command()
 def bad(
-    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None
+    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """The configuration under trial is bad; go on to the next."""
     return _told(context, "bad", commit, auto_approve, fidelity)
@@ -109,14 +111,15 @@ def bad(
 
 @app.command()
 def skip(
-    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None
+    context: typer.Context, commit: Commit = None, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Nobody can tell whether the configuration under trial is good; go on to another."""
     return _told(context, "skip", commit, auto_approve, fidelity)
 
 
 @app.command()
-def status(context: typer.Context) -> int:
+def status(context: typer.Context) -> None:
     """Show what was tried, what is under trial, and how many are left."""
     from ..views import bisect as view
 
@@ -124,11 +127,10 @@ def status(context: typer.Context) -> int:
     bench = session.bench()
     search = bench.bisection()
     session.show(view.Standing, search, search.outcome(), bench.name_of)
-    return ExitCode.DONE
 
 
 @app.command()
-def log(context: typer.Context) -> int:
+def log(context: typer.Context) -> None:
     """Print git's log of the bisection, for `git bisect replay`."""
     session = Session.of(context)
     text = session.bench().bisection().git.log()
@@ -136,18 +138,16 @@ def log(context: typer.Context) -> int:
         session.document({"schema": "pico.bisect/v1", "kind": "log", "log": text})
     else:
         write(sys.stdout, text, end="")
-    return ExitCode.DONE
 
 
 @app.command()
-def reset(context: typer.Context) -> int:
+def reset(context: typer.Context) -> None:
     """End the bisection. Files and bench stay as they are."""
     session = Session.of(context)
     session.bench().bisection().git.reset()
     if session.json:
         session.document({"schema": "pico.bisect/v1", "kind": "reset"})
     session.say("The bisection is over. The bench stays where it is; `pico apply` brings it to the manifest.")
-    return ExitCode.DONE
 
 
 def _begin(
@@ -179,6 +179,5 @@ def _told(
 
 def _approving(context: typer.Context, auto_approve: bool) -> Session:
     session = Session.of(context)
-    if session.json and not auto_approve:
-        raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
+    session.require_answer(auto_approve)
     return session

@@ -1,4 +1,4 @@
-"""`pico bisect-step`."""
+"""History, 8: `pico bisect-step`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import typer
 
 from pico.diagnostics import ExitCode, PicoError, error
 
-from ..arguments import Fidelity
+from ..arguments import Fidelity, LockTimeout
 from ..session import Session
 
 if TYPE_CHECKING:
@@ -19,7 +19,9 @@ CODES = {"good": 0, "bad": 1, "skip": 125}
 Expect = Annotated[str, typer.Option("--expect", metavar="CEL", help="What must hold of the bench: 'p2.pose.x < 530'.")]
 
 
-def bisect_step(context: typer.Context, expect: Expect, fidelity: Fidelity = None) -> int:
+def bisect_step(
+    context: typer.Context, expect: Expect, fidelity: Fidelity = None, lock_timeout: LockTimeout = None
+) -> int:
     """Bring the bench to the commit that git bisects and judge it, for `git bisect run`.
 
     `git bisect run pico bisect-step --expect 'p2.pose.x < 530'`, best after `git bisect start --no-checkout`. Does not

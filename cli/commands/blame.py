@@ -1,4 +1,4 @@
-"""`pico blame`."""
+"""History, 6: `pico blame`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def blame(
     history: Annotated[
         bool, typer.Option("--history", "--all", help="Every commit that changed it, newest first.")
     ] = False,
-) -> int:
+) -> None:
     """Say for each tunable which commit changed it last, and how.
 
     Without --at: the state at HEAD, and what was edited since. How: by which run; by hand, where the bench was captured
@@ -36,6 +36,4 @@ def blame(
     found = blamed(root, what or (), at=at, history=history)
     with paged(session):
         session.show(view, found, asked=bool(what))
-    if not session.json:
-        session.report(found.diagnostics)
-    return 0
+    session.tell(found.diagnostics)

@@ -1,4 +1,4 @@
-"""`pico calibrate`."""
+"""The simulator, and the rest, 7: `pico calibrate`."""
 
 from __future__ import annotations
 
@@ -8,19 +8,15 @@ from ..session import Session
 from ..views import calibration as view
 
 
-def calibrate(context: typer.Context) -> int:
+def calibrate(context: typer.Context) -> None:
     """Find out where the cameras are and how their lenses draw.
 
     From pictures of the calibration board and of the datums; takes about half a minute. Writes calibration.json into
     the lab's folder. Nothing on the table moves.
     """
-    from pico.cameras.calibrating import calibrate as calibrated
-    from pico.vision.calibration import FILE, write_calibration
+    from pico.vision.calibration import FILE
 
     session = Session.of(context)
     bench = session.bench(writing=True)
     session.say("Taking pictures of the calibration board (about half a minute) ...")
-    found = calibrated(bench.setup, bench.sim.true_cameras(), bench.setup.lab.sim.seed)
-    write_calibration(bench.root, found)
-    session.show(view, found, shown=FILE)
-    return 0
+    session.show(view, bench.calibrate(), shown=FILE)

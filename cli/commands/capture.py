@@ -1,4 +1,4 @@
-"""`pico capture`."""
+"""Manifests, 3: `pico capture`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def capture(
         list[str] | None, typer.Argument(metavar="[COMPONENT[.TUNABLE]]...", help="Write only these.")
     ] = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Show what would be written, and write nothing.")] = False,
-) -> int:
+) -> None:
     """Write what stands on the bench into the manifest.
 
     Only values that differ by more than their tolerance change, one line each; comments and layout stay.
@@ -24,4 +24,3 @@ def capture(
     session = Session.of(context)
     bench = session.bench(writing=not dry_run)
     session.show(view, bench.capture(*(only or ()), write=not dry_run))
-    return 0

@@ -1,4 +1,4 @@
-"""`pico catalog list` and `pico catalog show NAME`."""
+"""Manifests, 4: `pico catalog list` and `pico catalog show NAME`."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ app = typer.Typer(rich_markup_mode=None, no_args_is_help=True, help="List the co
 
 
 @app.command("list")
-def list_types(context: typer.Context) -> int:
+def list_types(context: typer.Context) -> None:
     """List the component types."""
     from pico.manifest.folders import catalog_of
 
     session = Session.of(context)
     session.show(view, catalog_of(session.folder))
-    return 0
 
 
 @app.command()
-def show(context: typer.Context, name: Annotated[str, typer.Argument(metavar="NAME", help="A component type.")]) -> int:
+def show(
+    context: typer.Context, name: Annotated[str, typer.Argument(metavar="NAME", help="A component type.")]
+) -> None:
     """Show a component type: parameters, tunables, measurables, primitives, geometry."""
     from pico.manifest.folders import component_type
 
     session = Session.of(context)
     session.show(type_view, component_type(session.folder, name))
-    return 0

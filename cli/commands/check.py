@@ -1,4 +1,4 @@
-"""`pico check`."""
+"""History, 13: `pico check`."""
 
 from __future__ import annotations
 
@@ -121,9 +121,9 @@ def _show(session: Session, found: Checked, stream: TextIO) -> None:
 def _tell_github(found: Checked) -> None:
     """Put the report on the page of the job, and the findings beside their lines, where GitHub runs this."""
     if os.environ.get("GITHUB_ACTIONS"):
-        from ..views.check_annotations import annotations
+        from ..views.check_annotations import beside
 
-        if lines := annotations(found):
+        if lines := beside(found):
             write(sys.stderr, lines)
     if summary := os.environ.get("GITHUB_STEP_SUMMARY"):
         from ..views.check_markdown import report as in_markdown

@@ -1,4 +1,4 @@
-"""`pico checkout`."""
+"""The main job, 9: `pico checkout`."""
 
 from __future__ import annotations
 
@@ -9,11 +9,10 @@ import typer
 from pico.attachment import require_attached
 from pico.diagnostics import ExitCode
 
-from ..arguments import Fidelity, Yes
-from ..running import execute, question
-from ..scope import scope_of
+from ..arguments import Fidelity, LockTimeout, Yes
+from ..running import execute, question, show
+from ..scope import Scoped, scope_of
 from ..session import Session
-from ..views import plan as view
 from ..views import taken as taken_view
 
 if TYPE_CHECKING:
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from pico.history.restoring.selected import Taken
     from pico.model.plan import Plan
 
+CLASS = Scoped
 FilesOnly = Annotated[bool, typer.Option("--files-only", help="Only the files; the bench stays as it is.")]
 
 
@@ -30,6 +30,7 @@ def checkout(
     auto_approve: Yes = False,
     files_only: FilesOnly = False,
     fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
 ) -> int:
     """Go to a revision: files and bench.
 
@@ -48,14 +49,9 @@ def checkout(
         return _files(session, bench, what, before)
     plan = bench.checkout_plan(what)
     goal = bench.goal_name(plan) if isinstance(what, str) else taken_view.goal(bench.name_of(revision))
-    session.show(view, plan, head=bench.head_name(), goal=goal)
-    if not session.json:
-        session.report(plan.diagnostics)
-    if plan.errored:
-        return ExitCode.IMPOSSIBLE
-    if plan.denied:
-        return ExitCode.DENIED
-    if plan.operations and not auto_approve and (session.json or not session.confirm("\n" + question(plan))):
+    if code := show(session, plan, auto_approve, head=bench.head_name(), goal=goal):
+        return code
+    if plan.operations and not session.confirm("\n" + question(plan), auto_approve):
         session.say("Nothing moved; the files are where they were.")
         return ExitCode.ERROR
     return _go(session, bench, what, plan, before)
@@ -66,8 +62,7 @@ def _go(session: Session, bench: Bench, what: str | Taken, plan: Plan, before: s
     if plan.operations:
         require_attached(bench.root)
     notes = bench.checkout_files(what)
-    if not session.json:
-        session.report(notes)
+    session.tell(notes)
     if isinstance(what, str):
         session.say(f"\nThe files are at {bench.head_name()}. Go back with `pico checkout {before}`.")
         back = ""

@@ -1,4 +1,4 @@
-"""`pico cherry-pick`."""
+"""History, 15: `pico cherry-pick`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def cherry_pick(
     revisions: Annotated[list[str], typer.Argument(metavar="REV...", help="Commits, or a range such as main..e1.")],
     mainline: Mainline = None,
     no_commit: NoCommit = False,
-) -> int:
+) -> None:
     """Change on this branch what commits of another one changed on the table, in the manifests only.
 
     A commit each, with its message and author, but without its runs: it was not realized here. Nothing is written
@@ -27,7 +27,5 @@ def cherry_pick(
     bench = session.bench(writing=True)
     before = bench.head_commit()
     done = bench.cherry_pick(revisions, mainline=mainline, commit=not no_commit)
-    if not session.json:
-        session.report([d for one in done for d in one.diagnostics])
+    session.tell([d for one in done for d in one.diagnostics])
     session.show(view, done, before=before or "")
-    return 0

@@ -1,8 +1,8 @@
-"""`pico commit`."""
+"""History, 1: `pico commit`."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,6 +10,9 @@ from pico.diagnostics import PicoError, error
 
 from ..session import Session
 from ..views import commit as view
+
+if TYPE_CHECKING:
+    from pico.bench.bench import CommitMode
 
 
 def commit(
@@ -31,7 +34,7 @@ def commit(
     meta: Annotated[
         list[str] | None, typer.Option("--meta", metavar="KEY=VALUE", help="Record this, too; may be repeated.")
     ] = None,
-) -> int:
+) -> None:
     """Capture the bench and commit.
 
     Refused where the manifest holds edits that were never applied: apply them first, or say who wins with --capture
@@ -42,17 +45,15 @@ def commit(
     session = Session.of(context)
     recorded = _recorded(meta or [])
     bench = session.bench(writing=True)
-    mode = "capture" if capture else "planned" if planned else "strict"
+    mode: CommitMode = "capture" if capture else "planned" if planned else "strict"
     text = "\n\n".join(message) if message else None
     if edit:
         from ..editing import edited
 
         text = edited(bench, text if text is not None else bench.draft(mode, only=only or ()))
     made = bench.commit(text, mode, only=only or (), meta=recorded)
-    if not session.json:
-        session.report(made.diagnostics)
+    session.tell(made.diagnostics)
     session.show(view, made)
-    return 0
 
 
 def _recorded(meta: list[str]) -> dict[str, str]:

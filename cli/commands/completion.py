@@ -1,25 +1,21 @@
-"""`pico completion`."""
+"""The simulator, and the rest, 12: `pico completion`."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
-
-from pico.diagnostics import PicoError, did_you_mean, error
 
 from ..complete import HOW, SCRIPTS
 from ..session import Session
 
 
 def completion(
-    context: typer.Context, shell: Annotated[str, typer.Argument(metavar="bash|zsh|fish", help="Your shell.")]
-) -> int:
+    context: typer.Context,
+    shell: Annotated[Literal["bash", "zsh", "fish"], typer.Argument(metavar="bash|zsh|fish", help="Your shell.")],
+) -> None:
     """Print the completion script of a shell; its first line says how to install it."""
-    if shell not in SCRIPTS:
-        raise PicoError(error("usage", f"no completion for `{shell}`", hint=did_you_mean(shell, SCRIPTS)))
     session = Session.of(context)
     if session.json:
         session.document({"schema": "pico.completion/v1", "shell": shell, "script": SCRIPTS[shell]})
     session.say(f"# {HOW[shell]}\n{SCRIPTS[shell]}")
-    return 0

@@ -1,4 +1,4 @@
-"""`pico data`: the large data of runs, here and where copies are kept."""
+"""The simulator, and the rest, 9: `pico data`: the large data of runs, here and where copies are kept."""
 
 from __future__ import annotations
 
@@ -34,13 +34,12 @@ Place = Annotated[
 
 
 @app.command()
-def status(context: typer.Context, place: Place = None) -> int:
+def status(context: typer.Context, place: Place = None) -> None:
     """Show which data the runs need, and how much of it is here and there."""
     session = Session.of(context)
     with waiting("Looking"):
         found = _data(session).status(_at(session, place))
     session.show(view, found)
-    return ExitCode.DONE
 
 
 @app.command()
@@ -77,34 +76,32 @@ def gc(
     ] = "14d",
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would go, and remove nothing.")] = False,
     yes: Yes = False,
-) -> int:
+) -> None:
     """Remove old objects that nothing here needs: no run of any ref, reflog, index, working tree or journal."""
     session = Session.of(context)
     data, seconds = _data(session), _seconds(grace)
     with waiting("Looking"):
         found = data.garbage(seconds)
-    asked = bool(found.removable) and not (dry_run or yes)
-    if asked and not session.json:
+    if asked := bool(found.removable) and not (dry_run or yes):
+        session.require_answer(yes)
         session.say(view.text(found))
-    if asked and (session.json or not session.confirm(f"Remove them, {view.size(found.size)}?")):
+    if asked and not session.confirm(f"Remove them, {view.size(found.size)}?", yes):
         raise PicoError(error("declined", "nothing was removed", hint="`--auto-approve` does not ask"))
     freed = None if dry_run else data.remove(found, seconds)
     session.show(view, found, freed=freed)
-    return ExitCode.DONE
 
 
 @app.command()
 def pointers(
     context: typer.Context,
     runs: Annotated[list[str] | None, typer.Argument(metavar="[RUN]...", help="Without: all in the files.")] = None,
-) -> int:
+) -> None:
     """Write Git LFS pointers for the data of runs beside them, for you to commit, and hand git-lfs the data."""
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
     found = _data(session).point(find_lab(session.folder), runs or ())
     session.show(view, found)
-    return ExitCode.DONE
 
 
 def _data(session: Session) -> LabData:
@@ -122,8 +119,7 @@ def _move(session: Session, doing: str, done: str, move: Callable[[Shared], Move
     with waiting(doing) as shown:
         found = move(lambda share: setattr(shown, "share", share))
     session.show(view, found, done=done)
-    if not session.json:
-        session.report(found.diagnostics)
+    session.tell(found.diagnostics)
     failed = found.diagnostics or (done == "fetched" and found.lost)
     return ExitCode.ERROR if failed else ExitCode.DONE
 

@@ -1,4 +1,4 @@
-"""`pico diff`."""
+"""History, 4: `pico diff`."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ import typer
 
 from ..arguments import Revision
 from ..paging import paged
-from ..scope import scope_of
+from ..scope import Scoped, scope_of
 from ..session import Session
 from ..views import diff as view
-from ..views import picture as picture_view
-from ..waiting import waiting
 
+CLASS = Scoped
 From = Annotated[
     str | None,
     typer.Argument(
-        metavar="[A|A..B|A...B]", help="A revision (HEAD without one), or a range; A...B: from where B left A."
+        metavar="[REV|A..B|A...B]", help="A revision (HEAD without one), or a range; A...B: from where B left A."
     ),
 ]
 Picture = Annotated[
@@ -54,8 +53,5 @@ def diff(
             view, found, a=bench.name_of(found.a), b=bench.name_of(found.b) if found.b else "the manifest",
             next_step="" if names else step, stat=stat,
         )  # fmt: skip
-    if picture:
-        with waiting("Drawing"):
-            session.bench().render_diff(found.a, found.b, out=session.folder / picture)
-        session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='the difference')}")
+    session.draw(picture, "the difference", lambda path: session.bench().render_diff(found.a, found.b, out=path))
     return int(exit_code and not found.same)

@@ -1,4 +1,4 @@
-"""`pico doctor`."""
+"""The simulator, and the rest, 11: `pico doctor`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ def doctor(context: typer.Context) -> int:
     session = Session.of(context)
     checked = check_folder(session.folder, beside=withheld)
     found = (*checkup(session.folder), *checked.diagnostics)
-    if not session.json:
-        session.report(found)
+    session.tell(found)
     session.show(view, found)
     return ExitCode.ERROR if any(d.severity == "error" for d in found) else ExitCode.DONE

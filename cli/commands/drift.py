@@ -1,4 +1,4 @@
-"""`pico drift`."""
+"""History, 11: `pico drift`."""
 
 from __future__ import annotations
 

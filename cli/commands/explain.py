@@ -1,4 +1,4 @@
-"""`pico explain`."""
+"""The main job, 10: `pico explain`."""
 
 from __future__ import annotations
 
@@ -42,6 +42,5 @@ def show(session: Session, bench: Bench, plan: Plan, component: str | None) -> i
     """Show the explanation of a plan, or of one component in it, and return the exit code."""
     found = bench.explain(plan, component)
     session.show(view, plan, found, head=bench.head_name(), goal=bench.goal_name(plan))
-    if not session.json:
-        session.report(found.diagnostics)
+    session.tell(found.diagnostics)
     return ExitCode.IMPOSSIBLE if plan.errored else ExitCode.DONE

@@ -1,4 +1,4 @@
-"""`pico find`."""
+"""The simulator, and the rest, 5: `pico find`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from pico.model.request import require_component
 from ..arguments import Component
 from ..session import Session
 from ..views import find as view
-from ..views import picture as picture_view
 from ..waiting import waiting
 
 Picture = Annotated[
@@ -27,18 +26,18 @@ def find(context: typer.Context, part: Component, picture: Picture = None) -> in
     Its pose, the nearest hole of the table, its slot, how surely. Exits with 1 where nobody sees it; then says where it
     was last.
     """
+    from pico.bench.looking import problems_of
+
     session = Session.of(context)
     bench = session.bench()
     require_component(bench.setup, part)
     with waiting("Looking"):
         look = bench.scan()
     found = look.observation.components[part]
-    problems = [p for p in look.observation.problems if p.address in (part, "") or part in p.summary.split(":")[0]]
+    problems = problems_of(look, part)
     session.show(view, bench.setup, part, found, problems)
-    if not session.json:
-        session.report([p for p in problems if p.severity != "note"])
-    if picture and found.pose is not None:
-        bench.scan_picture(look, out=session.folder / picture, component=part)
-        session.say(picture_view.text(session.folder / picture, shown=picture, what=f"what is around {part}"))
+    session.tell([p for p in problems if p.severity != "note"])
+    if found.pose is not None:
+        session.draw(picture, f"what is around {part}", lambda path: bench.scan_picture(look, out=path, component=part))
     wrong = found.pose is None or any(p.severity == "error" for p in problems)
     return ExitCode.ERROR if wrong else ExitCode.DONE

@@ -1,4 +1,4 @@
-"""`pico fmt`."""
+"""Manifests, 2: `pico fmt`."""
 
 from __future__ import annotations
 

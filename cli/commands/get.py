@@ -1,4 +1,4 @@
-"""`pico get`."""
+"""One operation at a time, 7: `pico get`."""
 
 from __future__ import annotations
 
@@ -15,11 +15,10 @@ def get(
     context: typer.Context,
     component: Component,
     tunable: Annotated[str | None, typer.Argument(metavar="TUNABLE", help="Without it, all of them.")] = None,
-) -> int:
+) -> None:
     """Read the tunables of a component.
 
     Pose included, as they are on the bench.
     """
     session = Session.of(context)
     session.show(view, session.bench().read(component, tunable), component=component)
-    return 0

@@ -1,4 +1,4 @@
-"""`pico git install`, `pico git uninstall` and `pico git attach`."""
+"""The simulator, and the rest, 10: `pico git install`, `pico git uninstall` and `pico git attach`."""
 
 from __future__ import annotations
 
@@ -14,18 +14,17 @@ app = typer.Typer(
 
 
 @app.command()
-def install(context: typer.Context) -> int:
+def install(context: typer.Context) -> None:
     """Tell git about PICO's merge driver, in this repository only. The first command that writes does it by itself."""
     from pico.history.git.attributes import install
 
     session = Session.of(context)
     install(session.folder)
     session.show(view, installed=True)
-    return 0
 
 
 @app.command()
-def attach(context: typer.Context) -> int:
+def attach(context: typer.Context) -> None:
     """Attach this worktree to the bench, which it takes from the worktree that has it; that one then only plans.
 
     A repository's first worktree that moves something is attached by itself.
@@ -35,15 +34,13 @@ def attach(context: typer.Context) -> int:
     session = Session.of(context)
     root = session.history().root
     session.show(attached, root, attach(root))
-    return 0
 
 
 @app.command()
-def uninstall(context: typer.Context) -> int:
+def uninstall(context: typer.Context) -> None:
     """Take PICO's merge driver out of this repository's configuration; it is then not set again by itself."""
     from pico.history.git.attributes import uninstall
 
     session = Session.of(context)
     uninstall(session.folder)
     session.show(view, installed=False)
-    return 0

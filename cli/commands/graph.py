@@ -1,12 +1,12 @@
-"""`pico graph`."""
+"""The main job, 11: `pico graph`."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
-from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
+from pico.diagnostics import ExitCode
 from pico.disk import write_whole
 
 from ..arguments import Fidelity, Out, PlanOrRevision
@@ -22,7 +22,8 @@ def graph(
     context: typer.Context,
     what: PlanOrRevision = None,
     form: Annotated[
-        str | None, typer.Option("--format", metavar="dot|mermaid", help="For a program that draws graphs.")
+        Literal["dot", "mermaid"] | None,
+        typer.Option("--format", metavar="dot|mermaid", help="For a program that draws graphs."),
     ] = None,
     out: Out = None,
     fidelity: Fidelity = None,
@@ -35,15 +36,13 @@ def graph(
     from pico.planning.explaining.graph import graph_of
 
     session = Session.of(context)
-    if form is not None and form not in FORMATS:
-        raise PicoError(error("usage", f"there is no format `{form}`", hint=did_you_mean(form, FORMATS)))
     bench = session.bench(fidelity)
     plan = bench.plan_of(what, folder=session.folder)
     found = graph_of(plan)
-    form = form or (_SUFFIXES.get(out.suffix, "dot") if out else None)
-    if out and form:
+    if out:
+        kind = form or _SUFFIXES.get(out.suffix, "dot")
         path = session.folder / out
-        write_whole(path, (FORMATS[form](plan, found) + "\n").encode())
+        write_whole(path, (FORMATS[kind](plan, found) + "\n").encode())
         session.show(written, path, shown=out, what=f"the graph of the plan for {bench.goal_name(plan)}")
     elif form and not session.json:
         session.say(FORMATS[form](plan, found))
@@ -51,6 +50,5 @@ def graph(
         goal = bench.goal_name(plan)
         step = f"`pico graph{f' {what}' if what else ''} --format dot | dot -Tsvg > plan.svg` draws it."
         session.show(view, plan, found, head=bench.head_name(), goal=goal, next_step=step)
-    if not session.json:
-        session.report(plan.diagnostics)
+    session.tell(plan.diagnostics)
     return ExitCode.IMPOSSIBLE if plan.errored else ExitCode.DONE

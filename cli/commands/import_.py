@@ -1,4 +1,4 @@
-"""`pico import`."""
+"""The simulator, and the rest, 6: `pico import`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Types = Annotated[
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be written, and write nothing.")]
 
 
-def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False) -> int:
+def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False) -> None:
     """Take what stands on the table and is not in the inventory into it, as the cameras see it.
 
     Writes an entry into `inventory` and where it stands into the state: `pico plan` then has nothing to do. What is
@@ -32,4 +32,3 @@ def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False
     with waiting("Looking"):
         found = bench.import_parts(types or [], write=not dry_run)
     session.show(view, found, dry_run=dry_run)
-    return 0

@@ -1,4 +1,4 @@
-"""`pico init`."""
+"""The main job, 1: `pico init`."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ def init(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet.")],
     example: Annotated[
         str | None,
-        typer.Option("--example", metavar="NAME", help="minimal, shel, crowded or two_arms, with its history."),
+        typer.Option("--example", metavar="minimal|shel|crowded|two_arms", help="With its history."),
     ] = None,
-) -> int:
+) -> None:
     """Make a new lab, or an example with its history."""
     from pico.bench.bench import new_lab
 
@@ -26,6 +26,4 @@ def init(
     notes = new_lab(session.folder / folder, example)
     session.wire(session.folder / folder)
     session.show(view, session.folder / folder, example, shown=folder)
-    if not session.json:
-        session.report(notes)
-    return 0
+    session.tell(notes)

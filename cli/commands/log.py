@@ -1,4 +1,4 @@
-"""`pico log`."""
+"""History, 3: `pico log`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import typer
 from pico.diagnostics import PicoError, error
 
 from ..paging import paged
-from ..scope import scope_of
+from ..scope import Scoped, scope_of
 from ..session import Session
 from ..views import log as view
 
@@ -21,6 +21,7 @@ Words = Annotated[
     list[str] | None,
     typer.Argument(metavar="[REV|A..B|^A]...", help="Commits, ranges, and what is to be left out; HEAD for none."),
 ]
+SETTINGS, CLASS = {"ignore_unknown_options": True}, Scoped
 _COUNT = re.compile(r"-(\d+)")
 
 
@@ -38,7 +39,7 @@ def log(
     first_parent: Annotated[bool, typer.Option("--first-parent", help="Of a merge, follow the first line.")] = False,
     merges: Annotated[bool, typer.Option("--merges", help="Merges only.")] = False,
     no_merges: Annotated[bool, typer.Option("--no-merges", help="No merges.")] = False,
-) -> int:
+) -> None:
     """List commits with what each changed on the table.
 
     With names after `--` only those that changed these components, single tunables, or components that these files
@@ -58,14 +59,13 @@ def log(
     )  # fmt: skip
     if session.json:
         session.document(view.data(found, graph=graph, oneline=oneline, head=bench.head_commit()))
-        return 0
+        return
     with paged(session):
         for part, notes in found.notes().items():
             session.say(view.noted(part, notes))
         for block in view.blocks(found, graph=graph, oneline=oneline, head=bench.head_commit()):
             if not session.say(block):
                 break
-    return 0
 
 
 def _counted(words: list[str], number: int | None) -> tuple[list[str], int | None]:

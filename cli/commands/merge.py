@@ -1,4 +1,4 @@
-"""`pico merge`."""
+"""History, 12: `pico merge`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def merge(
     context: typer.Context,
     revision: Annotated[str, typer.Argument(metavar="REV", help="The commit, branch or tag to be merged.")],
     message: Annotated[str, typer.Option("-m", "--message", help="Why.")] = "",
-) -> int:
+) -> None:
     """Merge another branch, value by value, and check that the result can stand on the table.
 
     Nothing is written where a tunable was changed on both sides, or where the merged state is physically impossible
@@ -23,7 +23,5 @@ def merge(
     session = Session.of(context)
     bench = session.bench(writing=True)
     made = bench.merge(revision, message)
-    if not session.json:
-        session.report(made.diagnostics)
+    session.tell(made.diagnostics)
     session.show(view, made)
-    return 0

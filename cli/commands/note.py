@@ -1,4 +1,4 @@
-"""`pico note`."""
+"""History, 2: `pico note`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def note(
     context: typer.Context,
     part: Annotated[str, typer.Argument(metavar="PART", help="A part of the inventory.")],
     text: Annotated[list[str] | None, typer.Argument(metavar="[TEXT]...", help="What there is to say of it.")] = None,
-) -> int:
+) -> None:
     """Note something on a part, or list what was noted on it.
 
     Notes are lines of `notes/PART.md`; the next `pico commit` takes them along, and merges keep those of both sides.
@@ -23,4 +23,3 @@ def note(
     bench = session.bench(writing=bool(text))
     added = bench.note(part, " ".join(text)) if text else None
     session.show(view, part, bench.notes(part), added)
-    return 0

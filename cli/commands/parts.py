@@ -1,4 +1,4 @@
-"""`pico parts`."""
+"""Manifests, 5: `pico parts`."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ from ..views import parts as view
 def parts(
     context: typer.Context,
     free: Annotated[bool, typer.Option("--free", help="Only those in storage that the manifest does not use.")] = False,
-) -> int:
+) -> None:
     """List the parts of this bench and where they are."""
     session = Session.of(context)
     bench = session.bench()
     session.show(view, bench.parts(free=free), free=free)
-    return 0

@@ -1,4 +1,4 @@
-"""`pico plan`."""
+"""The main job, 3: `pico plan`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,11 @@ from pico.diagnostics import ExitCode
 from pico.disk import write_whole
 
 from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Targets
-from ..scope import scope_of
+from ..scope import Scoped, scope_of
 from ..session import Session
-from ..views import picture as picture_view
 from ..views import plan as view
-from ..waiting import waiting
 
+CLASS = Scoped
 Explain = Annotated[
     str | None,
     typer.Option("--explain", metavar="COMPONENT", help="Say why the plan does with COMPONENT what it does."),
@@ -69,16 +68,11 @@ def plan(
             goal=bench.goal_name(found),
             next_step=_next(revision, out, _again(target, exclude, prefer), named),
         )
-    if picture:
-        with waiting("Drawing"):
-            bench.render(view="top", plan=found, out=session.folder / picture)
-        session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='the plan')}")
+    session.draw(picture, "the plan", lambda path: bench.render(view="top", plan=found, out=path))
     if not session.json and not explain:
         session.report(found.diagnostics)
-    if found.errored:
-        return ExitCode.IMPOSSIBLE
-    if found.denied:
-        return ExitCode.DENIED
+    if found.exit_code:
+        return found.exit_code
     return ExitCode.CHANGES if detailed_exitcode and not found.reached else ExitCode.DONE
 
 

@@ -1,19 +1,15 @@
-"""`pico publish`."""
+"""History, 19: `pico publish`."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
-
-from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 
 from ..session import Session
 from ..views import published as view
 from ..waiting import waiting
-
-PICTURES = ("all", "none")
 
 
 def publish(
@@ -30,9 +26,9 @@ def publish(
         ),
     ] = None,
     pictures: Annotated[
-        str, typer.Option("--pictures", metavar="all|none", help="With pictures of the table?")
+        Literal["all", "none"], typer.Option("--pictures", metavar="all|none", help="With pictures of the table?")
     ] = "all",
-) -> int:
+) -> None:
     """Write a revision with its runs, measurements, plan and pictures as an RO-Crate, to publish.
 
     The same commit gives the same bytes. Refused where an artifact of a run is not here.
@@ -41,14 +37,9 @@ def publish(
     from pico.history.lab.folder import LabFolder
 
     session = Session.of(context)
-    if pictures not in PICTURES:
-        text = f"--pictures is all or none, not `{pictures[:40]}`"
-        raise PicoError(error("usage", text, hint=did_you_mean(pictures, PICTURES)))
     folder = LabFolder(session.folder)
     with waiting("Publishing"):
         path = session.folder / out if out else None
         made = publish(folder, revision, path, runs=run or (), pictures=pictures == "all", beside=session.folder)
     session.show(view, made)
-    if not session.json:
-        session.report(made.diagnostics)
-    return ExitCode.DONE
+    session.tell(made.diagnostics)

@@ -1,4 +1,4 @@
-"""`pico pull`."""
+"""History, 17: `pico pull`."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ import typer
 
 from pico.diagnostics import ExitCode, warning
 
+from ..arguments import GitWords
 from ..session import Session
 from ..views import data as said
 from ..views import pulled as view
 from ..waiting import waiting
-from .push import Words
+
+SETTINGS = {"ignore_unknown_options": True}
 
 
-def pull(context: typer.Context, words: Words = None) -> int:
+def pull(context: typer.Context, words: GitWords = None) -> int:
     """Get commits with `git pull`, then the large data of their runs. Moves nothing."""
     from pico.history.data.lab import LabData
     from pico.history.repository.remote import pull

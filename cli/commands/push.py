@@ -1,4 +1,4 @@
-"""`pico push`."""
+"""History, 16: `pico push`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pico.diagnostics import ExitCode, PicoError, error, warning
+from pico.diagnostics import PicoError, error, warning
 
+from ..arguments import GitWords
 from ..session import Session
 from ..views import data as said
 from ..views import pushed as view
@@ -18,16 +19,16 @@ if TYPE_CHECKING:
     from pico.history.data.lab import LabData
     from pico.history.data.transfer import Moved
 
-Words = Annotated[list[str] | None, typer.Argument(metavar="REMOTE|REF", help="For git, as it is; git's options, too.")]
+SETTINGS = {"ignore_unknown_options": True}
 
 
 def push(
     context: typer.Context,
-    words: Words = None,
+    words: GitWords = None,
     no_data: Annotated[
         bool, typer.Option("--no-data", help="Send commits only; the data of their runs stays.")
     ] = False,
-) -> int:
+) -> None:
     """Send the large data of runs to where it is kept, then the commits with `git push`."""
     from pico.history.data.lab import LabData
     from pico.history.repository.remote import push
@@ -41,7 +42,6 @@ def push(
         raise PicoError((*moved.diagnostics, error("data-unsent", text, hint=hint)))
     sent = push(data.repository, words or (), shown=not session.json and sys.stderr.isatty())
     session.show(view, sent, moved)
-    return ExitCode.DONE
 
 
 def _send(session: Session, data: LabData) -> Moved | None:

@@ -1,4 +1,4 @@
-"""`pico recover`."""
+"""The main job, 8: `pico recover`."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import typer
 
 from pico.diagnostics import ExitCode
 
-from ..arguments import Fidelity, Yes
+from ..arguments import Fidelity, LockTimeout, Yes
+from ..running import approve
 from ..session import Session
-from .apply import approve
 
 Keys = Annotated[
     list[str] | None, typer.Option("--done", metavar="KEY", help="This step was done before the run ended: you looked.")
@@ -22,7 +22,7 @@ NotKeys = Annotated[
 
 def recover(
     context: typer.Context, done: Keys = None, not_done: NotKeys = None, auto_approve: Yes = False,
-    fidelity: Fidelity = None,
+    fidelity: Fidelity = None, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Set down what hands still hold, and settle what only you can know.
 

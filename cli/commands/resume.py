@@ -1,16 +1,20 @@
-"""`pico resume`."""
+"""The main job, 6: `pico resume`."""
 
 from __future__ import annotations
 
 import typer
 
-from ..arguments import Fidelity, Yes
+from ..arguments import Fidelity, LockTimeout, StopOnError, Yes
+from ..running import approve
 from ..session import Session
-from .apply import StopOnError, approve
 
 
 def resume(
-    context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None, stop_on_error: StopOnError = False
+    context: typer.Context,
+    auto_approve: Yes = False,
+    fidelity: Fidelity = None,
+    stop_on_error: StopOnError = False,
+    lock_timeout: LockTimeout = None,
 ) -> int:
     """Take up the last run again, which was interrupted, failed or killed.
 

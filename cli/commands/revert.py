@@ -1,4 +1,4 @@
-"""`pico revert`."""
+"""History, 14: `pico revert`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def revert(
     message: Annotated[str, typer.Option("-m", "--message", help="Why; without it 'Revert \"...\"'.")] = "",
     mainline: Mainline = None,
     no_commit: NoCommit = False,
-) -> int:
+) -> None:
     """Take back what a commit changed on the table, in the manifests only.
 
     Later changes of other tunables stay, and so do the runs and notes of that commit. Nothing is written where the
@@ -32,7 +32,5 @@ def revert(
     bench = session.bench(writing=True)
     before = bench.head_commit()
     done = bench.revert(revision, message, mainline=mainline, commit=not no_commit)
-    if not session.json:
-        session.report(done.diagnostics)
+    session.tell(done.diagnostics)
     session.show(view, (done,), before=before or "")
-    return 0

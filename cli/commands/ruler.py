@@ -1,4 +1,4 @@
-"""`pico ruler`."""
+"""The simulator, and the rest, 3: `pico ruler`."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ from typing import Annotated
 import typer
 
 from ..session import Session
-from ..views import picture as picture_view
 from ..views import ruler as view
-from ..waiting import waiting
 
-A = Annotated[str, typer.Argument(metavar="A", help="COMPONENT[:optical|base|hole], SLOT, hole:COLUMN,ROW or X,Y.")]
-B = Annotated[str, typer.Argument(metavar="B", help="As A.")]
+A = Annotated[
+    str,
+    typer.Argument(metavar="COMPONENT|SLOT|X,Y", help="COMPONENT[:optical|base|hole], SLOT, hole:COLUMN,ROW or X,Y."),
+]
+B = Annotated[str, typer.Argument(metavar="COMPONENT|SLOT|X,Y", help="As A.")]
 Picture = Annotated[Path | None, typer.Option("--picture", metavar="PNG", help="Draw it from above.")]
 
 
-def ruler(context: typer.Context, a: A, b: B, picture: Picture = None) -> int:
+def ruler(context: typer.Context, a: A, b: B, picture: Picture = None) -> None:
     """Measure between two things on the bench.
 
     Between their points, between their nearest faces, and along the beam axis of the first one. `pico ruler lx_125
@@ -27,8 +28,4 @@ def ruler(context: typer.Context, a: A, b: B, picture: Picture = None) -> int:
     bench = session.bench()
     found = bench.ruler(a, b)
     session.show(view, found)
-    if picture:
-        with waiting("Drawing"):
-            bench.render_ruler(found, out=session.folder / picture)
-        session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='it')}")
-    return 0
+    session.draw(picture, "it", lambda path: bench.render_ruler(found, out=path))

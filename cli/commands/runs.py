@@ -1,4 +1,4 @@
-"""`pico runs`: what was done on the bench, as the commits carry it."""
+"""History, 10: `pico runs`: what was done on the bench, as the commits carry it."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def list_(
     ] = None,
     every: Annotated[bool, typer.Option("--all", help="Of all branches and tags.")] = False,
     component: Annotated[
-        str | None, typer.Option("--component", metavar="NAME", help="Only those that changed this component.")
+        str | None, typer.Option("--component", metavar="COMPONENT", help="Only those that changed this component.")
     ] = None,
-) -> int:
+) -> None:
     """List runs, the newest first: what led where, how it ended, and which commit carries it.
 
     Runs of this bench that no commit has yet are listed, too; the next `pico commit` takes them.
@@ -41,20 +41,16 @@ def list_(
     wrong: list[Diagnostic] = []
     found = session.bench().runs(revision, every=every, component=component, diagnostics=wrong)
     session.show(table, found, wrong)
-    if not session.json:
-        session.report(wrong)
-    return 0
+    session.tell(wrong)
 
 
 @app.command()
-def show(context: typer.Context, run: Run = None) -> int:
+def show(context: typer.Context, run: Run = None) -> None:
     """Show everything about a run: its operations with their times, what it changed, what proves it."""
     session = Session.of(context)
     found, commit = session.bench().recorded_run(run)
     session.show(view, found, commit)
-    if not session.json:
-        session.report(found.diagnostics)
-    return 0
+    session.tell(found.diagnostics)
 
 
 @app.command()
@@ -62,8 +58,7 @@ def compare(
     context: typer.Context,
     a: Annotated[str, typer.Argument(metavar="A", help="The beginning of a run's id.")],
     b: Annotated[str, typer.Argument(metavar="B", help="The beginning of another's.")],
-) -> int:
+) -> None:
     """Compare two runs: where each ended, the seconds of each operation, and what was otherwise."""
     session = Session.of(context)
     session.show(compared, session.bench().compare_runs(a, b))
-    return 0

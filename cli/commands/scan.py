@@ -1,4 +1,4 @@
-"""`pico scan`."""
+"""The simulator, and the rest, 4: `pico scan`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..session import Session
-from ..views import picture as picture_view
 from ..views import scan as view
 from ..waiting import waiting
 
@@ -30,11 +29,7 @@ def scan(context: typer.Context, picture: Picture = None) -> int:
     with waiting("Looking"):
         look = bench.scan()
     session.show(view, bench.setup, look)
-    if not session.json:
-        session.report(look.observation.problems)
-    if picture:
-        with waiting("Drawing"):
-            bench.scan_picture(look, out=session.folder / picture)
-        session.say(f"\n{picture_view.text(session.folder / picture, shown=picture, what='what the cameras see')}")
+    session.tell(look.observation.problems)
+    session.draw(picture, "what the cameras see", lambda path: bench.scan_picture(look, out=path))
     wrong = any(problem.severity == "error" for problem in look.observation.problems)
     return ExitCode.ERROR if wrong else ExitCode.DONE

@@ -1,4 +1,4 @@
-"""`pico show`."""
+"""History, 5: `pico show`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..views import plan as plan_view
 from ..views import revision as revision_view
 
 
-def show(context: typer.Context, what: PlanOrRevision = None) -> int:
+def show(context: typer.Context, what: PlanOrRevision = None) -> None:
     """Show a revision or a saved plan.
 
     Of a revision (HEAD without an argument): what it changed, its runs and what proves it, and the state that it holds.
@@ -24,8 +24,7 @@ def show(context: typer.Context, what: PlanOrRevision = None) -> int:
     found = bench.find(what or "HEAD", folder=session.folder)
     if isinstance(found, Plan):
         session.show(plan_view, found, goal=bench.goal_name(found), next_step=f"Apply with `pico apply {what}`.")
-        return 0
+        return
     shown = bench.show(found)
     with paged(session):
         session.show(revision_view, shown)
-    return 0

@@ -1,12 +1,10 @@
-"""`pico sim`: the hand of somebody in the simulated laboratory."""
+"""The simulator, and the rest, 1: `pico sim`: the hand of somebody in the simulated laboratory."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
-
-from pico.diagnostics import PicoError, error
 
 from ..arguments import Component
 from ..session import Session
@@ -20,12 +18,11 @@ app = typer.Typer(
 
 
 @app.command()
-def reset(context: typer.Context) -> int:
+def reset(context: typer.Context) -> None:
     """Put every part of the simulated bench home, as in a new world."""
     session = Session.of(context)
     session.bench().sim.reset()
     session.show(said, "every part of the simulated bench is at home")
-    return 0
 
 
 @app.command()
@@ -35,12 +32,11 @@ def nudge(
     dx: Annotated[float, typer.Option("--dx", help="Millimetres to the right.")] = 0.0,
     dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
     dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
-) -> int:
+) -> None:
     """Push a component, as somebody bumping the table would."""
     session = Session.of(context)
     pose = session.bench().sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
     session.show(said, f"{name} now stands at {pose}", pose=pose)
-    return 0
 
 
 @app.command()
@@ -53,51 +49,48 @@ def bump(
     dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
     dz: Annotated[float, typer.Option("--dz", help="Millimetres up.")] = 0.0,
     dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
-) -> int:
+) -> None:
     """Push a camera, as somebody bumping its post would: it keeps looking from there until a reset."""
     session = Session.of(context)
     session.bench().sim.bump(camera, shift=(dx, dy, dz), turn=(0.0, 0.0, dyaw))
     moved = f"({dx:g}, {dy:g}, {dz:g}) mm, {dyaw:g} deg"
     session.show(said, f"{camera or 'every camera at the table'} moved by {moved}; its calibration is as before")
-    return 0
 
 
 @app.command()
-def remove(context: typer.Context, name: Component) -> int:
+def remove(context: typer.Context, name: Component) -> None:
     """Take a component off the simulated table: it is then missing."""
     session = Session.of(context)
     session.bench().sim.remove(name)
     session.show(said, f"{name} is off the table; `pico sim reset` brings everything back")
-    return 0
 
 
 @app.command()
-def view(context: typer.Context) -> int:
+def view(context: typer.Context) -> None:
     """Open MuJoCo's own viewer on the bench and follow what moves; needs a display."""
     from pico.drawing.viewer import require_display
 
     require_display()
     session = Session.of(context)
     session.bench().view()
-    return 0
 
 
 @app.command()
 def person(
     context: typer.Context,
-    where: Annotated[str, typer.Argument(metavar="here|away", help="Whether somebody is at the table from now on.")],
-) -> int:
+    where: Annotated[
+        Literal["here", "away"],
+        typer.Argument(metavar="here|away", help="Whether somebody is at the table from now on."),
+    ],
+) -> None:
     """Let somebody step up to the simulated table, or go away: policies ask about it, and nothing heals meanwhile."""
-    if where not in ("here", "away"):
-        raise PicoError(error("usage", f"a person is `here` or `away`, not `{where[:40]}`"))
     session = Session.of(context)
     session.bench().sim.person(where == "here")
     session.show(said, "somebody is at the table" if where == "here" else "nobody is at the table")
-    return 0
 
 
 @app.command(name="power-cycle")
-def power_cycle(context: typer.Context) -> int:
+def power_cycle(context: typer.Context) -> None:
     """Switch the simulated bench off and on.
 
     Axes that must be homed then stand nobody knows where, and the next plan homes them first; electronics are dark and
@@ -106,7 +99,6 @@ def power_cycle(context: typer.Context) -> int:
     session = Session.of(context)
     session.bench().sim.power_cycle()
     session.show(said, "the power was off; the next plan homes what must be homed")
-    return 0
 
 
 @app.command()
@@ -115,7 +107,7 @@ def faults(
     words: Annotated[
         list[str] | None, typer.Argument(metavar="KIND=RATE...", help="For example drop=0.05 seed=3; or off.")
     ] = None,
-) -> int:
+) -> None:
     """Let things go wrong on the simulated bench: drop, slip, jam, camera, timeout, reading, slow, or all.
 
     A rate is a share of the operations, from 0 to 1. Without an argument it says what is in force.
@@ -124,4 +116,3 @@ def faults(
     found = session.bench().sim.faults(words or ())
     rates = ", ".join(f"{kind} {100 * rate:g} %" for kind, rate in found.rates.items() if rate)
     session.show(said, f"faults: {rates} of the operations, seed {found.seed}" if rates else "nothing goes wrong")
-    return 0

@@ -1,12 +1,10 @@
-"""`pico stash`."""
+"""History, 18: `pico stash`."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
-
-from pico.diagnostics import PicoError, did_you_mean, error
 
 from ..session import Session
 from ..views import stash as view
@@ -14,37 +12,32 @@ from ..views import stash as view
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
 
-ACTIONS = ("push", "pop", "list", "drop")
-
 
 def stash(
     context: typer.Context,
     action: Annotated[
-        str, typer.Argument(metavar="[push|pop|list|drop]", help="push, where nothing is said.")
+        Literal["push", "pop", "list", "drop"],
+        typer.Argument(metavar="[push|pop|list|drop]", help="push, where nothing is said."),
     ] = "push",
     name: Annotated[str, typer.Argument(metavar="[N]", help="Which edits: 0 the last ones, 1 those before.")] = "",
     message: Annotated[str, typer.Option("-m", "--message", help="What to call the edits that are shelved.")] = "",
-) -> int:
+) -> None:
     """Shelve the edits of the manifests, or bring them back. The bench is not shelved: nothing moves.
 
     The edits of this lab's manifests go into git's stash. `pico plan` then shows what the bench has that the files have
     not. Edits of tunables that were changed since are not brought back, but named.
     """
-    if action not in ACTIONS:
-        hint = did_you_mean(action, ACTIONS)
-        raise PicoError(error("usage", f"pico stash can't `{action}`", hint=hint or f"one of {', '.join(ACTIONS)}"))
     session = Session.of(context)
     bench = session.bench(writing=action != "list")
     if action == "list":
         session.show(view, action, bench.stash.shelves())
-        return 0
+        return
     if action == "push":
         shelf = bench.stash.push(message or name)
     else:
         shelf = bench.stash.pop(name) if action == "pop" else bench.stash.drop(name)
     apart = _apart(bench) if shelf and action != "drop" else None
     session.show(view, action, (shelf,) if shelf else (), apart=apart)
-    return 0
 
 
 def _apart(bench: Bench) -> tuple[int, int]:

@@ -1,4 +1,4 @@
-"""`pico status`."""
+"""The main job, 2: `pico status`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..views import status as view
 def status(
     context: typer.Context,
     every: Annotated[bool, typer.Option("--all", help="Show equal rows of a large bench, too.")] = False,
-) -> int:
+) -> None:
     """Show what is committed, desired and live, side by side.
 
     `*` marks what the manifest changes against the last commit, `!` what stands elsewhere than the manifest says.
@@ -24,4 +24,3 @@ def status(
     bench = session.bench()
     session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
     session.show(view, bench.status(), every=every)
-    return 0

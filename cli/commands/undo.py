@@ -1,15 +1,17 @@
-"""`pico undo`."""
+"""The main job, 7: `pico undo`."""
 
 from __future__ import annotations
 
 import typer
 
-from ..arguments import Fidelity, Yes
+from ..arguments import Fidelity, LockTimeout, Yes
+from ..running import approve
 from ..session import Session
-from .apply import approve
 
 
-def undo(context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None) -> int:
+def undo(
+    context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None, lock_timeout: LockTimeout = None
+) -> int:
     """Take everything that the last run moved or set back to where it was before.
 
     Files stay as they are. Undone twice, it is as the run left it.

@@ -1,4 +1,4 @@
-"""`pico validate`."""
+"""Manifests, 1: `pico validate`."""
 
 from __future__ import annotations
 
@@ -30,7 +30,6 @@ def validate(
     session = Session.of(context)
     where, asked = session.folder, (lambda root, read: [*overlapping(read), *doubts_in(root, read)], withheld)
     checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
-    if not session.json:
-        session.report(checked.diagnostics)
+    session.tell(checked.diagnostics)
     session.show(view, checked)
     return checked.exit_code

@@ -1,4 +1,4 @@
-"""`pico verify`."""
+"""History, 9: `pico verify`."""
 
 from __future__ import annotations
 

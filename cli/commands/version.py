@@ -1,4 +1,4 @@
-"""`pico version`."""
+"""The simulator, and the rest, 13: `pico version`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from ..session import Session
 from ..views import version as view
 
 
-def version(context: typer.Context) -> int:
+def version(context: typer.Context) -> None:
     """Show the versions of PICO and what it stands on."""
     Session.of(context).show(view)
-    return 0

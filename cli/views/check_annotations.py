@@ -11,7 +11,7 @@ MOST = 10
 """So many of a severity GitHub shows of one step."""
 
 
-def annotations(checked: Checked) -> str:
+def beside(checked: Checked) -> str:
     """Return a line for each finding that has a place in a file."""
     found = [d for lab in checked.labs for d in lab.diagnostics if d.source and d.severity != "note"]
     errors = [d for d in found if d.severity == "error"][:MOST]

@@ -30,6 +30,7 @@ def text(found: Found, *, done: str = "", freed: int | None = None) -> str:
 
 def data(found: Found, *, done: str = "", freed: int | None = None) -> dict[str, Any]:
     """Return schema `pico.data/v1`; `kind` says of what: `status`, `sent`, `fetched`, `fsck`, `gc` or `pointers`."""
+    content: dict[str, Any]
     if isinstance(found, Holdings):
         lists = {k: [as_json(n) for n in getattr(found, k)] for k in ("unsent", "absent", "lost")}
         needs = [as_json(n) for n in found.needs.values()]

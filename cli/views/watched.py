@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
-from pico.bench.drift import Drift, Drifted
+from pico.bench.watching import Told
 
 from .diff import said
 from .drift import about, entry
 from .style import paint
 
 
-def text(found: Drifted, fresh: Sequence[Drift], right: Sequence[str], note: str = "") -> str:
-    """Return a line for each tunable that drifted, or is right again; `note`: what was healed, or why it was not."""
-    at = paint("dim", found.observed_at)
-    lines = [f"{at}  {paint('yellow', '!')} {d.address} {said(d.change)}  {paint('dim', about(d))}" for d in fresh]
-    lines += [f"{at}  {paint('green', '✓')} {name} is as {found.head} says again" for name in right]
-    return "\n".join([*lines, *([f"{at}  {note}"] if note else [])])
+def text(told: Told) -> str:
+    """Return a line for each tunable that drifted, or is right again, and what was healed, or why it was not."""
+    at = paint("dim", told.found.observed_at)
+    lines = [f"{at}  {paint('yellow', '!')} {d.address} {said(d.change)}  {paint('dim', about(d))}" for d in told.fresh]
+    lines += [f"{at}  {paint('green', '✓')} {name} is as {told.found.head} says again" for name in told.right]
+    return "\n".join([*lines, *([f"{at}  {told.note}"] if told.note else [])])
 
 
-def data(found: Drifted, fresh: Sequence[Drift], right: Sequence[str], note: str = "") -> dict[str, Any]:
+def right(told: Told) -> str:
+    """Return what is said where the first look finds nothing."""
+    return f"No drift: the bench is as {told.found.head} says. Watching; Ctrl-C ends it."
+
+
+def data(told: Told) -> dict[str, Any]:
     """Return schema `pico.watch/v1`: `head`, `observed_at`, `drifted`, `right` (again) and `note`."""
-    own = {"head": found.head, "observed_at": found.observed_at, "drifted": [entry(d) for d in fresh]}
-    return {"schema": "pico.watch/v1", **own, "right": list(right), "note": note}
+    own = {"head": told.found.head, "observed_at": told.found.observed_at, "drifted": [entry(d) for d in told.fresh]}
+    return {"schema": "pico.watch/v1", **own, "right": list(told.right), "note": told.note}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Generator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -305,7 +305,7 @@ class AsyncBench(Drawings):
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
-    ) -> Iterator[tuple[int, int]]:
+    ) -> Generator[tuple[int, int], None, None]:
         """Write a film of a run to `out`, .mp4 or .gif, in simulated time, `fps` pictures a second.
 
         Yields (pictures done, of how many); ended early, the film is what was done until then. Raises PicoError.

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pico.bench.drift import Drifted
     from pico.bench.importing import Imported
     from pico.bench.publishing import Published
+    from pico.bench.watching import Told
     from pico.drawing.film.film import Caption
     from pico.drawing.picture import Image, View
     from pico.drawing.ruler import Measured
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from pico.planning.request import Preference
     from pico.runs.document import RecordedRun
     from pico.twin.snapshot import Recording
+    from pico.vision.calibration import Calibration
 
 __all__ = ["AsyncBench", "Bench", "CommitMode", "new_lab"]
 
@@ -101,6 +103,12 @@ class Bench(Reader):
         wanted = imports.read_types(types)
         parts = imports.importable(self._bench, self.scan(), wanted)
         return imports.take_in(self._bench, parts, write=write)
+
+    def calibrate(self) -> Calibration:
+        """Find out where the cameras are, and write it; see `pico.bench.looking.calibrate`."""
+        from pico.bench import looking as scans
+
+        return scans.calibrate(self._bench)
 
     def scan_picture(self, look: Look, *, out: Path | None = None, component: str | None = None) -> Image:
         """Return a camera's picture of a scan, with names drawn in; see `pico.bench.looking.picture`."""
@@ -224,7 +232,7 @@ class Bench(Reader):
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
-    ) -> Iterator[tuple[int, int]]:
+    ) -> Generator[tuple[int, int], None, None]:
         """Write a film of a run to `out`; see `AsyncBench.film`."""
         return self._bench.film(recording, out, captions=captions, fps=fps)
 
@@ -260,6 +268,15 @@ class Bench(Reader):
 
         plan = self._thread.wait(watching.heal_plan(self._bench, found))
         return self.apply(plan) if plan else None
+
+    def watch(self, *, interval: float = 10.0, looks: int | None = None, heal: bool = False) -> Iterator[Told]:
+        """Look again and again, `interval` s apart, and `heal` where the lab's policy allows it; see `watching`."""
+        from pico.bench import drift as watching
+        from pico.bench.watching import watch
+
+        if heal:
+            watching.require_heal(self.setup)
+        return watch(self.look, self.heal if heal else None, interval, looks)
 
     def verify(self, revision: str | None = None) -> Verified:
         """Return how the bench stands against a revision, or the manifest, and its expectations."""

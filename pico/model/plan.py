@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
 from pico.model.record import Document, Format, as_json, canonical, digest, record
@@ -107,6 +107,11 @@ class Plan:
     @property
     def errored(self) -> bool:
         return any(d.severity == "error" for d in self.diagnostics)
+
+    @property
+    def exit_code(self) -> ExitCode:
+        """Why the plan can't be run, or DONE."""
+        return ExitCode.IMPOSSIBLE if self.errored else ExitCode.DENIED if self.denied else ExitCode.DONE
 
     @property
     def denied(self) -> bool:

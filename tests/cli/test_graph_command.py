@@ -83,4 +83,4 @@ def test_a_file_gets_the_format_of_its_name(shel: Path, pico: Pico) -> None:
     pico("graph", "e1", "--out", "plan.dot")
     assert (shel / "plan.dot").read_text().startswith("digraph plan {\n")
     wrong = pico("graph", "e1", "--format", "svg")
-    assert wrong.code == 1 and "no format `svg`" in wrong.err
+    assert wrong.code == 1 and "--format can't be `svg`" in wrong.err

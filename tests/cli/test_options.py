@@ -12,29 +12,30 @@ from typing import Any
 import pytest
 from commanding import Pico, edit
 from pico_cli.app import build
-from pico_cli.commands import GROUPS
-from pico_cli.complete import GROUPS as SUBCOMMANDS
-from pico_cli.complete import OPTIONS, SHARED, VALUES, candidates
+from pico_cli.commands import files, summary
+from pico_cli.complete import SHARED, candidates
+from pico_cli.declared import declared
+from pico_cli.help import help_text
 from pico_cli.output import write
-from pico_cli.summary import COMMANDS, help_text
 
-LEAVES = [name for name in COMMANDS if name not in GROUPS] + [f"{g} {s}" for g, ss in SUBCOMMANDS.items() for s in ss]
+LEAVES = [f"{name} {below}".strip() for name, path in files().items() for below in declared(path)]
 
 
 def command(name: str) -> Any:
     """Return the real command behind a name such as `plan` or `sim nudge`."""
     first, *rest = name.split()
-    found = build([first]).commands[first]
+    found = build().get_command(None, first)
     for word in rest:
         found = found.commands[word]
     return found
 
 
-def test_the_table_of_the_top_level_help_lists_the_commands_that_there_are() -> None:
-    assert set(build([]).commands) == set(COMMANDS)
-    for name in COMMANDS:
-        assert command(name).help.strip().splitlines()[0] == COMMANDS[name], name
-        assert f"  {name} " in help_text()
+def test_the_top_level_help_says_of_each_command_what_its_own_help_says() -> None:
+    listed = {name: line for commands in summary().values() for name, line in commands.items()}
+    assert set(listed) == set(files()) == set(build().list_commands(None))
+    for name, line in listed.items():
+        assert command(name).help.strip().splitlines()[0] == line, name
+        assert f"  {name:<11} {line}" in help_text()
 
 
 @pytest.mark.parametrize("name", LEAVES)
@@ -50,10 +51,12 @@ def test_every_command_has_help_and_the_shared_options(name: str, pico: Pico) ->
 
 @pytest.mark.parametrize("name", LEAVES)
 def test_completion_knows_the_options_of_every_command(name: str) -> None:
-    real = {word for p in command(name).params for word in p.opts if word.startswith("-")}
-    assert real - set(SHARED) == set(OPTIONS.get(name, ()))
-    taking = {word for p in command(name).params for word in p.opts if word.startswith("-") and not p.is_flag}
-    assert taking <= set(VALUES)
+    first, _, below = name.partition(" ")
+    options, arguments = declared(files()[first])[below]
+    params = [p for p in command(name).params if not set(p.opts) & set(SHARED)]
+    real = {word: not p.is_flag for p in params for word in p.opts if word.startswith("-")}
+    assert {word: bool(metavar) for word, metavar in options.items()} == real
+    assert arguments == [p.metavar or "VALUE" for p in params if not p.opts[0].startswith("-")]
 
 
 def test_tab_offers_commands_names_and_revisions(shel: Path) -> None:
@@ -154,9 +157,9 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["plan", "--backend", "sin"], "did you mean `sim`?"),
         (["plan", "--fidelity", "physic"], "did you mean `physics`?"),
         (["commit", "-m", "x", "--capture", "--planned"], "contradict"),
-        (["render", "--view", "side"], "no view `side`"),
+        (["render", "--view", "side"], "--view can't be `side`"),
         (["render", "--plan"], "from above only"),
-        (["completion", "tcsh"], "no completion for `tcsh`"),
+        (["completion", "tcsh"], "shell can't be `tcsh`"),
         (["fmt", "nosuch.yaml"], "nosuch.yaml"),
         (["plan", "--out", "no/such/folder/x.plan"], "no/such/folder/x.plan"),
         (["init", "."], "exist"),

@@ -219,7 +219,7 @@ def test_dropped_edits_can_be_had_again(shel: Path, pico: Pico) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["stash", "pul"], "pico stash can't `pul`"),
+        (["stash", "pul"], "action can't be `pul`"),
         (["stash", "pop"], "nothing is shelved"),
         (["checkout", "e1", "--", "p3"], "no component `p3`"),
         (["checkout", "e9", "--", "p2"], "no revision `e9`"),

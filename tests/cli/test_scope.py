@@ -67,7 +67,7 @@ def test_less_time_may_be_preferred(shel: Path, pico: Pico) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--prefer", "fastest"], "can't prefer `fastest`"),
+        (["--prefer", "fastest"], "--prefer can't be `fastest`"),
         (["--target", "p3"], "no component `p3`"),
         (["--target", "p2", "--exclude", "p2"], "both asked for and excluded"),
     ],

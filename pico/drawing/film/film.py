@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import glob
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -44,7 +44,7 @@ def write_film(
     captions: Sequence[Caption] = (),
     fps: float = FPS,
     size: tuple[int, int] = SIZE,
-) -> Iterator[tuple[int, int]]:
+) -> Generator[tuple[int, int], None, None]:
     """Write a film of `snapshots` (one or more) to `path`, .mp4 or .gif, in simulated time.
 
     Yields (pictures done, of how many) after each picture; ended early, the film is what was done until then. Raises
@@ -67,7 +67,7 @@ def write_film(
 def _shot(
     setup: Setup, snapshots: Sequence[Snapshot], path: Path, captions: Sequence[Caption], fps: float,
     size: tuple[int, int],
-) -> Iterator[tuple[int, int]]:  # fmt: skip
+) -> Generator[tuple[int, int], None, None]:  # fmt: skip
     first, last = snapshots[0].time, snapshots[-1].time
     step = 1 / fps
     count = int((last - first) / step + 1e-9) + 2  # the end is always shown

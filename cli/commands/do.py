@@ -1,0 +1,31 @@
+"""One operation at a time, 1: `pico do`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, pairs
+from ..running import single
+from ..session import Session
+
+SETTINGS = {"ignore_unknown_options": True}
+
+
+def do(
+    context: typer.Context,
+    component: Component,
+    primitive: Annotated[str, typer.Argument(metavar="PRIMITIVE", help="move, stow, set, home or measure.")],
+    arguments: Pairs = None,
+    speed: Speed = None,
+    dry_run: DryRun = False,
+    fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
+) -> int:
+    """Run one primitive of a component, through the same checks as a plan.
+
+    `pico do p2 move x=500 y=420 yaw=30`, `pico do p2 move slot=storage/b2`, `pico do p1 set angle=3`. The manifest
+    stays as it is: `pico capture` takes the result into it.
+    """
+    return single(Session.of(context), component, primitive, pairs(arguments), speed, dry_run, fidelity)

@@ -1,0 +1,136 @@
+"""What is added to PICO as one file is there everywhere: a command, and a type of component."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pico_cli.commands
+import pytest
+from commanding import Pico, edit
+from pico_cli.complete import candidates
+from pico_cli.help import help_text
+
+from pico.resources import catalog_dir, labs_dir
+
+ROOT = Path(__file__).resolve().parents[2]
+
+BLINK = '''"""The main job, 3: `pico blink-twice`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pico_cli.arguments import Component
+from pico_cli.session import Session
+
+How = Annotated[str, typer.Option("--how", metavar="slowly|fast", help="At what pace.")]
+Where = Annotated[Path | None, typer.Option(metavar="FILE", help="Where it is told.")]
+
+
+def blink_twice(context: typer.Context, part: Component, how: How = "fast", told_where: Where = None) -> int:
+    """Blink with a component, twice."""
+    session = Session.of(context)
+    if part == "nothing":
+        raise ZeroDivisionError("nothing blinks")
+    if session.json:
+        session.document({"schema": "pico.blink/v1", "part": part, "how": how, "backend": session.backend})
+    session.say(f"{part} blinks {how} in {session.folder}")
+    return 0
+'''
+
+
+@pytest.fixture
+def blink(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder beside that of the commands, with one more in it."""
+    folder = tmp_path / "more"
+    folder.mkdir()
+    (folder / "blink_twice.py").write_text(BLINK)
+    monkeypatch.setattr(pico_cli.commands, "__path__", [*pico_cli.commands.__path__, str(folder)])
+    monkeypatch.delitem(sys.modules, "pico_cli.commands.blink_twice", raising=False)
+    return folder
+
+
+def test_a_command_of_one_file_is_in_the_help_and_has_its_own(blink: Path, pico: Pico) -> None:
+    section = help_text().split("The main job:\n")[1].split("\n\n")[0].splitlines()
+    assert section[2:4] == ["  blink-twice Blink with a component, twice.", section[3]] and "  plan " in section[3]
+    answer = pico("blink-twice", "--help")
+    assert answer.code == 0 and "Usage: pico blink-twice [OPTIONS]" in answer.out
+    assert {"--how", "--told-where", "-C", "--json", "--debug", "--backend"} <= set(answer.out.replace(",", "").split())
+    assert "did you mean `blink-twice`" in pico("blnk-twice").err
+
+
+def test_a_command_of_one_file_takes_the_shared_options_before_and_after_its_name(blink: Path, pico: Pico) -> None:
+    given = ["-C", "/", "--json", "--debug", "--backend", "hardware"]
+    wanted = {"schema": "pico.blink/v1", "part": "p1", "how": "fast", "backend": "hardware"}
+    for words in ([*given, "blink-twice", "p1"], ["blink-twice", *given, "p1"], ["blink-twice", "p1", *given]):
+        answer = pico(*words)
+        assert (answer.code, answer.data) == (0, wanted), words
+    assert pico("-C", "/", "blink-twice", "p1").out == "p1 blinks fast in /\n"
+    assert "Traceback" in pico("--debug", "blink-twice", "nothing").err
+    assert "Traceback" not in pico("blink-twice", "nothing").err
+
+
+def test_a_command_of_one_file_is_completed(blink: Path, shel: Path) -> None:
+    assert candidates(["bl"]) == ["blame", "blink-twice"]
+    assert candidates(["blink-twice", "--"]) == ["--backend", "--debug", "--help", "--how", "--json", "--told-where"]
+    assert candidates(["blink-twice", "--how", ""]) == ["fast", "slowly"]
+    assert candidates(["blink-twice", "--how", "fast", "p"]) == ["p1", "p2"]
+
+
+def test_a_command_of_one_file_is_there_once_it_lies_in_the_folder(tmp_path: Path) -> None:
+    """In a copy of the command, as a process of its own: nothing else has to know of it."""
+    shutil.copytree(ROOT / "cli", tmp_path / "pico_cli", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "pico_cli" / "commands" / "blink_twice.py").write_text(BLINK)
+    program = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); from pico_cli.main import main; sys.exit(main())"
+
+    def said(*words: str, **environment: str) -> str:
+        run = [sys.executable, "-c", program, *words]
+        return subprocess.run(run, capture_output=True, text=True, check=True, env=os.environ | environment).stdout
+
+    assert "blink-twice Blink with a component, twice." in said("--help")
+    assert said("bli", _PICO_COMPLETE="1") == "blink-twice\n"
+    assert said("blink-twice", "p1", "-C", "/") == "p1 blinks fast in /\n"
+
+
+@pytest.fixture
+def catalog(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A catalog folder with one file more: the type that the page about types writes."""
+    folder = tmp_path / "catalog"
+    shutil.copytree(catalog_dir(), folder)
+    page = (ROOT / "docs" / "how-to" / "component-type.md").read_text()
+    (folder / "pinhole_25.yaml").write_text(page.split("```yaml\n")[1].split("```")[0])
+    monkeypatch.setattr("pico.resources._folder", lambda name: tmp_path / name if name == "catalog" else ROOT / name)
+    return folder
+
+
+def test_a_type_of_one_file_is_listed_checked_planned_and_moved(
+    catalog: Path, tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lab = tmp_path / "lab"
+    shutil.copytree(labs_dir() / "minimal", lab)
+    monkeypatch.chdir(lab)
+    edit(lab / "lab.yaml", "  lens:\n", "  hole: {type: pinhole_25, marker: 2, home: storage/a1}\n  lens:\n")
+    edit(lab / "state" / "table.yaml", "  lens: ", "  hole: {pose: {x: 560, y: 420, yaw: 90}}\n  lens: ")
+    assert "pinhole_25" in pico("catalog", "list").out
+    assert pico("validate").code == 0
+    plan = pico("plan", "--json").data
+    assert [op["primitive"] for op in plan["operations"] if op["component"] == "hole"] == ["move"]
+    assert pico("apply", "--auto-approve").code == 0
+    assert pico("get", "hole", "--json").data["values"]["pose"]["value"]["yaw"] == pytest.approx(90, abs=0.5)
+    assert pico("plan", "--detailed-exitcode").code == 0
+
+
+def test_a_type_without_its_file_is_not_known(tmp_path: Path, pico: Pico) -> None:
+    shutil.copytree(labs_dir() / "minimal", tmp_path / "lab")
+    edit(
+        tmp_path / "lab" / "lab.yaml", "  lens:\n", "  hole: {type: pinhole_25, marker: 2, home: storage/a1}\n  lens:\n"
+    )
+    answer = pico("-C", str(tmp_path / "lab"), "validate")
+    assert answer.code == 1 and "pinhole_25" in answer.err
