@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from heapq import heapify, heappop, heappush
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
 from pico.model.operation import Operation
@@ -60,19 +59,18 @@ def graph_of(plan: Plan) -> PlanGraph:
 
     The critical path method: earliest starts forward, latest starts backward (Kelley and Walker, 1959).
     """
+    import networkx as nx
+
     operations = {o.id: o for o in plan.operations}
     order = _in_order(plan.operations)
     links = _links(plan.operations, order)
-    before: dict[str, list[str]] = {i: [] for i in order}
-    behind: dict[str, list[str]] = {i: [] for i in order}
-    for a, b in links:
-        before[b].append(a)
-        behind[a].append(b)
-    earliest, rest = _earliest(operations, order, before), _rest(operations, order, behind)
+    graph = nx.DiGraph(list(links))
+    graph.add_nodes_from(order)
+    earliest, rest = _earliest(operations, order, graph.pred), _rest(operations, order, graph.succ)
     length = max((earliest[i] + rest[i] for i in order), default=0.0)
-    path = _critical(operations, order, before, earliest, rest, length)
+    path = _critical(operations, order, graph.pred, earliest, rest, length)
     steps = set(pairwise(path))
-    implied = _implied(order, behind) - steps
+    direct = steps | set(nx.transitive_reduction(graph).edges)
     return PlanGraph(
         plan=plan.digest, makespan=plan.makespan, length=round(length, 6), path=path,
         nodes=tuple(
@@ -82,7 +80,7 @@ def graph_of(plan: Plan) -> PlanGraph:
         ),
         edges=tuple(
             Edge(source=a, target=b, after=a in operations[b].after, resources=resources, critical=(a, b) in steps,
-                 implied=(a, b) in implied)
+                 implied=(a, b) not in direct)
             for (a, b), resources in links.items()
         ),
     )  # fmt: skip
@@ -94,23 +92,12 @@ def _spare(seconds: float) -> float:
 
 def _in_order(operations: Sequence[Operation]) -> tuple[str, ...]:
     """Return the ids by start and end, each after all that it waits for, whatever their times say."""
-    known = {o.id: o for o in operations}
-    left = {o.id: len(o.after) for o in operations}
-    behind: dict[str, list[str]] = {i: [] for i in known}
-    for o in operations:
-        for e in o.after:
-            behind[e].append(o.id)
+    import networkx as nx
+
+    graph = nx.DiGraph((e, o.id) for o in operations for e in o.after)
+    graph.add_nodes_from(o.id for o in operations)
     rank = {o.id: (o.start, o.start + o.seconds, n) for n, o in enumerate(operations)}
-    ready, order = [(rank[i], i) for i, n in left.items() if n == 0], list[str]()
-    heapify(ready)
-    while ready:
-        _, i = heappop(ready)
-        order.append(i)
-        for b in behind[i]:
-            left[b] -= 1
-            if left[b] == 0:
-                heappush(ready, (rank[b], b))
-    return tuple(order)
+    return tuple(nx.lexicographical_topological_sort(graph, rank.__getitem__))
 
 
 def _links(operations: Sequence[Operation], order: Sequence[str]) -> dict[tuple[str, str], tuple[str, ...]]:
@@ -127,16 +114,8 @@ def _links(operations: Sequence[Operation], order: Sequence[str]) -> dict[tuple[
     return found
 
 
-def _implied(order: Sequence[str], behind: Mapping[str, Sequence[str]]) -> set[tuple[str, str]]:
-    """Return the links that a longer way makes superfluous."""
-    reached: dict[str, set[str]] = {}
-    for i in reversed(order):
-        reached[i] = set(behind[i]).union(*(reached[e] for e in behind[i]))
-    return {(a, b) for a in order for b in behind[a] if any(b in reached[e] for e in behind[a])}
-
-
 def _earliest(
-    operations: Mapping[str, Operation], order: Sequence[str], before: Mapping[str, Sequence[str]]
+    operations: Mapping[str, Operation], order: Sequence[str], before: Mapping[str, Iterable[str]]
 ) -> dict[str, float]:
     starts: dict[str, float] = {}
     for i in order:
@@ -145,7 +124,7 @@ def _earliest(
 
 
 def _rest(
-    operations: Mapping[str, Operation], order: Sequence[str], behind: Mapping[str, Sequence[str]]
+    operations: Mapping[str, Operation], order: Sequence[str], behind: Mapping[str, Iterable[str]]
 ) -> dict[str, float]:
     """Return how long it takes at least from the start of each operation to the end of the plan [s]."""
     rest: dict[str, float] = {}
@@ -155,7 +134,7 @@ def _rest(
 
 
 def _critical(
-    operations: Mapping[str, Operation], order: Sequence[str], before: Mapping[str, Sequence[str]],
+    operations: Mapping[str, Operation], order: Sequence[str], before: Mapping[str, Iterable[str]],
     earliest: Mapping[str, float], rest: Mapping[str, float], length: float,
 ) -> tuple[str, ...]:  # fmt: skip
     """Return one path without spare time, from an operation that starts at once to the one that ends last."""

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from pico.staging.feedback.certificate import certificate
 from pico.staging.feedback.clauses import reached
-from pico.staging.feedback.digraph import topological_order
 from pico.staging.feedback.lazy import Outcome, regions, solve_region
 from pico.staging.feedback.limit import Limit, Work
 from pico.staging.feedback.literals import Clause, Edge, Literals, edges_of, event, literals_of
@@ -80,11 +79,10 @@ def _answer(problem: Problem, table: Literals, edges: Sequence[Edge], chosen: in
 
 def _order(choices: Sequence[Choice], edges: Sequence[Edge]) -> tuple[Event, ...]:
     """Return the events in an order along all edges; a direct move is one, of two events."""
+    import networkx as nx
+
     at = [2 * i + (half if c.staged else 0) for i, c in enumerate(choices) for half in (0, 1)]
-    succ: dict[int, set[int]] = {v: set() for v in at}
-    for edge in edges:
-        if at[edge.tail] != at[edge.head]:
-            succ[at[edge.tail]].add(at[edge.head])
-    order = topological_order(succ)
-    assert len(order) == len(succ), "a choice without cycles has an order"
+    graph = nx.DiGraph((at[e.tail], at[e.head]) for e in edges if at[e.tail] != at[e.head])
+    graph.add_nodes_from(at)
+    order = nx.lexicographical_topological_sort(graph)
     return tuple(event(w) for v in order for w in ((v,) if choices[v // 2].staged else (v, v + 1)))

@@ -1,4 +1,7 @@
-"""Whether one unit can flow between two nodes of a sparse network, and the cut that prevents it."""
+"""Whether one unit can flow between two nodes of a sparse network, and the cut that prevents it.
+
+Not by networkx: with its flows the order of 40 moves took 0.8 s instead of 0.3 (benchmarks/travel.py --sizes 40).
+"""
 
 from __future__ import annotations
 
