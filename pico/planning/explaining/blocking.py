@@ -8,6 +8,7 @@ from pico.model.lab import Setup
 from pico.model.plan import Plan
 from pico.model.record import record
 from pico.planning.checks.contacts import Contact, Spot, bases, ends_of, fingers, holds, mouth, starts_of
+from pico.staging.feedback.digraph import shortest_cycle
 
 
 @record
@@ -104,20 +105,10 @@ def _block(
 def ring_through(name: str, blocks: Iterable[Block]) -> tuple[Block, ...]:
     """Return a shortest ring of blocks through a component, starting with what it blocks; nothing where there is
     none."""
-    behind: dict[str, list[Block]] = {}
-    for block in blocks:
-        behind.setdefault(block.blocker, []).append(block)
-    trails: list[tuple[Block, ...]] = [(block,) for block in behind.get(name, ())]
-    seen: set[str] = set()
-    while trails:
-        trail = trails.pop(0)
-        last = trail[-1].blocked
-        if last == name:
-            return trail
-        if last not in seen:
-            seen.add(last)
-            trails += [(*trail, block) for block in behind.get(last, ())]
-    return ()
+    between = {(block.blocker, block.blocked): block for block in blocks}
+    blocked = {a: [b for c, b in between if c == a] for pair in between for a in pair}
+    ring = shortest_cycle(blocked, name, blocked) if name in blocked else None
+    return tuple(between[a, b] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)) if ring else ()
 
 
 def rings_of(blocks: Sequence[Block]) -> tuple[tuple[Block, ...], ...]:

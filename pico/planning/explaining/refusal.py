@@ -14,6 +14,7 @@ from pico.planning.ordering.paths import NoPath
 from pico.planning.ordering.solve import Refusal, Solution
 from pico.planning.parts.movers import Hold, Mover
 from pico.planning.parts.phrases import listed
+from pico.staging.feedback.digraph import some_cycle
 
 
 def explain(refused: Refusal, source: Source) -> list[Diagnostic]:
@@ -123,7 +124,7 @@ def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
 
 def _ring(table: Conflicts, stuck: Sequence[int], refused: Refusal, source: Source) -> Diagnostic:
     arcs = {(a, b): text for a in stuck for b in stuck if a != b and (text := before(table, a, b))}
-    ring = _cycle(stuck, arcs)
+    ring = some_cycle({a: [b for b in stuck if (a, b) in arcs] for a in stuck}) or []
     names = [table.movers[i].name for i in (ring or stuck)]
     lines = [arcs[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)] or sorted(arcs.values())
     lines += [_storage_line(table, i) for i in (ring or stuck)]
@@ -160,26 +161,6 @@ def before(table: Conflicts, a: int, b: int) -> str:
     else:
         how = f"a finger of the gripper would touch {first.name}, every grasp yaw tried"
     return f"{first.name} must leave before {second.name} arrives ({how})"
-
-
-def _cycle(nodes: Sequence[int], arcs: dict[tuple[int, int], str]) -> list[int]:
-    """Return a shortest ring of arcs, or nothing."""
-    best: list[int] = []
-    for root in nodes:
-        trails = [[root]]
-        seen = {root}
-        while trails and not best:
-            trail = trails.pop(0)
-            if (trail[-1], root) in arcs and len(trail) > 1:
-                best = trail
-                break
-            for n in nodes:
-                if n not in seen and (trail[-1], n) in arcs:
-                    seen.add(n)
-                    trails.append([*trail, n])
-        if best:
-            break
-    return best
 
 
 def _storage_line(table: Conflicts, i: int) -> str:

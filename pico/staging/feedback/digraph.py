@@ -1,27 +1,29 @@
-"""Directed graphs over integers: strongly connected components, and shortest cycles with ties by least vertices."""
+"""Directed graphs: strongly connected components, and shortest cycles with ties by least vertices."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Mapping
+from typing import TypeVar
 
-Successors = Mapping[int, Collection[int]]
+V = TypeVar("V", int, str)
+Successors = Mapping[V, Collection[V]]
 """The out-neighbors of each vertex."""
 
 
-def strong_components(succ: Successors) -> list[list[int]]:
+def strong_components(succ: Successors[V]) -> list[list[V]]:
     """Return the strongly connected components."""
     import networkx as nx
 
     return [list(c) for c in nx.strongly_connected_components(nx.DiGraph(succ))]
 
 
-def cyclic_components(succ: Successors) -> list[list[int]]:
+def cyclic_components(succ: Successors[V]) -> list[list[V]]:
     """Return the components that hold a cycle, each sorted, in the order of their least vertices."""
     return sorted(sorted(c) for c in strong_components(succ) if len(c) > 1 or c[0] in succ[c[0]])
 
 
-def shortest_cycle(succ: Successors, start: int, alive: Collection[int]) -> list[int] | None:
+def shortest_cycle(succ: Successors[V], start: V, alive: Collection[V]) -> list[V] | None:
     """Return a cycle with the fewest vertices through `start` within `alive`, or None; ties by least vertices."""
     if start in succ[start]:
         return [start]
@@ -38,7 +40,7 @@ def shortest_cycle(succ: Successors, start: int, alive: Collection[int]) -> list
     return None
 
 
-def _trace(parent: Mapping[int, int], v: int) -> list[int]:
+def _trace(parent: Mapping[V, V], v: V) -> list[V]:
     path = [v]
     while parent[v] != v:
         v = parent[v]
@@ -46,9 +48,9 @@ def _trace(parent: Mapping[int, int], v: int) -> list[int]:
     return path[::-1]
 
 
-def some_cycle(succ: Successors) -> list[int] | None:
+def some_cycle(succ: Successors[V]) -> list[V] | None:
     """Return a cycle with the fewest vertices of the graph, or None where it has none."""
-    best: list[int] | None = None
+    best: list[V] | None = None
     for part in cyclic_components(succ):
         alive = set(part)
         for v in part:
