@@ -54,9 +54,10 @@ def test_completion_imports_nothing_heavy(words: list[str], bench: Path) -> None
 
 def test_a_plan_without_changes_loads_no_physics(bench: Path) -> None:
     assert loaded(["apply", "C3", "--auto-approve"], bench, ("rich",)) == set()
-    unwanted = ("rich", "mujoco", "cv2", "networkx", "scipy", "numpy", "pint", "ruckig", "ruamel")
+    unwanted = ("rich", "mujoco", "cv2", "networkx", "scipy", "numpy", "pint", "ruckig", "PIL")
     assert loaded(["plan", "--detailed-exitcode"], bench, unwanted) == set()
     assert loaded(["status"], bench, unwanted) == set()
+    assert loaded(["log", "--graph"], bench, ("networkx",)) == set()
 
 
 def test_the_library_itself_is_light(tmp_path: Path) -> None:
