@@ -5,7 +5,8 @@ it and the git that it starts write below the lab, and lets the call of a given 
 on, as a disk that is full or was mounted read-only, EIO once, as a bad sector. Each command runs at each of its points
 with each fault, in a process and a lab of its own; with `--points` at so many of them, drawn by `--seed`.
 
-Afterwards: nobody speaks of a mistake in PICO; the message says which disk and why; no temporary file, lock or torn
+Afterwards: nobody speaks of a mistake in PICO; the message says which disk and why, and truly what was not done (moved,
+written into manifests, committed); no temporary file, lock or torn
 file is left (save one that a read-only disk did not let go of, the journal that SQLite plays back, and the lock of what
 PICO says that it will end: the next call must clear them); success was said only where the command did all of it; and
 the same command on the mended disk reaches what it reaches on a good one. Prints a table, and what was wrong; the exit
@@ -38,6 +39,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
+TELLING = ("apply", "undo", "capture", "commit", "stash", "checkout", "merge", "revert", "cherry-pick", "set", "move")
 FAULTS = {"ENOSPC": True, "EIO": False, "EROFS": True}
 """Whether all that comes after the first failure fails, too."""
 SAID = {
@@ -98,6 +100,11 @@ class Case:
     adds: bool = False
     new: bool = False
     porcelain: bool = False
+
+    @property
+    def tells(self) -> bool:
+        """Whether it says what it did not do: it moves parts, or writes manifests or commits."""
+        return self.words[0] in TELLING
 
 
 @dataclass
@@ -331,6 +338,17 @@ def heads(folder: Path) -> str:
     return f"{found}{staged}{going}"
 
 
+STANDING = ("nothing moved", "the manifests are as they were", "no commit was made")
+"""What a command says that did not come to its end."""
+
+
+def standing(lab: Path) -> tuple[object, ...]:
+    """Return what each word of STANDING is about: table, manifests, HEAD."""
+    asked = subprocess.run(["git", "rev-parse", "HEAD"], cwd=lab, capture_output=True, text=True, check=False)
+    manifests = {str(path): path.read_bytes() for path in (*lab.glob("*.yaml"), *lab.glob("state/*.yaml"))}
+    return table(lab), manifests, asked.stdout
+
+
 def whole(path: Path) -> str:
     """Return whether a file that was written is whole, as its format tells."""
     data = path.read_bytes()
@@ -396,6 +414,12 @@ def answered(judge: Judge, case: Case, fault: str, code: int | None, said: str, 
         yield "does not say why"
     elif code == 1 and str(judge.area) not in said and "mounted at" not in said:
         yield "does not say where"
+    now = standing(judge.lab)
+    for words, before, after in zip(STANDING, good.standing, now, strict=True):
+        if words in said and before != after:
+            yield f"untrue: {words}"
+    if code == 1 and now == good.standing and case.tells and STANDING[1] not in said:
+        yield "does not say what was not done"
 
 
 def mended(judge: Judge, case: Case, code: int | None, good: Good) -> tuple[list[str], str]:
@@ -422,6 +446,8 @@ class Good:
     left: set[str]
     before: set[str]
     """What lay about before it: of a command that was killed."""
+    standing: tuple[object, ...]
+    """How the lab stood before it."""
 
 
 def judged(judge: Judge, name: str, points: int, seed: int) -> Score:
@@ -429,14 +455,14 @@ def judged(judge: Judge, name: str, points: int, seed: int) -> Score:
     case, score = CASES[name], Score()
     kept = judge.prepare(case)
     judge.again(kept)
-    before = judge.left()
+    before, start = judge.left(), standing(judge.lab)
     with judge.disk.failing(judge.area) as control:
         code = judge.run(judge.lab, *case.words)
     if code is None or "error[" in judge.said.read_text():
         print(f"  {name} fails on a good disk: {judge.said.read_text()}")
         score.wrong["fails on a good disk"] += 1
         return score
-    good = Good(code, control.count, judge.state(case.out), judge.left(), before)
+    good = Good(code, control.count, judge.state(case.out), judge.left(), before, start)
     score.points = good.count
     draw = random.Random(f"{seed}/{name}")
     for fault in FAULTS:

@@ -21,7 +21,7 @@ from .arguments import PREFIX, remember
 from .commands import files, stem
 from .help import help_text
 from .output import unsaid, write
-from .session import Session
+from .session import Session, standing
 
 PLAIN: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False, "add_completion": False}
 
@@ -122,6 +122,7 @@ def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
     session, stepping = Session(json="--json" in words, debug="--debug" in words), "bisect-step" in words
     unsaid.clear()
+    standing.clear()
     try:
         group = build()
         with group.make_context("pico", list(words)) as context:
@@ -136,7 +137,7 @@ def run(words: list[str]) -> int:
             write(sys.stderr, "")  # the terminal shows ^C where the cursor was
         if session.debug:
             write(sys.stderr, traceback.format_exc(), end="")
-        session.report(found)
+        session.report(standing[0].told(found) if standing else found)
     if unsaid:
         from pico.disk import unwritable
 

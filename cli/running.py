@@ -14,7 +14,7 @@ from pico.diagnostics import ExitCode
 from pico.model.record import as_json
 
 from .output import write
-from .session import Session
+from .session import Session, standing
 from .views import plan as plan_view
 from .views import report as report_view
 from .views import verified
@@ -36,6 +36,8 @@ class Screen:
         self.last = 0.0
 
     def show(self, event: Event) -> None:
+        for before in standing:
+            before.begun |= bool(event.operation)
         if self.session.json:
             self.session.document(as_json(event))
             return

@@ -22,6 +22,11 @@ if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic
     from pico.history.reader import Reader
 
+    from .standing import Standing
+
+standing: list[Standing] = []
+"""How the lab stood before this command was to change something."""
+
 
 class View(Protocol):
     """A module of `views`."""
@@ -55,6 +60,9 @@ class Session:
         if self.context is not None:
             self.context.call_on_close(bench.close)
         if writing:
+            from .standing import Standing
+
+            standing[:] = [Standing(bench.root)]
             self.wire(bench.root)
         self.tell(bench.folder.recovered)
         if self.lock_timeout:

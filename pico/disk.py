@@ -177,6 +177,11 @@ def unwritable(path: Path, exc: Exception, *, what: str = "", code: str = "unwri
     return error(code, f"{what}: {why}", hint=remedy)
 
 
+def of_disk(found: Diagnostic) -> bool:
+    """Whether something is wrong because a disk is full, fails or may not be written."""
+    return " disk mounted at " in found.summary
+
+
 def number_of(exc: Exception) -> int | None:
     """Return the errno of a failure; from its words where a library (SQLite, libgit2) kept only those."""
     if isinstance(exc, OSError) and exc.errno is not None:

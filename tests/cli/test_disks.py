@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import subprocess
@@ -10,6 +11,10 @@ from pathlib import Path
 
 import pytest
 from commanding import Pico
+from pico_cli.standing import Standing
+
+from pico.diagnostics import error
+from pico.disk import unwritable
 
 BENCHMARK = Path(__file__).resolve().parents[2] / "benchmarks" / "disks.py"
 FULL = Path("/dev/full")
@@ -40,6 +45,21 @@ def test_an_answer_that_a_full_disk_does_not_take_is_an_error(shel: Path, words:
     assert "Traceback" not in done.stderr and "Exception" not in done.stderr
 
 
+def test_where_a_disk_refuses_it_is_told_what_was_not_done_and_nothing_untrue(shel: Path, pico: Pico) -> None:
+    full = [unwritable(shel, OSError(errno.ENOSPC, ""))]
+    before = Standing(shel)
+    assert before.told([error("usage", "no disk is wrong")])[1:] == []
+    said = before.told(full)[1].summary
+    assert said == "nothing moved; the manifests are as they were; no commit was made"
+    assert pico("sim", "nudge", "p2", "--dx", "5").code == pico("capture").code == 0
+    said = before.told(full)[1].summary
+    assert said == "`pico status` shows what moved; manifests changed: `git diff`; no commit was made"
+    captured = Standing(shel)
+    assert pico("commit", "-m", "bumped").code == 0
+    said = captured.told(full)[1].summary
+    assert said == "nothing moved; the manifests are as they were; HEAD moved: `git log -1`"
+
+
 def judged(*words: str) -> str:
     if not sys.platform.startswith("linux") or shutil.which("cc") is None:
         pytest.skip("a failing disk is made by a library for Linux, which needs a C compiler")
@@ -53,3 +73,8 @@ def judged(*words: str) -> str:
 @pytest.mark.slow
 def test_no_plan_is_left_that_is_empty_or_half() -> None:
     assert " 9  0" in judged("plan --out", "--points", "3")
+
+
+@pytest.mark.slow
+def test_commands_say_truly_what_they_did_not_do() -> None:
+    assert judged("capture", "set", "--points", "3").count(" 9  0") == 4

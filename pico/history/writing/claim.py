@@ -17,8 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pico.diagnostics import PicoError, error
-from pico.disk import write_whole
+from pico.disk import write_whole, writing
 from pico.history.git import command as git
 
 _KEPT = ("tree", "commit", "only", "shelf")
@@ -110,16 +109,13 @@ class Claim:
     @classmethod
     def make(cls, at: GitFolders, doing: str, base: str | None, refs: Sequence[Path]) -> Claim:
         """Make and hold one; raises PicoError."""
-        path = at.claim
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.unlink(missing_ok=True)
-            file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o666)
+        with writing(at.claim, code="folder"):
+            at.private.mkdir(parents=True, exist_ok=True)
+            at.claim.unlink(missing_ok=True)
+            file = os.open(at.claim, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o666)
             claim = cls(at, file)
             fcntl.flock(file, fcntl.LOCK_EX)
             claim._say(pico=os.getpid(), doing=doing, base=base, refs=[str(p) for p in refs])
-        except OSError as exc:
-            raise PicoError(error("folder", f"can't write {path}: {(exc.strerror or str(exc)).lower()}")) from exc
         return claim
 
     def will_write(self, tree: str) -> None:

@@ -13,7 +13,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import PicoError
+from pico.disk import unwritable
 from pico.history.git.holders import git_processes, held
 from pico.history.writing.claim import Claim, GitFolders, give_up
 from pico.history.writing.guard import guarded
@@ -88,7 +89,7 @@ def _make(lock: Path) -> None:
     except FileExistsError:
         raise
     except OSError as exc:
-        raise PicoError(error("folder", f"can't make {lock}: {(exc.strerror or str(exc)).lower()}")) from exc
+        raise PicoError(unwritable(lock, exc, code="folder")) from exc
 
 
 def taken(at: GitFolders) -> bool:

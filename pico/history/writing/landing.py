@@ -46,8 +46,8 @@ def land(at: GitFolders, what: Landing) -> None:
     """Commit. Raises PicoError with git's words; index and HEAD are then as they were."""
     with index_lock(at, "pico commit", what.head, what.refs) as claim:
         before, under = at.private / "index.before", Under(at, claim)
-        copy_index(at.index, before)
         try:
+            copy_index(at.index, before)
             _stage(under, what)
             _commit(under, what)
         except PicoError:

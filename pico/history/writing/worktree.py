@@ -16,6 +16,7 @@ from hashlib import sha1
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
+from pico.disk import unwritable
 from pico.history.writing.under import Under
 
 _NOTHING = "0" * 40
@@ -61,7 +62,7 @@ def bring(under: Under, known: Sequence[str], to: str, begin: Callable[[], None]
             for path in paths:
                 _put(root, path, fresh / path)
     except OSError as exc:
-        raise PicoError(error("folder", f"can't write {exc.filename}: {(exc.strerror or str(exc)).lower()}")) from exc
+        raise PicoError(unwritable(Path(exc.filename or root), exc, code="folder")) from exc
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
     under.git("update-index", "-q", "--refresh", doing="look at the files", ends=(0, 1))
