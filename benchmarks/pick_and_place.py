@@ -42,12 +42,12 @@ from pico.model.record import as_json  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Blocked, MovePath, Standing  # noqa: E402
 from pico.twin.physics import Twin  # noqa: E402
-from pico.twin.sight import Exact, Sight  # noqa: E402
+from pico.twin.sight import Exact, HandSight  # noqa: E402
 
 APART = 100.0
 """Least distance of a goal from any other part's origin [mm]."""
 
-Seeing = Callable[[Twin], Sight] | None
+Seeing = Callable[[Twin], HandSight] | None
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ class Run:
         return Trial(data, failure, path.seconds, simulated, *spent, self.path_cpu)
 
 
-def pixels(setup: Setup, seed: int) -> Callable[[Twin], Sight]:
+def pixels(setup: Setup, seed: int) -> Callable[[Twin], HandSight]:
     """Return what makes the sight from rendered pictures, with the lab's errors of cameras drawn by `seed`."""
     from pico.cameras.eye_in_hand import EyeInHand
     from pico.cameras.simulated import Eyes

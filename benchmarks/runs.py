@@ -157,17 +157,17 @@ def pairs(trials: int) -> int:
     """Start two commands at once; return in how many trials not exactly one moved."""
     from kills import forked
 
-    from pico.backends.sim.session import Session
+    from pico.backends.sim.session import WorldSession
     from pico.bench.bench import new_lab
     from pico.runs.journal import Journal
 
-    tell = Session._tell
+    tell = WorldSession._tell
 
-    def slowly(self: Session, *rest: Any) -> None:
+    def slowly(self: WorldSession, *rest: Any) -> None:
         time.sleep(0.03)
         tell(self, *rest)
 
-    Session._tell = slowly  # type: ignore[method-assign]
+    WorldSession._tell = slowly  # type: ignore[method-assign]
     wrong = 0
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary) / "shel"
@@ -187,7 +187,7 @@ def pairs(trials: int) -> int:
                 print(
                     f"trial {number}: exit codes {codes}, {runs} runs: {texts[0][-200:]} {texts[1][-200:]}", flush=True
                 )
-    Session._tell = tell  # type: ignore[method-assign]
+    WorldSession._tell = tell  # type: ignore[method-assign]
     print(f"two at once: {trials} trials, {wrong} in which not exactly one moved and the other named it", flush=True)
     return wrong
 

@@ -27,7 +27,7 @@ _STAYS = ("write.lock", "write.tmp", "holder.json", "incoming", "replaced")
 
 
 @dataclass(frozen=True)
-class Place:
+class LabPlace:
     """Where a lab lies: its folder, that of its worktree, and Git's folder that all worktrees share."""
 
     root: Path
@@ -90,7 +90,7 @@ def require_attached(root: Path) -> None:
             raise PicoError(_elsewhere(there, gone=not _is_of(there, place)), ExitCode.LOCKED)
 
 
-def attached(place: Place) -> Path | None:
+def attached(place: LabPlace) -> Path | None:
     """Return the folder of the lab in the worktree that has the bench; None where no worktree that is there has it."""
     there = _told(place, _read(place.record))
     return there if there is not None and _is_of(there, place) else None
@@ -117,7 +117,7 @@ def attach(root: Path) -> Path | None:
     return there
 
 
-def lab_place(root: Path) -> Place | None:
+def lab_place(root: Path) -> LabPlace | None:
     """Return where a lab lies, None outside Git; without git, for every command asks."""
     root = Path(os.path.realpath(root))
     for top in (root, *root.parents):
@@ -131,11 +131,11 @@ def lab_place(root: Path) -> Place | None:
         except (OSError, ValueError):
             shared = "."
         common = Path(os.path.realpath(own / shared))
-        return Place(root, top, common) if (common / "objects").is_dir() else None
+        return LabPlace(root, top, common) if (common / "objects").is_dir() else None
     return None
 
 
-def _told(place: Place, record: Mapping[str, str]) -> Path | None:
+def _told(place: LabPlace, record: Mapping[str, str]) -> Path | None:
     """Return which folder the record names; the main worktree where it names none and that has a bench already."""
     if place.inside in record:
         return Path(os.path.normpath(place.common / record[place.inside]))
@@ -143,14 +143,14 @@ def _told(place: Place, record: Mapping[str, str]) -> Path | None:
     return main if place.common.name == ".git" and (main / FOLDER / "lock").exists() else None
 
 
-def _is_of(folder: Path, place: Place) -> bool:
+def _is_of(folder: Path, place: LabPlace) -> bool:
     """Return whether a folder still is this lab in a worktree of the same repository."""
     found = lab_place(folder) if folder.is_dir() else None
     return found is not None and (found.common, found.inside) == (place.common, place.inside)
 
 
 @contextmanager
-def _recording(place: Place) -> Iterator[dict[str, str]]:
+def _recording(place: LabPlace) -> Iterator[dict[str, str]]:
     """Read the record, and write it where it was changed; nobody else does so meanwhile."""
     path = place.record
     with writing(path, code="folder"):

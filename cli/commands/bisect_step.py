@@ -28,7 +28,7 @@ def bisect_step(
     ask. Exits with 0 where it is good, 1 where it is bad, 125 where it can't be built or told, and from 128 on where
     the bench is in trouble, so that git stops: 128 more than the exit code of `pico apply`.
     """
-    from pico.bench.bisecting.step import Step, bisecting, step
+    from pico.bench.bisecting.step import TrialStep, bisecting, step
 
     from ..bisecting import bring
     from ..views import bisect as view
@@ -39,15 +39,15 @@ def bisect_step(
     except PicoError as exc:
         if not bisecting(session.folder):
             raise
-        found = Step(commit="HEAD", verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
-        session.show(view.Step, found)
+        found = TrialStep(commit="HEAD", verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
+        session.show(view.TrialStep, found)
         return CODES[found.verdict]
 
     def run(plan: Plan) -> float:
         return _run(session, bench, plan, bring(session, bench, plan))
 
     found = step(bench, expect, run)
-    session.show(view.Step, found)
+    session.show(view.TrialStep, found)
     return CODES[found.verdict]
 
 

@@ -18,7 +18,7 @@ from ..views import check as view
 from ..waiting import waiting
 
 if TYPE_CHECKING:
-    from pico.bench.checking import Checked
+    from pico.bench.checking import CheckReport
 
 Base = Annotated[
     str | None,
@@ -86,7 +86,7 @@ def _folder(session: Session, report: Path | None, pictures: Path | None) -> Pat
     return None if str(pictures) == "none" else session.folder / pictures
 
 
-def _write_files(session: Session, found: Checked, report: Path | None, junit: Path | None) -> None:
+def _write_files(session: Session, found: CheckReport, report: Path | None, junit: Path | None) -> None:
     if report:
         from ..views.check_markdown import report as in_markdown
 
@@ -103,7 +103,7 @@ def _write(path: Path, text: str) -> None:
     write_whole(path, text.encode(), folders=True)
 
 
-def _show(session: Session, found: Checked, stream: TextIO) -> None:
+def _show(session: Session, found: CheckReport, stream: TextIO) -> None:
     """Show what was found; `stream`: where people read the verdicts, findings go to standard error."""
     from ..views import diagnostics
     from ..views.check_annotations import harmless
@@ -118,7 +118,7 @@ def _show(session: Session, found: Checked, stream: TextIO) -> None:
         write(sys.stderr, safe(diagnostics.text(wrong)))
 
 
-def _tell_github(found: Checked) -> None:
+def _tell_github(found: CheckReport) -> None:
     """Put the report on the page of the job, and the findings beside their lines, where GitHub runs this."""
     if os.environ.get("GITHUB_ACTIONS"):
         from ..views.check_annotations import beside

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from pico.bench.bisecting.records import Outcome, Proposal
+from pico.bench.bisecting.records import BisectionOutcome, Proposal
 from pico.bench.bisecting.records import Tried as TriedRecord
 from pico.bench.bisecting.search import Bisection
-from pico.bench.bisecting.step import Step as StepRecord
-from pico.history.lab.folder import Entry
+from pico.bench.bisecting.step import TrialStep as StepRecord
+from pico.history.lab.folder import CommitEntry
 from pico.model.record import as_json
 
 from .diff import brief, lines
@@ -78,7 +78,9 @@ class Over:
     """What it came to."""
 
     @staticmethod
-    def text(search: Bisection, outcome: Outcome, entry: Entry | None, name_of: Callable[[str], str]) -> str:
+    def text(
+        search: Bisection, outcome: BisectionOutcome, entry: CommitEntry | None, name_of: Callable[[str], str]
+    ) -> str:
         said = _found(entry) if entry else _not_found(search, outcome, name_of)
         runs = [f"  run {run}" for run in outcome.runs]
         return "\n".join(
@@ -86,7 +88,9 @@ class Over:
         )
 
     @staticmethod
-    def data(search: Bisection, outcome: Outcome, entry: Entry | None, name_of: Callable[[str], str]) -> dict[str, Any]:
+    def data(
+        search: Bisection, outcome: BisectionOutcome, entry: CommitEntry | None, name_of: Callable[[str], str]
+    ) -> dict[str, Any]:
         found = {"commit": entry_data(entry)} if entry else {}
         return {"schema": SCHEMA, "kind": "over", **as_json(outcome), **found, "git": outcome.said}
 
@@ -95,7 +99,7 @@ class Standing:
     """Where a bisection stands."""
 
     @staticmethod
-    def text(search: Bisection, outcome: Outcome, name_of: Callable[[str], str]) -> str:
+    def text(search: Bisection, outcome: BisectionOutcome, name_of: Callable[[str], str]) -> str:
         rows = [Tried.text(search, tried) for tried in search.tried]
         if outcome.first_bad:
             last = f"{name_of(outcome.first_bad)} is the first bad commit. `pico bisect reset` ends the bisection."
@@ -112,7 +116,7 @@ class Standing:
         return "\n".join([_asked(search), *rows, *wrap(last, "")])
 
     @staticmethod
-    def data(search: Bisection, outcome: Outcome, name_of: Callable[[str], str]) -> dict[str, Any]:
+    def data(search: Bisection, outcome: BisectionOutcome, name_of: Callable[[str], str]) -> dict[str, Any]:
         own = {"task": as_json(search.task), "tried": as_json(search.tried), "left": search.left()}
         return {
             "schema": SCHEMA,
@@ -123,7 +127,7 @@ class Standing:
         }
 
 
-class Step:
+class TrialStep:
     """One trial of `pico bisect-step`."""
 
     @staticmethod
@@ -156,7 +160,7 @@ def _asked(search: Bisection) -> str:
     return "\n".join(wrap(f"Between {ends}, by {by}, {task.measure:g} s a measurement.", ""))
 
 
-def _found(entry: Entry) -> list[str]:
+def _found(entry: CommitEntry) -> list[str]:
     c = entry.commit
     name = c.short + (f" ({', '.join(c.refs)})" if c.refs else "")
     head = f'{paint("bold", name)} is the first bad commit: "{c.summary}", {c.author}, {c.time:%Y-%m-%d %H:%M}'
@@ -164,7 +168,7 @@ def _found(entry: Entry) -> list[str]:
     return [*wrap(head, ""), *changed]
 
 
-def _not_found(search: Bisection, outcome: Outcome, name_of: Callable[[str], str]) -> list[str]:
+def _not_found(search: Bisection, outcome: BisectionOutcome, name_of: Callable[[str], str]) -> list[str]:
     if outcome.mended:
         good = _name(search.task.good_name, search.task.good)
         text = f"{name_of(outcome.mended)}, the fork, is bad already: it was mended on the way to {good}."
@@ -176,14 +180,14 @@ def _not_found(search: Bisection, outcome: Outcome, name_of: Callable[[str], str
     return wrap(text, "")
 
 
-def _cost(outcome: Outcome) -> str:
+def _cost(outcome: BisectionOutcome) -> str:
     text = f"{count(outcome.tried, 'configuration')} tried, {seconds(outcome.seconds)} at the bench"
     if outcome.halving is not None:
         text += f"; always taking the middle one would have taken about {seconds(outcome.halving)}"
     return text + "."
 
 
-def _skipped(outcome: Outcome) -> list[str]:
+def _skipped(outcome: BisectionOutcome) -> list[str]:
     return [f"  skipped {t.commit[:7]}: {t.why}" for t in outcome.skipped]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from pico.history.blame.blamed import Blamed, BlamedLeaf, Turn
+from pico.history.blame.blamed import Blamed, BlamedLeaf, LeafChange
 from pico.history.blame.how import How
 from pico.history.lab.notes import Note
 from pico.model.record import as_json
@@ -45,7 +45,7 @@ def _fitted(rows: list[list[str]], indent: str = "") -> list[str]:
     return columns(rows, indent=indent, last=max(WIDTH - taken, 16))
 
 
-def _turn(turn: Turn, form: str) -> list[str]:
+def _turn(turn: LeafChange, form: str) -> list[str]:
     if turn.commit is None:
         return [paint("cyan", "not committed"), "", "", "", ""]
     short = turn.commit[:7]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.bench.checking.verdict import TITLES, Check, Checked, LabChecked
+from pico.bench.checking.verdict import TITLES, Check, CheckReport, LabChecked
 from pico.diagnostics import ExitCode
 from pico.model.operation import Operation
 from pico.model.plan import Plan
@@ -25,7 +25,7 @@ VERDICTS = {
 }
 
 
-def text(checked: Checked) -> str:
+def text(checked: CheckReport) -> str:
     """Return the verdicts on every lab."""
     blocks = [_lab(checked, lab) for lab in checked.labs]
     if checked.alike:
@@ -34,19 +34,19 @@ def text(checked: Checked) -> str:
     return "\n\n".join(blocks)
 
 
-def data(checked: Checked) -> dict[str, Any]:
+def data(checked: CheckReport) -> dict[str, Any]:
     """Return schema `pico.check/v1`: `what`, `base`, `exit_code`, and of each lab `checks`, `changes`, `plan`, ..."""
     labs = [{**as_json(lab), "exit_code": int(lab.exit_code)} for lab in checked.labs]
     return {**as_json(checked), "labs": labs, "exit_code": int(checked.exit_code)}
 
 
-def base(checked: Checked | LabChecked) -> str:
+def base(checked: CheckReport | LabChecked) -> str:
     """Return what was compared with: `main (4f2c9a1)`."""
     commit = checked.base.commit
     return f"{checked.base.name} ({commit[:7]})" if commit else checked.base.name
 
 
-def verdict(checked: Checked | LabChecked) -> str:
+def verdict(checked: CheckReport | LabChecked) -> str:
     """Return the verdict in words."""
     broken = isinstance(checked, LabChecked) and any(c.broken for c in checked.checks)
     if checked.exit_code == ExitCode.ERROR and broken:
@@ -78,7 +78,7 @@ def why(plan: Plan, op: Operation) -> tuple[str, str, str]:
     return address(op), motion, "" if because == motion else because
 
 
-def _lab(checked: Checked, lab: LabChecked) -> str:
+def _lab(checked: CheckReport, lab: LabChecked) -> str:
     where = "" if lab.folder == "." else f" · {lab.folder}"
     head = f"{paint('bold', lab.lab)}{where} · {checked.what} against {base(lab)}"
     blocks = [head, "\n".join(line for check in lab.checks for line in _check(check)), *_changes(lab), *_plan(lab)]

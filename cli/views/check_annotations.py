@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 
-from pico.bench.checking.verdict import Checked
+from pico.bench.checking.verdict import CheckReport
 from pico.diagnostics import Diagnostic
 
 MOST = 10
 """So many of a severity GitHub shows of one step."""
 
 
-def beside(checked: Checked) -> str:
+def beside(checked: CheckReport) -> str:
     """Return a line for each finding that has a place in a file."""
     found = [d for lab in checked.labs for d in lab.diagnostics if d.source and d.severity != "note"]
     errors = [d for d in found if d.severity == "error"][:MOST]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from xml.etree import ElementTree as xml
 
-from pico.bench.checking.verdict import TITLES, Check, Checked, LabChecked
+from pico.bench.checking.verdict import TITLES, Check, CheckReport, LabChecked
 from pico.model.expectation import Expected
 
 from . import diagnostics
@@ -15,7 +15,7 @@ _ILLEGAL = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML 1.0 can't hold, not even escaped."""
 
 
-def junit(checked: Checked) -> str:
+def junit(checked: CheckReport) -> str:
     """Return the document. Advice is no failure: it is the output of its case."""
     top = xml.Element("testsuites", name="pico check")
     for lab in checked.labs:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from pico.bench.checking.verdict import TITLES, Checked, LabChecked
+from pico.bench.checking.verdict import TITLES, CheckReport, LabChecked
 from pico.model.diff import Change
 from pico.model.plan import Plan
 
@@ -26,7 +26,7 @@ _ROWS = (200, 60, 20, 8, 3, 1)
 _FINDING = 1500
 
 
-def report(checked: Checked, folder: Path | None = None, limit: int = LIMIT) -> str:
+def report(checked: CheckReport, folder: Path | None = None, limit: int = LIMIT) -> str:
     """Return the report, at most `limit` characters. `folder`: where it is written, so that pictures are shown; without
     one they are only named."""
     texts: list[str] = []
@@ -41,18 +41,18 @@ def report(checked: Checked, folder: Path | None = None, limit: int = LIMIT) -> 
     return "\n\n".join([*kept, *([f"… and {count(more, 'lab')} more."] if more > 0 else [])]) + "\n"
 
 
-def _head(checked: Checked) -> str:
+def _head(checked: CheckReport) -> str:
     sign = SIGNS["failed" if checked.exit_code else "passed"]
     title = prose(", ".join(lab.lab for lab in checked.labs) or "no lab differs")
     words = f": {verdict(checked.labs[0] if len(checked.labs) == 1 else checked)}" if checked.labs else ""
     return f"{MARK}\n## {sign} {title}{words}\n\n{prose(checked.what)} against {prose(base(checked))}."
 
 
-def _alike(checked: Checked) -> list[str]:
+def _alike(checked: CheckReport) -> list[str]:
     return [prose(f"As before, and not checked: {', '.join(checked.alike)}.")] if checked.alike else []
 
 
-def _lab(checked: Checked, lab: LabChecked, folder: Path | None, rows: int) -> str:
+def _lab(checked: CheckReport, lab: LabChecked, folder: Path | None, rows: int) -> str:
     several = len(checked.labs) > 1
     where = "" if lab.folder == "." else f" ({prose(lab.folder)})"
     blocks = [f"### {prose(lab.lab)}{where}: {verdict(lab)}"] if several else []

@@ -7,12 +7,12 @@ from typing import Any
 from pico.history.data.needs import Need
 from pico.history.data.pointers import Pointed
 from pico.history.data.transfer import Holdings, Moved
-from pico.history.data.upkeep import Checked, Garbage
+from pico.history.data.upkeep import Garbage, StoreCheck
 from pico.model.record import as_json
 
 from .style import columns, count, listed, paint
 
-Found = Holdings | Moved | Checked | Garbage | Pointed
+Found = Holdings | Moved | StoreCheck | Garbage | Pointed
 _SHOWN = 20
 """Objects that are named one by one."""
 
@@ -25,7 +25,7 @@ def text(found: Found, *, done: str = "", freed: int | None = None) -> str:
         return _moved(found, done)
     if isinstance(found, Pointed):
         return _pointed(found)
-    return _checked(found) if isinstance(found, Checked) else _garbage(found, freed)
+    return _checked(found) if isinstance(found, StoreCheck) else _garbage(found, freed)
 
 
 def data(found: Found, *, done: str = "", freed: int | None = None) -> dict[str, Any]:
@@ -39,7 +39,7 @@ def data(found: Found, *, done: str = "", freed: int | None = None) -> dict[str,
         content = {"kind": done, **as_json(found)}
     elif isinstance(found, Pointed):
         content = {"kind": "pointers", **as_json(found)}
-    elif isinstance(found, Checked):
+    elif isinstance(found, StoreCheck):
         damaged = [_known(name, found) for name in found.damaged]
         missing = [as_json(n) for n in found.missing]
         content = {"kind": "fsck", "objects": found.objects, "size": found.size, "damaged": damaged, "missing": missing}
@@ -108,7 +108,7 @@ def _moved(found: Moved, done: str) -> str:
     return "\n".join([*block, *_named("missing", found.lost)])
 
 
-def _checked(found: Checked) -> str:
+def _checked(found: StoreCheck) -> str:
     block = [f"{count(found.objects, 'object')} read, {size(found.size)}."]
     for name in found.damaged:
         need = found.needs.get(name)
@@ -148,7 +148,7 @@ def _pointed(found: Pointed) -> str:
     return "\n".join(block)
 
 
-def _known(name: str, found: Checked) -> dict[str, Any]:
+def _known(name: str, found: StoreCheck) -> dict[str, Any]:
     need = found.needs.get(name)
     known: dict[str, Any] = as_json(need) if need else {"sha256": name, "runs": []}
     return known

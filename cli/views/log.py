@@ -7,8 +7,8 @@ from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
 from pico.history.git.commit import Commit
-from pico.history.git.lanes import Row, lanes
-from pico.history.lab.folder import Entry
+from pico.history.git.lanes import RailRow, lanes
+from pico.history.lab.folder import CommitEntry
 from pico.history.messages.trailers import meta, without_trailers
 from pico.model.record import as_json
 from pico.model.run import Run
@@ -65,19 +65,19 @@ def _none(log: Log) -> str:
     return "No commit has touched this lab yet."
 
 
-def _below(rows: list[Row], i: int) -> str:
+def _below(rows: list[RailRow], i: int) -> str:
     """Return the rail under a commit: its own line of history goes on where it has a parent on the rail."""
     rail = rows[i].rail
     ends = i + 1 >= len(rows) or rows[i + 1].rail[rail.index("*") : rail.index("*") + 1] in ("", " ")
     return rail.replace("*", " " if ends else "|") + " "
 
 
-def _short(commits: Sequence[Commit], checked_out: str | None) -> Callable[[Entry, int], list[str]]:
+def _short(commits: Sequence[Commit], checked_out: str | None) -> Callable[[CommitEntry, int], list[str]]:
     """Return a function from a commit to one line: name, message, motions, proof; more where they do not fit."""
     names = min(max((width(_name(c, checked_out)) for c in commits), default=0), 24)
     room = min(max((width(printable(c.summary)) for c in commits), default=0), 44)
 
-    def render(entry: Entry, columns: int) -> list[str]:
+    def render(entry: CommitEntry, columns: int) -> list[str]:
         name = _name(entry.commit, checked_out)
         head = f"{pad(paint('yellow', name), names)}  {pad(printable(entry.commit.summary), room)}"
         what, proof = _what(entry), " · ".join(proofs(entry))
@@ -95,7 +95,7 @@ def _name(commit: Commit, checked_out: str | None) -> str:
     return f"{name} (HEAD)" if commit.id == checked_out else name
 
 
-def _what(entry: Entry) -> str:
+def _what(entry: CommitEntry) -> str:
     if entry.unreadable:
         return f"can't be read: {entry.unreadable}"
     if not entry.changes:
@@ -110,12 +110,12 @@ def _what(entry: Entry) -> str:
     return brief(entry.changes)
 
 
-def _long(entry: Entry, _: int) -> list[str]:
+def _long(entry: CommitEntry, _: int) -> list[str]:
     what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else lines(entry.changes)
     return [*header(entry), "", *what, *proven(entry), ""]
 
 
-def header(entry: Entry) -> list[str]:
+def header(entry: CommitEntry) -> list[str]:
     """Return id, names, author, date and message of a commit, without the trailers that PICO wrote."""
     c = entry.commit
     refs = f" ({', '.join(c.refs)})" if c.refs else ""
@@ -130,14 +130,14 @@ def noted(part: str, notes: Sequence[Note]) -> str:
     return "\n".join([paint("bold", f"Notes on {part}:"), *columns(rows, indent="  "), ""])
 
 
-def proofs(entry: Entry) -> list[str]:
+def proofs(entry: CommitEntry) -> list[str]:
     """Return in a few words how far the state of a commit is proven, and how its runs ended."""
     inherited = entry.standing is not None and entry.standing.verdict == "inherited"
     evidence = ["inherited"] if inherited else [entry.evidence] if entry.evidence else []
     return [*evidence, *(ended(run) for run in entry.runs)]
 
 
-def proven(entry: Entry) -> list[str]:
+def proven(entry: CommitEntry) -> list[str]:
     """Return lines with the evidence for a commit, and for each of its runs how it ended and what did not hold."""
     found = []
     standing = entry.standing
@@ -174,7 +174,7 @@ def data(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> di
     return {"schema": "pico.log/v1", "head": head, "commits": shown}
 
 
-def entry_data(entry: Entry) -> dict[str, Any]:
+def entry_data(entry: CommitEntry) -> dict[str, Any]:
     """Return one commit with its physical diff as JSON data."""
     c = entry.commit
     runs = [

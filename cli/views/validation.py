@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.manifest.folders import Checked
+from pico.manifest.folders import FolderVerdict
 
 from . import diagnostics
 from .style import count
 
 
-def text(checked: Checked) -> str:
+def text(checked: FolderVerdict) -> str:
     """Return one line."""
     errors = sum(d.severity == "error" for d in checked.diagnostics)
     if errors:
@@ -21,7 +21,7 @@ def text(checked: Checked) -> str:
     return f"{checked.lab}: the manifests are valid ({what})."
 
 
-def data(checked: Checked) -> dict[str, Any]:
+def data(checked: FolderVerdict) -> dict[str, Any]:
     """Return schema `pico.validation/v1`: `valid`, counts and diagnostics."""
     return {
         "schema": "pico.validation/v1", "valid": checked.exit_code == 0, "lab": checked.lab, "files": checked.files,

@@ -26,7 +26,7 @@ class Failed(Exception):
         super().__init__(diagnostic.summary)
 
 
-class Table(Protocol):
+class AttemptTable(Protocol):
     """What an attempt acts on."""
 
     @property
@@ -51,7 +51,11 @@ class Attempts:
     """Executes operations on a table, each key once. `token` is that of the lease; `tell` hears of each start."""
 
     def __init__(
-        self, journal: Journal, table: Table, token: int, tell: Callable[[Operation, str], None] = lambda *_: None
+        self,
+        journal: Journal,
+        table: AttemptTable,
+        token: int,
+        tell: Callable[[Operation, str], None] = lambda *_: None,
     ) -> None:
         """Raises PicoError (exit code LOCKED) where somebody took the bench since this token was given."""
         self._journal, self._table, self._token, self._tell = journal, table, token, tell

@@ -22,7 +22,7 @@ FORMAT = Format("pico.seen")
 
 
 @record
-class Seen:
+class LastSeen:
     """Where a part was last. `time`: on the clock of the bench [s]; `placed`: an arm put it there, and no camera has
     seen it since."""
 
@@ -42,12 +42,12 @@ def memory_path(root: Path) -> Path:
     return bench_folder(root) / "seen.json"
 
 
-def recall(root: Path) -> dict[str, Seen]:
+def recall(root: Path) -> dict[str, LastSeen]:
     """Return where parts were last; nothing where the file is missing or can't be read, for it is only a memory."""
     try:
         data = FORMAT.lifted(json.loads(memory_path(root).read_text(encoding="utf-8")))
         return {
-            name: Seen(
+            name: LastSeen(
                 pose=Pose(**part["pose"]),
                 uncertainty=Uncertainty(**part["uncertainty"]),
                 time=float(part["time"]),
@@ -59,17 +59,17 @@ def recall(root: Path) -> dict[str, Seen]:
         return {}
 
 
-def noted(last: Mapping[str, Seen], seen: Observation) -> dict[str, Seen]:
+def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen]:
     """Return the memory after an observation: what was seen just now replaces what was known of it."""
     fresh = {
-        name: Seen(pose=part.pose, uncertainty=part.uncertainty, time=seen.time)
+        name: LastSeen(pose=part.pose, uncertainty=part.uncertainty, time=seen.time)
         for name, part in seen.components.items()
         if part.pose is not None and part.presence == "seen" and part.how not in ("fixed", "remembered", "placed")
     }
     return {**last, **fresh}
 
 
-def remember(root: Path, parts: Mapping[str, Seen]) -> None:
+def remember(root: Path, parts: Mapping[str, LastSeen]) -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
     document = {"schema": FORMAT.schema, "parts": as_json(parts)}
     data = json.dumps(document, separators=(",", ":"), sort_keys=True).encode()

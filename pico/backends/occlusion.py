@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _OWN = 2.0  # mm that a ray may end short of the marker and still have reached it
 
 
-class Cover:
+class Occluders:
     """The bench as it was just seen: components at `places`, arms at `joints`, `cameras` over the table."""
 
     def __init__(

@@ -17,7 +17,7 @@ BY_OBSERVATION = "observation"
 
 
 @record
-class Settled:
+class SettledOperation:
     """How an operation ended of which nobody knew it, as far as an observation tells; `unknown`: a person must say."""
 
     key: str
@@ -25,7 +25,7 @@ class Settled:
     outcome: Outcome
 
 
-def settle(setup: Setup, journal: Journal, seen: Observation, token: int) -> tuple[Settled, ...]:
+def settle(setup: Setup, journal: Journal, seen: Observation, token: int) -> tuple[SettledOperation, ...]:
     """Find out by the observation, and record, how every operation ended that began and has no end.
 
     Returns them in the order in which they began. Raises PicoError where the journal can't be written.
@@ -35,7 +35,7 @@ def settle(setup: Setup, journal: Journal, seen: Observation, token: int) -> tup
         outcome = verdict(setup, open.operation, seen)
         if outcome != "unknown" or not open.ended:
             journal.resolve(open.key, outcome, BY_OBSERVATION, seen.components.get(open.operation.component), token)
-        found.append(Settled(key=open.key, operation=open.operation, outcome=outcome))
+        found.append(SettledOperation(key=open.key, operation=open.operation, outcome=outcome))
     return tuple(found)
 
 

@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from pico.backends.memory import Seen
-from pico.backends.occlusion import Cover
+from pico.backends.memory import LastSeen
+from pico.backends.occlusion import Occluders
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
@@ -55,7 +55,7 @@ def look(
     frames: Sequence[Frame],
     calibration: Calibration | None,
     known: Observation,
-    last: Mapping[str, Seen],
+    last: Mapping[str, LastSeen],
 ) -> Look:
     """Return what `frames`, one a camera that stands over the table, show of a bench.
 
@@ -127,11 +127,11 @@ def _observation(
     sighting: Sighting,
     cameras: Calibration,
     known: Observation,
-    last: Mapping[str, Seen],
+    last: Mapping[str, LastSeen],
     calibrated: bool,
 ) -> Observation:
     places = {name: seen.pose for name, seen in sighting.components.items()}
-    cover = Cover(setup, places, {n: r.joints for n, r in known.robots.items()}, cameras.cameras, sighting.dark)
+    cover = Occluders(setup, places, {n: r.joints for n, r in known.robots.items()}, cameras.cameras, sighting.dark)
     components: dict[str, ObservedComponent] = {}
     problems = [d.diagnostic() for d in sighting.drift]
     problems += [_finding(f) for f in sighting.findings if f.kind not in ("hidden", "datums")]
@@ -157,7 +157,7 @@ def _unwatched(finding: Finding, calibrated: bool) -> Diagnostic:
 
 
 def _component(
-    setup: Setup, name: str, sighting: Sighting, known: Observation, last: Seen | None, cover: Cover
+    setup: Setup, name: str, sighting: Sighting, known: Observation, last: LastSeen | None, cover: Occluders
 ) -> tuple[ObservedComponent, Diagnostic | None]:
     part, plate = setup.lab.inventory[name], setup.type_of(name).geometry.marker
     holder = next((key for key, robot in known.robots.items() if robot.holding == name), None)
@@ -183,7 +183,7 @@ def _component(
 
 
 def _hidden(
-    setup: Setup, name: str, now: float, last: Seen | None, cover: Cover
+    setup: Setup, name: str, now: float, last: LastSeen | None, cover: Occluders
 ) -> tuple[ObservedComponent, Diagnostic | None]:
     """A part whose marker nobody sees: still where it was, if something hides that place; else it is gone."""
     fixed, marker = setup.lab.inventory[name].pose, setup.lab.inventory[name].marker

@@ -20,7 +20,7 @@ from pico.model.expectation import Verified
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
-from pico.model.request import Request, asked, read_values, require_seen
+from pico.model.request import PrimitiveRequest, asked, read_values, require_seen
 from pico.model.status import Status, compare
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
@@ -247,9 +247,9 @@ class AsyncBench(Drawings):
         seen = await self.observe()
         require_seen(self.setup, seen, component, after)
         pose = place_after(self.setup, seen, component, after, distance)
-        return self._one(seen, Request(component=component, primitive="move", pose=pose))
+        return self._one(seen, PrimitiveRequest(component=component, primitive="move", pose=pose))
 
-    def _one(self, seen: Observation, request: Request) -> Plan:
+    def _one(self, seen: Observation, request: PrimitiveRequest) -> Plan:
         from pico import planning
 
         name, options = request.component, {"backend": self.backend_name, "fidelity": self.fidelity}
@@ -379,23 +379,23 @@ class AsyncBench(Drawings):
 
         `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`:
         the bench wins; `planned`: the manifest wins where all of it can stand (exit code IMPOSSIBLE else), and the
-        commit says where it was never realized. `only`, `meta`: see `pico.bench.commits.Asked`.
+        commit says where it was never realized. `only`, `meta`: see `pico.bench.commits.CommitRequest`.
         """
-        from pico.bench.commits import Asked, commit
+        from pico.bench.commits import CommitRequest, commit
 
         if mode == "planned":
             from pico.history.merge.checked import overlapping
 
             if found := overlapping(self.folder.manifests):
                 raise PicoError(found, ExitCode.IMPOSSIBLE)
-        asked = Asked(message=message, mode=mode, only=only, meta=meta)
+        asked = CommitRequest(message=message, mode=mode, only=only, meta=meta)
         return commit(self.folder, await self.observe(), asked, observed=self.fidelity)
 
     async def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = ()) -> str:
         """Return the message that `commit` writes where nobody says why."""
-        from pico.bench.commits import Asked, draft
+        from pico.bench.commits import CommitRequest, draft
 
-        return draft(self.folder, await self.observe(), Asked(mode=mode, only=only))
+        return draft(self.folder, await self.observe(), CommitRequest(mode=mode, only=only))
 
     async def _planned(self, revision: str | None) -> Plan:
         return await self.plan(revision)

@@ -31,7 +31,7 @@ CommitMode = Literal["strict", "capture", "planned"]
 
 
 @dataclass(frozen=True)
-class Asked:
+class CommitRequest:
     """What somebody wants to be committed.
 
     `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`: the
@@ -45,7 +45,7 @@ class Asked:
     meta: Mapping[str, str] = field(default_factory=dict)
 
 
-def commit(folder: LabFolder, seen: Observation, asked: Asked, *, observed: str) -> Committed:
+def commit(folder: LabFolder, seen: Observation, asked: CommitRequest, *, observed: str) -> Committed:
     """Capture and commit; return the commit. `observed`: what the observation counts as.
 
     A commit that ends a merge, a cherry-pick or a revert captures nothing: it is about two histories, and a hypothesis
@@ -75,7 +75,7 @@ def commit(folder: LabFolder, seen: Observation, asked: Asked, *, observed: str)
         return committed(folder, message, captured.changes, counts, runs=runs, meta=asked.meta, named=named)
 
 
-def draft(folder: LabFolder, seen: Observation, asked: Asked) -> str:
+def draft(folder: LabFolder, seen: Observation, asked: CommitRequest) -> str:
     """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
     repository = folder.history()
     ending = require_resolved(repository.root, repository.own)
@@ -93,7 +93,7 @@ def draft(folder: LabFolder, seen: Observation, asked: Asked) -> str:
     return default_message(changes, captured.files or content.paths)
 
 
-def _refuse(folder: LabFolder, seen: Observation, asked: Asked, named: Named | None) -> None:
+def _refuse(folder: LabFolder, seen: Observation, asked: CommitRequest, named: Named | None) -> None:
     """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins."""
     if asked.mode != "strict":
         return

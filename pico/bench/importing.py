@@ -28,7 +28,7 @@ _OFF = 8.0  # mm that a marker may be off the height that its type has it at
 
 
 @record
-class Wanted:
+class MarkerIdentity:
     """What a marker is said to be: a type, and the name that the part is to have (one is made where it is empty)."""
 
     type: str
@@ -43,9 +43,9 @@ class Imported:
     files: tuple[str, ...] = ()
 
 
-def read_types(texts: Sequence[str]) -> dict[int, Wanted]:
+def read_types(texts: Sequence[str]) -> dict[int, MarkerIdentity]:
     """Return what `7=plano_convex_100,9=linear_polarizer:p3` says of markers; raises PicoError for anything else."""
-    found: dict[int, Wanted] = {}
+    found: dict[int, MarkerIdentity] = {}
     for word in (w.strip() for text in texts for w in text.split(",") if w.strip()):
         number, _, rest = word.partition("=")
         kind, _, name = rest.partition(":")
@@ -54,11 +54,11 @@ def read_types(texts: Sequence[str]) -> dict[int, Wanted]:
             raise PicoError(error("usage", f"`{word[:60]}` is not MARKER=TYPE nor MARKER=TYPE:NAME", hint=hint))
         if int(number) in found:
             raise PicoError(error("usage", f"marker {number} is given twice", hint="give each marker once"))
-        found[int(number)] = Wanted(type=kind, name=name)
+        found[int(number)] = MarkerIdentity(type=kind, name=name)
     return found
 
 
-def importable(bench: AsyncBench, look: Look, types: Mapping[int, Wanted]) -> tuple[Adopted, ...]:
+def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity]) -> tuple[Adopted, ...]:
     """Return the parts that `look` shows and the inventory lacks, as they would be taken in.
 
     Raises PicoError for a look that can't be trusted, and, all at once, for markers of which nobody said what they are,
@@ -99,7 +99,7 @@ def _adopted(
     bench: AsyncBench,
     seen: Observation,
     stranger: Stranger,
-    wanted: Wanted | None,
+    wanted: MarkerIdentity | None,
     before: Sequence[Adopted],
     free: dict[str, Pose],
 ) -> Adopted:

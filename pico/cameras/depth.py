@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pico.cameras.view import View
+from pico.cameras.view import CameraView
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _EVERY = 2  # pixels between rays
 
 
-def measure(view: View, limits: tuple[float, float]) -> Gray:
+def measure(view: CameraView, limits: tuple[float, float]) -> Gray:
     """Return the depth (h, w) [mm] without noise, NaN outside of `limits`: a ray for each square of 2 by 2 pixels."""
     import numpy as np
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.cameras.markers import pose_in_table
 from pico.cameras.stickers import MODULES, QUIET, Sticker, paper
-from pico.cameras.view import View
+from pico.cameras.view import CameraView
 from pico.diagnostics import PicoError, error
 from pico.twin.scene import OPAQUE_GROUP
 
@@ -74,7 +74,7 @@ class OpenGL:
             self._context.free()
             self._context = None
 
-    def photograph(self, view: View) -> Gray:
+    def photograph(self, view: CameraView) -> Gray:
         """Return the gray levels (h, w) of the view's region, markers included."""
         import cv2
 
@@ -84,7 +84,7 @@ class OpenGL:
         bent: Any = cv2.remap(flat, *maps, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
         return bent  # type: ignore[no-any-return]
 
-    def _arrange(self, view: View) -> None:
+    def _arrange(self, view: CameraView) -> None:
         """Bring the copies to where the bodies and their papers are now."""
         count = len(self._geoms)
         self._data.geom_xpos[:count] = view.data.geom_xpos[self._geoms]
@@ -94,7 +94,7 @@ class OpenGL:
             self._data.geom_xmat[number] = pose[:3, :3].reshape(-1)
             self._data.geom_xpos[number] = pose[:3, 3] / 1000 + (_ABOVE - _THICK) * pose[:3, 2]
 
-    def _draw(self, view: View, frustum: _Frustum) -> Gray:
+    def _draw(self, view: CameraView, frustum: _Frustum) -> Gray:
         import mujoco
         import numpy as np
 
@@ -177,7 +177,7 @@ def _add_paper(spec: Any, number: int, sticker: Sticker) -> None:
     spec.worldbody.add_geom(type=box, size=[half, half, _THICK], material=f"paper{number}", contype=0, conaffinity=0)
 
 
-def _aim(camera: Any, view: View, frustum: _Frustum) -> None:
+def _aim(camera: Any, view: CameraView, frustum: _Frustum) -> None:
     """Let a camera of OpenGL see what the pixels of `frustum` see. The edge of a picture is half a pixel out."""
     matrix, pose = view.camera.matrix, view.camera.pose
     focal, cx, cy = matrix[0, 0], matrix[0, 2], matrix[1, 2]
@@ -191,7 +191,7 @@ def _aim(camera: Any, view: View, frustum: _Frustum) -> None:
     camera.frustum_bottom = (cy - frustum.top + 0.5 - frustum.height) * scale
 
 
-def _bent(view: View, largest: int) -> tuple[tuple[Gray, Gray], _Frustum]:
+def _bent(view: CameraView, largest: int) -> tuple[tuple[Gray, Gray], _Frustum]:
     """Where in a picture without distortion each pixel of the region lies, and how large that picture is."""
     import numpy as np
 

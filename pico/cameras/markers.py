@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pico.cameras.stickers import MODULES, QUIET, Sticker, paper
-from pico.cameras.view import View
+from pico.cameras.view import CameraView
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,7 +43,7 @@ class _Paper:
     light: float
 
 
-def draw_markers(view: View, picture: Gray, stickers: Sequence[Sticker]) -> None:
+def draw_markers(view: CameraView, picture: Gray, stickers: Sequence[Sticker]) -> None:
     """Draw the stickers into `picture` (h, w), the view's region, wherever nothing hides them."""
     papers = [p for p in (_paper(view, sticker) for sticker in stickers) if p is not None]
     for one, (share, _) in zip(papers, _seen(view, papers), strict=True):
@@ -51,7 +51,7 @@ def draw_markers(view: View, picture: Gray, stickers: Sequence[Sticker]) -> None
             _draw(view, picture, one, partly=share < 1)
 
 
-def _paper(view: View, sticker: Sticker) -> _Paper | None:
+def _paper(view: CameraView, sticker: Sticker) -> _Paper | None:
     """The sticker as the camera has it; None where it shows its back or lies outside of the picture."""
     import numpy as np
 
@@ -71,7 +71,7 @@ def _paper(view: View, sticker: Sticker) -> _Paper | None:
     return _Paper(sticker, local, body, box, light)
 
 
-def pose_in_table(view: View, sticker: Sticker) -> tuple[int, Array]:
+def pose_in_table(view: CameraView, sticker: Sticker) -> tuple[int, Array]:
     """Return the body's number (0: the table) and the pose (4, 4) of a sticker in the table's frame [mm]."""
     import numpy as np
 
@@ -85,7 +85,7 @@ def pose_in_table(view: View, sticker: Sticker) -> tuple[int, Array]:
     return body, pose @ own
 
 
-def _box(view: View, points: Array) -> tuple[int, int, int, int] | None:
+def _box(view: CameraView, points: Array) -> tuple[int, int, int, int] | None:
     import numpy as np
 
     pixels = view.camera.project(points)
@@ -99,7 +99,7 @@ def _box(view: View, points: Array) -> tuple[int, int, int, int] | None:
     return (left, top, right, bottom) if right - left > 1 and bottom - top > 1 else None
 
 
-def _seen(view: View, papers: Sequence[_Paper]) -> list[tuple[float, Any]]:
+def _seen(view: CameraView, papers: Sequence[_Paper]) -> list[tuple[float, Any]]:
     """Which share of a grid of points on each paper nothing hides, and which points (n,)."""
     import numpy as np
 
@@ -112,7 +112,7 @@ def _seen(view: View, papers: Sequence[_Paper]) -> list[tuple[float, Any]]:
     return [(float(f.mean()), f) for f in free.reshape(len(papers), -1)]
 
 
-def _unhidden(view: View, local: Array, body: Any) -> Any:
+def _unhidden(view: CameraView, local: Array, body: Any) -> Any:
     """Which of the points (n, 3) of the camera's frame [mm], on papers of `body` (n,), nothing hides."""
     import numpy as np
 
@@ -122,7 +122,7 @@ def _unhidden(view: View, local: Array, body: Any) -> Any:
     return gap < np.where(own, _ON_PLATE, _BEFORE)
 
 
-def _draw(view: View, picture: Gray, one: _Paper, *, partly: bool) -> None:
+def _draw(view: CameraView, picture: Gray, one: _Paper, *, partly: bool) -> None:
     """Draw a paper; where something hides part of it, ask for each pixel."""
     import cv2
     import numpy as np
@@ -147,13 +147,13 @@ def _draw(view: View, picture: Gray, one: _Paper, *, partly: bool) -> None:
     patch += _WHITE * one.light * mean[..., 0]
 
 
-def _texels(view: View, one: _Paper) -> int:
+def _texels(view: CameraView, one: _Paper) -> int:
     """Texels a module, about two a pixel."""
     pixels = one.sticker.size / MODULES * view.camera.matrix[0, 0] / one.pose[2, 3]
     return max(2, min(48, round(float(2 * pixels))))
 
 
-def _on_paper(view: View, one: _Paper, fine: int) -> Array:
+def _on_paper(view: CameraView, one: _Paper, fine: int) -> Array:
     """Where on the paper (rows, columns, 2) [mm] the points of the pixels of the box lie, `fine` along each edge."""
     import numpy as np
 
@@ -193,7 +193,7 @@ def _weights(knots: Array, low: int, high: int, fine: int) -> Array:
     return weights
 
 
-def _open(view: View, one: _Paper) -> Gray:
+def _open(view: CameraView, one: _Paper) -> Gray:
     """Which share (h, w) of each pixel of the box nothing hides, of four points."""
     import cv2
     import numpy as np

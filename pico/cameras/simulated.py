@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pico.cameras.errors import true_cameras
 from pico.cameras.markers import draw_markers
 from pico.cameras.stickers import Sticker, stickers
-from pico.cameras.view import View, photograph, table_paint
+from pico.cameras.view import CameraView, photograph, table_paint
 from pico.model.lab import Setup, SimErrors
 from pico.vision.camera import CameraModel
 from pico.vision.frame import Frame, Region
@@ -109,7 +109,7 @@ class Eyes:
         exact = measure(self._view(name, region), sensor.range)
         return exact * (1 + self._noise(exact.shape, sensor.noise * self.errors.noise))
 
-    def _exposed(self, view: View) -> Gray:
+    def _exposed(self, view: CameraView) -> Gray:
         """What light brings to the sensor, before lens and noise."""
         if self._opengl is not None:
             return self._opengl.photograph(view)
@@ -117,9 +117,9 @@ class Eyes:
         draw_markers(view, picture, self.stickers)
         return picture
 
-    def _view(self, name: str, region: Region | None) -> View:
+    def _view(self, name: str, region: Region | None) -> CameraView:
         camera = self.placed(name)
-        return View(self.model, self.data, camera, clipped(region, camera.pixels))
+        return CameraView(self.model, self.data, camera, clipped(region, camera.pixels))
 
     def _noise(self, shape: Any, sigma: float) -> Gray:
         import numpy as np

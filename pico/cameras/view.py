@@ -35,7 +35,7 @@ _PAINT = 1.0  # pixels a mm of the painted table
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class CameraView:
     """A camera in the table's frame and the part of its sensor that is read."""
 
     model: mujoco.MjModel
@@ -81,7 +81,7 @@ class View:
         return u + 0.5 + stride * across, v + 0.5 + stride * down
 
 
-def photograph(view: View, table: Gray) -> Gray:
+def photograph(view: CameraView, table: Gray) -> Gray:
     """Return the gray levels (h, w) of everything but the markers; `table`: see `table_paint`."""
     import cv2
 
@@ -95,7 +95,7 @@ def photograph(view: View, table: Gray) -> Gray:
     return picture
 
 
-def _refined(view: View) -> Gray:
+def _refined(view: CameraView) -> Gray:
     """What stands in front of the table (rows, columns, 2) at every second pixel: gray level times cover, and cover."""
     import numpy as np
 
@@ -111,7 +111,7 @@ def _refined(view: View) -> Gray:
     return solid
 
 
-def _look(view: View, u: Array, v: Array) -> tuple[Gray, Any]:
+def _look(view: CameraView, u: Array, v: Array) -> tuple[Gray, Any]:
     """Gray level and cover (n, 2) of what stands at pixels, and the geoms (n,): -1 for table and floor."""
     import numpy as np
 
@@ -156,7 +156,7 @@ def _between(grid: Gray) -> Gray:
     return fine
 
 
-def _table(view: View, table: Gray) -> Gray:
+def _table(view: CameraView, table: Gray) -> Gray:
     """The painted table (h, w), and the floor around it."""
     import cv2
     import numpy as np

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from pico.drawing.dimensions import Dimension
     from pico.drawing.marks import Mark
     from pico.drawing.perspective import Beam
-    from pico.drawing.steps import Step
+    from pico.drawing.steps import DrawnStep
     from pico.drawing.viewpoint import Viewpoint
 
     Image = NDArray[np.uint8]
@@ -47,7 +47,7 @@ def render(
     labels: bool = True,
     beams: bool = True,
     marks: Sequence[Mark] = (),
-    steps: Sequence[Step] = (),
+    steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
 ) -> Image:
     """Return a picture (height, width, 3) of the bench, sRGB.
@@ -128,9 +128,9 @@ def model_of(setup: Setup, places: Mapping[str, Placement]) -> tuple[mujoco.MjMo
     require_mujoco()
     import mujoco
 
-    from pico.twin.scene import Thing, build_scene
+    from pico.twin.scene import SceneBody, build_scene
 
-    things = {name: Thing(setup.type_of(name).geometry, place) for name, place in places.items()}
+    things = {name: SceneBody(setup.type_of(name).geometry, place) for name, place in places.items()}
     model = build_scene(setup, things).compile()
     model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)  # else what is not free stays where it was at first
     return model, mujoco.MjData(model)

@@ -61,7 +61,7 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
-class Surfaces:
+class NearestFaces:
     """The nearest faces of two components: where, the `gap` between them [mm], below zero where they overlap, and
     which parts of the housings they belong to."""
 
@@ -90,7 +90,7 @@ class Measured:
     a: End
     b: End
     centers: Span
-    surfaces: Surfaces | None = None
+    surfaces: NearestFaces | None = None
     beam: AlongBeam | None = None
 
     @property
@@ -217,14 +217,14 @@ def _along(places: Mapping[str, Placement], a: End, b: End) -> AlongBeam | None:
 
 def _surfaces(
     setup: Setup, places: Mapping[str, Placement], joints: Mapping[str, Joints], first: str, second: str
-) -> Surfaces:
+) -> NearestFaces:
     """The nearest faces of two components' housings, by MuJoCo's distance between convex shapes."""
     import mujoco
     import numpy as np
 
     model, data = posed_model(setup, {n: places[n] for n in (first, second)}, joints)
     geoms = [_geoms(model, name) for name in (first, second)]
-    best: Surfaces | None = None
+    best: NearestFaces | None = None
     for i in geoms[0]:
         for j in geoms[1]:
             points = np.zeros(6)
@@ -232,7 +232,7 @@ def _surfaces(
             if best is None or gap < best.gap - 1e-6:
                 start, end = (tuple(float(v) * 1000 for v in points[k : k + 3]) for k in (0, 3))
                 names = [model.geom(g).name.rpartition("/")[2] for g in (i, j)]
-                best = Surfaces(Span(start, end), float(gap), *names)  # type: ignore[arg-type]
+                best = NearestFaces(Span(start, end), float(gap), *names)  # type: ignore[arg-type]
     assert best is not None  # a component has at least one shape
     return best
 

@@ -27,7 +27,7 @@ _RULE: Color = (214, 218, 224)
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class DrawnStep:
     """One step: its number, what it is done to, and in words what is done.
 
     `start`, `goal`: of a move, where `component` is taken from and to.
@@ -68,7 +68,7 @@ def stays(setup: Setup, name: str, start: Pose, goal: Pose) -> bool:
     return start.distance(goal) <= setup.type_of(name).geometry.footprint.radius
 
 
-def draw_numbers(canvas: Canvas, setup: Setup, steps: Sequence[Step], size: float) -> None:
+def draw_numbers(canvas: Canvas, setup: Setup, steps: Sequence[DrawnStep], size: float) -> None:
     """Draw the number of each move at the upper right of its goal, or beside it where another one is there already."""
     taken: list[Point] = []
     radius = 0.72 * size
@@ -84,7 +84,7 @@ def draw_numbers(canvas: Canvas, setup: Setup, steps: Sequence[Step], size: floa
         canvas.badge(str(step.number), spot, radius, MOVE, _WHITE)
 
 
-def with_list(image: NDArray[np.uint8], steps: Sequence[Step], size: float) -> NDArray[np.uint8]:
+def with_list(image: NDArray[np.uint8], steps: Sequence[DrawnStep], size: float) -> NDArray[np.uint8]:
     """Return the drawing with the list of the steps below it, numbers of moves in the color of their arrows."""
     import numpy as np
 
@@ -109,6 +109,6 @@ def with_list(image: NDArray[np.uint8], steps: Sequence[Step], size: float) -> N
     return np.vstack([image, panel])
 
 
-def goals_of(steps: Sequence[Step]) -> Mapping[str, Pose]:
+def goals_of(steps: Sequence[DrawnStep]) -> Mapping[str, Pose]:
     """Return where each component ends that a step moves."""
     return {s.component: s.goal for s in steps if s.goal is not None}

@@ -12,7 +12,7 @@ from pico.drawing.dimensions import Dimension, draw_dimensions, legend
 from pico.drawing.marks import LEGEND, Mark, draw_marks
 from pico.drawing.names import Named, write_names
 from pico.drawing.outlines import circle, outline
-from pico.drawing.steps import MOVE, Step, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
+from pico.drawing.steps import MOVE, DrawnStep, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
 from pico.model.catalog import Footprint
 from pico.model.lab import Box2, Robot, Setup
 from pico.model.pose import Pose
@@ -55,7 +55,7 @@ def draw(
     labels: bool,
     beams: bool,
     marks: Sequence[Mark] = (),
-    steps: Sequence[Step] = (),
+    steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.drawing.picture.render`."""
@@ -93,7 +93,7 @@ def draw(
 
 
 def _draw_goals(
-    canvas: Canvas, setup: Setup, places: Mapping[str, Pose], ghosts: Mapping[str, Pose], moves: Sequence[Step],
+    canvas: Canvas, setup: Setup, places: Mapping[str, Pose], ghosts: Mapping[str, Pose], moves: Sequence[DrawnStep],
     size: float,
 ) -> None:  # fmt: skip
     """Draw where components go and how: along the steps, and straight where there are none."""

@@ -11,7 +11,7 @@ from pico.diagnostics import PicoError
 from pico.history.diff.commits import CommitDiffs
 from pico.history.git import command as git
 from pico.history.git.commit import Commit
-from pico.history.lab.folder import Entry, LabFolder
+from pico.history.lab.folder import CommitEntry, LabFolder
 from pico.history.lab.notes import Note, note_path, notes, read_note
 from pico.history.lab.scope import Scope, unknown_parts
 from pico.history.repository.ranges import for_rev_list
@@ -24,7 +24,7 @@ _BATCHES = (1, 8, 64)
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class LogRequest:
     """Which commits: revisions and ranges (HEAD for none), or `every` branch and tag; `options` are those of `git
     rev-list` that pick commits (`--since=...`); `topological`: lines of history one after the other, for a graph."""
 
@@ -39,14 +39,14 @@ class Asked:
 class Log:
     """The commits that were asked for. Iterate over it for entries, newest first, each read when it is reached."""
 
-    def __init__(self, folder: LabFolder, asked: Asked) -> None:
+    def __init__(self, folder: LabFolder, asked: LogRequest) -> None:
         self.folder, self.asked = folder, asked
         self.repository = folder.history()
         self._real: dict[str, Commit] = {}  # with the parents that they have, shown or not
-        self._entries: dict[str, Entry] = {}
+        self._entries: dict[str, CommitEntry] = {}
         self._standings = Standings(folder)
 
-    def __iter__(self) -> Iterator[Entry]:
+    def __iter__(self) -> Iterator[CommitEntry]:
         for commit in self.commits():
             yield self.entry(commit)
 
@@ -60,7 +60,7 @@ class Log:
             shown = self._about(shown)
         yield from islice(shown, self.asked.limit)
 
-    def entry(self, commit: Commit) -> Entry:
+    def entry(self, commit: Commit) -> CommitEntry:
         """Return a commit of `commits` with what it did."""
         found = self._entries.pop(commit.id, None) or self._read(commit)
         runs = runs_added(self.repository, commit, self.folder.root)
@@ -142,7 +142,7 @@ class Log:
             return True
         return bool(self._narrowed(changes, parent, commit))
 
-    def _read(self, shown: Commit) -> Entry:
+    def _read(self, shown: Commit) -> CommitEntry:
         commit = self._real[shown.id]
         entry = self._diffs.entry(commit, names=self.asked.scope.parts)
         return replace(entry, changes=self._narrowed(entry.changes, *commit.parents[:1], commit.id))

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
-from pico.history.lab.folder import Entry, LabFolder
+from pico.history.lab.folder import CommitEntry, LabFolder
 from pico.history.lab.notes import Note
 from pico.model.diff import Change
 from pico.model.lab import Setup
@@ -78,10 +78,10 @@ class Reader:
         relative to `at` (the lab). `options` are those of `git rev-list`. Raises PicoError, also while it is read.
         """
         from pico.history.lab.scope import read_scope
-        from pico.history.log import Asked, Log
+        from pico.history.log import Log, LogRequest
 
         scope = read_scope(self.folder, names, at or self.root, past=True)
-        asked = Asked(
+        asked = LogRequest(
             revisions=revisions, every=every, options=tuple(options), limit=limit, scope=scope, topological=graph
         )
         return Log(self.folder, asked)
@@ -98,7 +98,7 @@ class Reader:
 
         return show(self.folder, what)
 
-    def entry(self, revision: str) -> Entry:
+    def entry(self, revision: str) -> CommitEntry:
         """Return the commit that a revision names, with its physical diff; raises PicoError."""
         return self.folder.entry(self.folder.history().resolve(revision))
 

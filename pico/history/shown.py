@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.history.lab.folder import Entry, LabFolder
+from pico.history.lab.folder import CommitEntry, LabFolder
 from pico.history.lab.notes import Note, note_path, notes
 from pico.history.runs.committed import runs_added
 from pico.history.runs.proof import Standings
@@ -22,7 +22,7 @@ class Shown:
     `notes`: by component, those that it holds on what it changed, or on `component`.
     """
 
-    entry: Entry
+    entry: CommitEntry
     setup: Setup
     state: LabState
     component: str | None = None

@@ -19,7 +19,7 @@ Beside = Callable[[Path, Mapping[str, bytes], Sequence[Diagnostic]], list[Diagno
 
 
 @record
-class Checked:
+class FolderVerdict:
     """The verdict on a folder's manifests."""
 
     folder: str
@@ -39,7 +39,7 @@ Asked = Callable[[Path, Manifests], Sequence[Diagnostic]]
 """What else is asked of a lab's folder and its manifests, in which nothing else is wrong."""
 
 
-def check_folder(start: Path, also: Asked = lambda *_: (), beside: Beside = lambda *_: []) -> Checked:
+def check_folder(start: Path, also: Asked = lambda *_: (), beside: Beside = lambda *_: []) -> FolderVerdict:
     """Return the verdict on the lab that `start` lies in; on `start` itself where no lab is found.
 
     `beside`: what is known of files that are not there.
@@ -56,7 +56,7 @@ def check_folder(start: Path, also: Asked = lambda *_: (), beside: Beside = lamb
     found = [*manifests.diagnostics, *expression_errors(manifests)]
     if not any(d.severity == "error" for d in manifests.diagnostics):
         found += also(root, manifests)
-    return Checked(
+    return FolderVerdict(
         folder=shown_path(root) if root.resolve() != Path.cwd() else ".",
         lab=lab.name if lab else "",
         files=len(files),
@@ -77,7 +77,7 @@ def expression_errors(manifests: Manifests) -> list[Diagnostic]:
 
 def check_files(
     start: Path, files: Sequence[Path], also: Asked = lambda *_: (), beside: Beside = lambda *_: []
-) -> Checked:
+) -> FolderVerdict:
     """Return the verdict on the labs that `files` lie in, together: a manifest is right or wrong only among the others.
 
     Files that lie in no lab and don't claim to be PICO's are passed over; raises PicoError for those that do.
@@ -90,7 +90,7 @@ def check_files(
             if "apiVersion: pico/" in _read(start / path):
                 raise
     found = [check_folder(root, also, beside) for root in roots]
-    return Checked(
+    return FolderVerdict(
         folder=", ".join(c.folder for c in found),
         lab=", ".join(c.lab for c in found),
         files=sum(c.files for c in found),

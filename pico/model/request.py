@@ -16,7 +16,7 @@ from pico.model.record import as_json, record
 
 
 @record
-class Request:
+class PrimitiveRequest:
     """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, or `home` it."""
 
     component: str
@@ -27,7 +27,9 @@ class Request:
     value: Value | None = None
 
 
-def asked(setup: Setup, seen: Observation, component: str, primitive: str, arguments: Mapping[str, str]) -> Request:
+def asked(
+    setup: Setup, seen: Observation, component: str, primitive: str, arguments: Mapping[str, str]
+) -> PrimitiveRequest:
     """Return the request that `key=value` arguments amount to; what is not named of a pose stays as observed.
 
     Raises PicoError naming what is unknown, of the wrong unit, out of range or missing.
@@ -50,13 +52,13 @@ def require_component(setup: Setup, name: str) -> None:
         raise _wrong(f"there is no component `{name}` in {setup.lab.name}", hint)
 
 
-def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     slot = given.pop("slot", None)
     if slot is not None:
         _only(name, "move", given, ())
         if slot not in setup.lab.slots:
             raise _wrong(f"there is no slot `{slot}`", did_you_mean(slot, setup.lab.slots), name)
-        return Request(component=name, primitive="move", slot=slot)
+        return PrimitiveRequest(component=name, primitive="move", slot=slot)
     _only(name, "move", given, ("x", "y", "yaw", "by"))
     if not given:
         raise _wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
@@ -67,18 +69,18 @@ def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     turn = _quantity(f"by of {name}", given["by"], "deg") if "by" in given else 0.0
     x, y = (_quantity(f"{k} of {name}", given[k], "mm") if k in given else getattr(pose, k) for k in ("x", "y"))
     yaw = _quantity(f"yaw of {name}", given["yaw"], "deg") if "yaw" in given else pose.yaw
-    return Request(component=name, primitive="move", pose=Pose(x, y, wrap(yaw + turn)))
+    return PrimitiveRequest(component=name, primitive="move", pose=Pose(x, y, wrap(yaw + turn)))
 
 
-def _stow(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+def _stow(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     _only(name, "stow", given, ())
     home = setup.lab.inventory[name].home
     if home is None:
         raise _wrong(f"{name} has no home slot: the lab fixes its pose", "", name)
-    return Request(component=name, primitive="stow", slot=home)
+    return PrimitiveRequest(component=name, primitive="stow", slot=home)
 
 
-def _set(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+def _set(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     tunables = setup.type_of(name).tunables
     _only(name, "set", given, tunables)
     if len(given) != 1:
@@ -86,19 +88,19 @@ def _set(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> R
             f"set takes one tunable of {name}", f"`pico set {name} {next(iter(tunables), 'TUNABLE')}=VALUE`", name
         )
     ((tunable, text),) = given.items()
-    return Request(
+    return PrimitiveRequest(
         component=name, primitive="set", tunable=tunable, value=read_value(name, tunable, tunables[tunable], text)
     )
 
 
-def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> Request:
+def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     _only(name, "home", given, ("tunable",))
     axes = [k for k, t in setup.type_of(name).tunables.items() if t.axis and t.axis.kind != "open_loop"]
     tunable = given.get("tunable") or (axes[0] if len(axes) == 1 else "")
     if tunable not in axes:
         known = f"{name} has " + (f"the axes {', '.join(axes)}" if axes else "no axis that homes")
         raise _wrong(f"which axis of {name}?" if not tunable else f"`{tunable}` of {name} does not home", known, name)
-    return Request(component=name, primitive="home", tunable=tunable)
+    return PrimitiveRequest(component=name, primitive="home", tunable=tunable)
 
 
 def read_value(component: str, name: str, kind: Tunable, text: str) -> Value:

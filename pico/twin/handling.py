@@ -19,7 +19,7 @@ from pico.motion.types import Joints, MovePath, Segment, SegmentName
 from pico.twin.gestures import CHUNK, Steps, backward, nudge, passing, settle, walk
 from pico.twin.lost import Lost, lies, whereabouts
 from pico.twin.physics import Twin
-from pico.twin.sight import Sight
+from pico.twin.sight import HandSight
 
 HOVER = 2.0
 """Height above the table at which a part is looked at for the last time [mm]."""
@@ -52,7 +52,7 @@ class Handling:
     component: str
     path: MovePath
     goal: Pose
-    sight: Sight | None = None
+    sight: HandSight | None = None
     seated: Callable[[str], None] | None = None
     _carrying: bool = field(default=False, init=False)
 

@@ -15,7 +15,7 @@ from pico.model.lab import Setup
 from pico.motion.engine import require_mujoco
 from pico.motion.types import Joints
 from pico.twin.placement import Placement, placement_of
-from pico.twin.scene import TIMESTEP, Thing, build_scene
+from pico.twin.scene import TIMESTEP, SceneBody, build_scene
 
 if TYPE_CHECKING:
     import numpy as np
@@ -59,7 +59,7 @@ class Twin:
     def __init__(
         self,
         setup: Setup,
-        things: Mapping[str, Thing],
+        things: Mapping[str, SceneBody],
         joints: Mapping[str, Joints],
         *,
         holding: Mapping[str, str] | None = None,
@@ -88,7 +88,7 @@ class Twin:
         mujoco.mj_forward(self.model, self.data)
 
     @staticmethod
-    def _width(things: Mapping[str, Thing], held: str | None) -> float | None:
+    def _width(things: Mapping[str, SceneBody], held: str | None) -> float | None:
         grasp = things[held].geometry.grasp if held else None
         return grasp.width if grasp else None
 

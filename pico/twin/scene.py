@@ -38,7 +38,7 @@ _STEEL = (0.66, 0.68, 0.70, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Thing:
+class SceneBody:
     """Something on the table: its shape, where it is, and whether it is free to move."""
 
     geometry: Geometry
@@ -46,7 +46,7 @@ class Thing:
     free: bool = False
 
 
-def build_scene(setup: Setup, things: Mapping[str, Thing], *, pad_friction: float | None = None) -> mujoco.MjSpec:
+def build_scene(setup: Setup, things: Mapping[str, SceneBody], *, pad_friction: float | None = None) -> mujoco.MjSpec:
     """Return the scene of a bench with `things` by name on its table and every arm at its mount, joints at zero.
 
     `pad_friction`: sliding friction coefficient of the fingers' pads; the lab's where None.
@@ -114,7 +114,7 @@ def _add_arms(spec: Any, setup: Setup, friction: float) -> None:
             pad.solref, pad.solimp = list(_HARD), list(_GRIPPY)
 
 
-def _add_thing(spec: Any, name: str, thing: Thing) -> None:
+def _add_thing(spec: Any, name: str, thing: SceneBody) -> None:
     import mujoco
 
     body = spec.worldbody.add_body(name=name, pos=list(thing.placement.position), quat=list(thing.placement.quaternion))

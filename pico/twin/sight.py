@@ -22,7 +22,7 @@ class InHand:
     uncertainty: Uncertainty
 
 
-class Sight(Protocol):
+class HandSight(Protocol):
     """Sees parts in hands. An arm is at rest when it is asked."""
 
     def survey(self, component: str, near: Pose) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from benches import plan_to, shel, sim
 
-from pico.backends.memory import Seen, recall, remember
+from pico.backends.memory import LastSeen, recall, remember
 from pico.backends.sight import Look
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import load_world, save_world
@@ -101,7 +101,7 @@ UNDER = Pose(470, 590, 0)
 
 def test_what_the_arm_hides_is_where_it_was_last(tmp_path: Path) -> None:
     change(tmp_path, lambda w: replace(nudge(SETUP, w, "p2", dx=270, dy=370), clock=100.0))
-    remember(tmp_path, {"p2": Seen(pose=UNDER, uncertainty=Uncertainty(position=0.1, yaw=0.05), time=60.0)})
+    remember(tmp_path, {"p2": LastSeen(pose=UNDER, uncertainty=Uncertainty(position=0.1, yaw=0.05), time=60.0)})
     part = observe(tmp_path).components["p2"]
     assert (part.presence, part.pose, part.age, part.how) == ("seen", UNDER, 40.0, "remembered")
     (text,) = said(observe(tmp_path), "marker-hidden")

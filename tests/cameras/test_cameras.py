@@ -21,7 +21,7 @@ from pico.model.catalog import Footprint, Geometry
 from pico.model.lab import Setup, SimErrors
 from pico.model.pose import Pose
 from pico.twin.placement import Placement, upright
-from pico.twin.scene import Thing, build_scene
+from pico.twin.scene import SceneBody, build_scene
 from pico.vision.frame import Frame
 
 import mujoco  # isort: skip
@@ -39,9 +39,9 @@ def quiet(blur: float = 0.7) -> Setup:
 
 def look(setup: Setup, places: dict[str, Placement], **options: object) -> Eyes:
     """Return the cameras of a bench with components at `places` and its arm parked."""
-    things = {n: Thing(setup.type_of(n).geometry, p) for n, p in places.items() if n in setup.lab.inventory}
+    things = {n: SceneBody(setup.type_of(n).geometry, p) for n, p in places.items() if n in setup.lab.inventory}
     box = Geometry(footprint=Footprint(box=(60, 60)), height=100, mass=1.0)
-    things |= {n: Thing(box, p) for n, p in places.items() if n not in setup.lab.inventory}
+    things |= {n: SceneBody(box, p) for n, p in places.items() if n not in setup.lab.inventory}
     model = build_scene(setup, things).compile()
     data = mujoco.MjData(model)
     joints = {name: tuple(math.radians(a) for a in robot.park) for name, robot in setup.lab.robots.items()}

@@ -15,7 +15,7 @@ from pico_cli.views.check_junit import junit
 from pico_cli.views.check_markdown import report
 from pico_cli.views.markdown import fenced, prose
 
-from pico.bench.checking import Check, Checked, LabChecked
+from pico.bench.checking import Check, CheckReport, LabChecked
 from pico.diagnostics import error
 from pico.history.repository.against import Against
 from pico.model.diff import Change
@@ -112,12 +112,12 @@ def test_no_line_of_a_manifest_is_a_command_to_the_runner(
 # what a hostile branch says
 
 
-def hostile(labs: int = 1, changes: int = 3, findings: int = 3) -> Checked:
+def hostile(labs: int = 1, changes: int = 3, findings: int = 3) -> CheckReport:
     found = tuple(error("impossible", f"{n} {HOSTILE}", detail=HOSTILE * 4, hint=HOSTILE) for n in range(findings))
     failed = Check(question="stands", verdict="failed", text=HOSTILE, diagnostics=found)
     change = tuple(Change(component=f"c{n}", tunable=HOSTILE, before=HOSTILE, text=HOSTILE) for n in range(changes))
     one = LabChecked(lab=HOSTILE, folder=HOSTILE, checks=(failed,), changes=change, bench=(HOSTILE,), notes=(HOSTILE,))
-    return Checked(what=HOSTILE, base=Against(name=HOSTILE), labs=(one,) * labs)
+    return CheckReport(what=HOSTILE, base=Against(name=HOSTILE), labs=(one,) * labs)
 
 
 def outside_code(markdown: str) -> str:
@@ -211,7 +211,7 @@ def test_whatever_is_said_is_one_cell_of_a_table_and_a_legal_document(words: str
     cell = prose(words)
     assert not set(cell) & set("\n|<>") and not re.search(r"(?<!\\)`", cell)
     failed = Check(question="stands", verdict="failed", text=words, diagnostics=(error("impossible", words),))
-    found = Checked(what=words, labs=(LabChecked(lab=words, checks=(failed,)),))
+    found = CheckReport(what=words, labs=(LabChecked(lab=words, checks=(failed,)),))
     assert list(breaches(xml.fromstring(junit(found).encode()))) == []
     assert report(found).encode()
 

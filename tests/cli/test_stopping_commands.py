@@ -22,7 +22,7 @@ from pathlib import Path
 from pico.backends.sim import session
 from pico.execution import blocking
 
-halt, tell, notes = blocking.Execution.halt, session.Session._tell, Path(".pico")
+halt, tell, notes = blocking.Execution.halt, session.WorldSession._tell, Path(".pico")
 
 def waits(self, kind, operation, key, data):
     tell(self, kind, operation, key, data)
@@ -36,7 +36,7 @@ def halts(self):
     halt(self)
     (notes / "goes_on").write_text("")
 
-blocking.Execution.halt, session.Session._tell = halts, waits
+blocking.Execution.halt, session.WorldSession._tell = halts, waits
 from pico_cli.main import main
 sys.exit(main(sys.argv[1:]))
 """

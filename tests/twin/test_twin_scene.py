@@ -16,13 +16,13 @@ from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, placement_of, upright
-from pico.twin.scene import Thing, build_scene
+from pico.twin.scene import SceneBody, build_scene
 
 
-def things(setup: Setup) -> dict[str, Thing]:
+def things(setup: Setup) -> dict[str, SceneBody]:
     homes = home_state(setup)
     return {
-        name: Thing(setup.type_of(name).geometry, upright(place_of(setup, homes, name)[1]), setup.movable(name))
+        name: SceneBody(setup.type_of(name).geometry, upright(place_of(setup, homes, name)[1]), setup.movable(name))
         for name in setup.lab.inventory
     }
 
@@ -84,7 +84,7 @@ def test_cylinders_lie_along_their_axis(axis: str, direction: tuple[int, int, in
     setup = bench("minimal")
     body = Body(name="tube", shape="cylinder", size=(10.0, 40.0), at=(0, 0, 20.0), axis=axis)
     geometry = Geometry(footprint=Footprint(disc=20.0), height=40.0, mass=0.1, bodies=(body,))
-    model = build_scene(setup, {"tube": Thing(geometry, upright(Pose(600, 200)))}).compile()
+    model = build_scene(setup, {"tube": SceneBody(geometry, upright(Pose(600, 200)))}).compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     along = data.geom("tube/tube").xmat.reshape(3, 3)[:, 2]

@@ -24,10 +24,10 @@ from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
 
 if TYPE_CHECKING:
-    from pico.backends.memory import Seen
-    from pico.backends.recovery import Settled
+    from pico.backends.memory import LastSeen
+    from pico.backends.recovery import SettledOperation
     from pico.backends.sight import Look
-    from pico.backends.sim.session import Session
+    from pico.backends.sim.session import WorldSession
     from pico.backends.sim.world import World
     from pico.runs.journal import Journal
     from pico.twin.snapshot import Snapshot
@@ -57,10 +57,10 @@ class SimBackend:
     ) -> None:
         self.setup, self.root, self.fidelity = setup, root, fidelity
         self.diagnostics: tuple[Diagnostic, ...] = ()
-        self.settled: tuple[Settled, ...] = ()
+        self.settled: tuple[SettledOperation, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
         self._motion = motion or DeferredMotion(setup)
-        self._session: Session | None = None
+        self._session: WorldSession | None = None
         self._halted = False
         self.lock_timeout = 0.0
         self._obeying: asyncio.Task[None] | None = None
@@ -68,7 +68,7 @@ class SimBackend:
         self._listeners: list[asyncio.Queue[Event | None]] = []
         self._look: Callable[[Snapshot], None] | None = None
         self._looked: tuple[tuple[World, str | None], Look] | None = None
-        self._placed: dict[str, Seen] = {}
+        self._placed: dict[str, LastSeen] = {}
 
     # looking
 
@@ -173,13 +173,13 @@ class SimBackend:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
         from pico.backends.recovery import open_questions, settle
         from pico.backends.sim.faults import faults_of
-        from pico.backends.sim.session import Session
+        from pico.backends.sim.session import WorldSession
 
         self._halted = False
         lease = await self._lock.acquire_within(holder, self.lock_timeout, lambda: self._halted)
         try:
             world, self.diagnostics = load_world(self.setup, self.root)
-            self._session = Session(
+            self._session = WorldSession(
                 self.setup, self.root, world, fidelity=self.fidelity, journal=self.journal, token=lease.token,
                 motion=self._motion, tell=self._tell, faults=faults_of(self.setup, self.root),
             )  # fmt: skip
@@ -213,7 +213,7 @@ class SimBackend:
                 await (self.stop() if asked == "now" else self.halt())
             await asyncio.sleep(OBEYS)
 
-    async def _leave(self, session: Session) -> None:
+    async def _leave(self, session: WorldSession) -> None:
         await session.idle()
         if self._obeying is not None:
             self._obeying.cancel()
@@ -252,12 +252,12 @@ class SimBackend:
 
     def _note_placed(self, operation: Operation, time: float) -> None:
         """Remember where an arm put a part down, for it may hide it from the cameras."""
-        from pico.backends.memory import Seen
+        from pico.backends.memory import LastSeen
 
         spread = self.setup.type_of(operation.component).repeatability
         sigma = Uncertainty(position=spread.position, yaw=spread.yaw)
         pose = Pose(**operation.arguments["to"]["pose"])
-        self._placed[operation.component] = Seen(pose=pose, uncertainty=sigma, time=time, placed=True)
+        self._placed[operation.component] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
 
     async def halt(self) -> None:
         """Start nothing more, and wait until what is under way has reached a safe end: an arm then stands above the

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from pico.backends.sim.world import Body, World, footprints, initial_value
+from pico.backends.sim.world import World, WorldBody, footprints, initial_value
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.geometry.shape import placed, separation
 from pico.model.catalog import Tunable
@@ -60,7 +60,7 @@ def _powered_up(kind: Tunable, live: ObservedValue) -> ObservedValue:
     return ObservedValue(value=initial_value(kind))
 
 
-def _body(world: World, name: str) -> Body:
+def _body(world: World, name: str) -> WorldBody:
     try:
         return world.components[name]
     except KeyError:

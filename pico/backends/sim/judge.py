@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from pico.backends.sim.mover import MoveFailed
-from pico.backends.sim.world import Body, World
+from pico.backends.sim.world import World, WorldBody
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Geometry, Tunable
 from pico.model.diff import deviation
@@ -76,7 +76,7 @@ def require_empty(world: World, robot: str) -> None:
 
 def standing_pose(world: World, name: str) -> Pose:
     """Return where a component stands; raises MoveFailed where it doesn't."""
-    body = world.components.get(name, Body(type="", presence="missing"))
+    body = world.components.get(name, WorldBody(type="", presence="missing"))
     if body.presence != "seen" or body.pose is None:
         text = f"{name} {_PRESENCE.get(body.presence, 'is not on the table')}"
         raise MoveFailed(error(body.presence, text, hint=_AGAIN, address=name))

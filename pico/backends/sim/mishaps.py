@@ -7,7 +7,7 @@ from collections.abc import Callable, Generator
 from pico.backends.sim import judge
 from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
 from pico.backends.sim.kinematic import KinematicWorld
-from pico.backends.sim.mover import MoveFailed, Mover
+from pico.backends.sim.mover import MoveFailed, WorldMover
 from pico.backends.sim.world import World
 from pico.model.lab import Setup
 from pico.model.observation import Presence
@@ -24,7 +24,7 @@ REST = 0.3
 class Mishaps:
     """What goes wrong during one lease. `world` gives the table as it is; `unseen`: what no look showed."""
 
-    def __init__(self, setup: Setup, faults: Faults, token: int, mover: Mover, world: Callable[[], World]) -> None:
+    def __init__(self, setup: Setup, faults: Faults, token: int, mover: WorldMover, world: Callable[[], World]) -> None:
         self._setup, self._faults, self._token, self._mover, self._world = setup, faults, token, mover, world
         self.unseen: set[str] = set()
 

@@ -19,7 +19,7 @@ class MoveFailed(Failed):
     """A motion that did not do what it should: a missed grasp, a drop, a slip. Carries the diagnostic."""
 
 
-class Mover(Protocol):
+class WorldMover(Protocol):
     """Moves robots and components. The backend alone advances time; generators only say when to resume them."""
 
     def advance(self, seconds: float) -> None:

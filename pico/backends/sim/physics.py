@@ -11,7 +11,7 @@ from typing import Any
 
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.mover import InProgress, MoveFailed
-from pico.backends.sim.world import Body, FreePose, World
+from pico.backends.sim.world import FreePose, World, WorldBody
 from pico.diagnostics import error
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
@@ -24,8 +24,8 @@ from pico.twin.handling import Handling
 from pico.twin.lost import FALLEN, TOPPLED, Lost
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, upright
-from pico.twin.scene import Thing
-from pico.twin.sight import Exact, Sight
+from pico.twin.scene import SceneBody
+from pico.twin.sight import Exact, HandSight
 
 OFF_PLANE = 3.0
 """A part whose base is farther from the table than this does not stand on it [mm]."""
@@ -48,16 +48,16 @@ class PhysicsWorld:
         world: World,
         *,
         friction: float | None = None,
-        sight: Callable[[Twin], Sight] | None = Exact,
+        sight: Callable[[Twin], HandSight] | None = Exact,
     ) -> None:
         self._setup = setup
         self._random = random.Random(f"{world.seed} {world.clock:.6f}")
         places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
-        things = {n: Thing(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
+        things = {n: SceneBody(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
         self._own = tuple(things)
         for name, stranger in world.unknown.items():
             shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
-            things[name] = Thing(shape, upright(stranger.pose))
+            things[name] = SceneBody(shape, upright(stranger.pose))
         joints = {name: robot.joints for name, robot in world.robots.items()}
         holding = {name: robot.holding for name, robot in world.robots.items() if robot.holding}
         self.twin = Twin(setup, things, joints, holding=holding, pad_friction=friction)
@@ -134,7 +134,7 @@ class PhysicsWorld:
         raise MoveFailed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
 
 
-def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], Sight] | None:
+def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight] | None:
     """Return what makes the sight that the lab asks for: `sim.sight`.
 
     The eyes trust the calibration in the folder `root`, and what the lab says of its cameras where there is none.
@@ -142,7 +142,7 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], Sight] | 
     if setup.lab.sim.sight != "pixels":
         return Exact if setup.lab.sim.sight == "exact" else None
 
-    def eyes(twin: Twin) -> Sight:
+    def eyes(twin: Twin) -> HandSight:
         from pico.backends.sim.eyes import eyes_of
         from pico.cameras.eye_in_hand import EyeInHand
         from pico.vision.calibration import read_calibration
@@ -155,7 +155,7 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], Sight] | 
     return eyes
 
 
-def _seen(body: Body, placement: Placement, held: bool) -> Body:
+def _seen(body: WorldBody, placement: Placement, held: bool) -> WorldBody:
     """The component as it is now."""
     x, y, z = (v * 1000 for v in placement.position)
     if z < FALLEN:
@@ -168,7 +168,7 @@ def _seen(body: Body, placement: Placement, held: bool) -> Body:
     return replace(body, presence=presence, pose=pose, free=free)
 
 
-def _kept(body: Body, pose: Pose) -> Pose:
+def _kept(body: WorldBody, pose: Pose) -> Pose:
     """The pose that was stored where the part has not moved, else the new one."""
     old = body.pose
     if old is None or body.free is not None or not math.isfinite(pose.x):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from pico.backends.sim.world import Body, World, footprints, initial_values, new_body, parked, shapes_of
+from pico.backends.sim.world import World, WorldBody, footprints, initial_values, new_body, parked, shapes_of
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry.shape import placed, separation
 from pico.model.lab import Setup
@@ -77,7 +77,7 @@ def _taken_by(setup: Setup, world: World, name: str, pose: Pose) -> str | None:
     return next((o for o, f, at in footprints(world) if separation(shape, placed(f, at)) < -1e-6), None)
 
 
-def _retyped(setup: Setup, name: str, body: Body) -> Body:
+def _retyped(setup: Setup, name: str, body: WorldBody) -> WorldBody:
     """Return the component with the type, marker and tunables that the inventory gives it now."""
     part, kind = setup.lab.inventory[name], setup.type_of(name)
     if body.type == part.type and body.marker == part.marker and body.values.keys() == kind.tunables.keys():

@@ -17,7 +17,7 @@ from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mishaps import REST, Mishaps, driven_badly
-from pico.backends.sim.mover import InProgress, MoveFailed, Mover
+from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World, observe
@@ -45,7 +45,7 @@ KEPT = 0.05
 """Seconds of wall time after which the world is stored again while something moves."""
 
 
-class Session:
+class WorldSession:
     """Executes operations on `world`. `motion` finds paths; `tell` hears of starts and progress."""
 
     def __init__(
@@ -347,7 +347,7 @@ class Session:
         self._tell_all(event)
 
 
-def new_mover(setup: Setup, root: Path, world: World, fidelity: str) -> Mover:
+def new_mover(setup: Setup, root: Path, world: World, fidelity: str) -> WorldMover:
     """Return what moves the bodies of `world` of the lab in `root` at a fidelity: `kinematic` or `physics`."""
     if fidelity == "kinematic":
         return KinematicWorld(setup, world)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.backends.memory import Seen
+from pico.backends.memory import LastSeen
 from pico.backends.sight import Look, look, no_cameras
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.eyes import eyes_of
@@ -25,7 +25,7 @@ TRIES = 3
 """Pictures that are asked of a camera before it counts as lost."""
 
 
-def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, last: Mapping[str, Seen]) -> Look:
+def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, last: Mapping[str, LastSeen]) -> Look:
     """Return what the cameras see of `world`; raises PicoError where the lab has none over its table.
 
     `last`: where parts were seen or put down before. The same world gives the same pictures.
@@ -53,13 +53,13 @@ def scene_of(setup: Setup, world: World) -> tuple[mujoco.MjModel, mujoco.MjData]
 
     from pico.drawing.picture import pose_model
     from pico.twin.placement import upright
-    from pico.twin.scene import Thing, build_scene
+    from pico.twin.scene import SceneBody, build_scene
 
     places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
-    things = {name: Thing(setup.type_of(name).geometry, place) for name, place in places.items()}
+    things = {name: SceneBody(setup.type_of(name).geometry, place) for name, place in places.items()}
     for name, stranger in world.unknown.items():
         shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
-        things[name] = Thing(shape, upright(stranger.pose))
+        things[name] = SceneBody(shape, upright(stranger.pose))
     model = build_scene(setup, things).compile()
     model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
     data = mujoco.MjData(model)

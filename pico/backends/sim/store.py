@@ -12,7 +12,7 @@ from typing import Any
 from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock
 from pico.backends.sim.reconcile import reconcile
-from pico.backends.sim.world import FORMAT, Body, FreePose, Shape, World, new_world
+from pico.backends.sim.world import FORMAT, FreePose, RememberedShape, World, WorldBody, new_world
 from pico.cameras.errors import CameraShift
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import write_whole, writing
@@ -88,7 +88,8 @@ def world_from_json(data: Any) -> World:
     """Return the world whose `as_json` gave `data`; raises KeyError, TypeError or ValueError for anything else."""
     data = FORMAT.lifted(data)
     shapes = {
-        k: Shape(footprint=_footprint(v["footprint"]), height=_number(v["height"])) for k, v in data["shapes"].items()
+        k: RememberedShape(footprint=_footprint(v["footprint"]), height=_number(v["height"]))
+        for k, v in data["shapes"].items()
     }
     components = {k: _body(v) for k, v in data["components"].items()}
     for name, body in components.items():
@@ -121,13 +122,13 @@ def _pose(data: Mapping[str, Any]) -> Pose:
     return Pose(_number(data["x"]), _number(data["y"]), _number(data["yaw"]))
 
 
-def _body(data: Mapping[str, Any]) -> Body:
+def _body(data: Mapping[str, Any]) -> WorldBody:
     presence, free = data["presence"], data.get("free")
     if presence not in ("seen", "missing", "held", "toppled"):
         raise ValueError(f"{presence!r} is no presence")
     if presence == "seen" and "pose" not in data:
         raise ValueError("a part that is seen has no pose")
-    return Body(
+    return WorldBody(
         type=str(data["type"]),
         marker=data.get("marker"),
         presence=presence,

@@ -33,7 +33,7 @@ class FreePose:
 
 
 @record
-class Shape:
+class RememberedShape:
     """What the world remembers of a component type, so that a part that leaves the inventory stays an obstacle."""
 
     footprint: Footprint
@@ -41,7 +41,7 @@ class Shape:
 
 
 @record
-class Body:
+class WorldBody:
     """One component of the simulated table.
 
     `pose` is its planar pose, None where it is `missing`; of a part that is `held` or `toppled`, where its origin is
@@ -69,10 +69,10 @@ class World:
     lab: str
     seed: int = 1
     clock: float = 0.0
-    components: Mapping[str, Body] = field(default_factory=dict)
+    components: Mapping[str, WorldBody] = field(default_factory=dict)
     robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
-    shapes: Mapping[str, Shape] = field(default_factory=dict)
+    shapes: Mapping[str, RememberedShape] = field(default_factory=dict)
     cameras: Mapping[str, CameraShift] = field(default_factory=dict)
     person: bool = False
 
@@ -97,11 +97,11 @@ def new_world(setup: Setup) -> World:
     )
 
 
-def new_body(setup: Setup, name: str, pose: Pose | None) -> Body:
+def new_body(setup: Setup, name: str, pose: Pose | None) -> WorldBody:
     """Return the component as the world first sees it: standing at `pose`, its tunables at their initial values."""
     part, kind = setup.lab.inventory[name], setup.type_of(name)
     presence: Presence = "seen" if pose else "missing"
-    return Body(type=part.type, marker=part.marker, presence=presence, pose=pose, values=initial_values(kind))
+    return WorldBody(type=part.type, marker=part.marker, presence=presence, pose=pose, values=initial_values(kind))
 
 
 def parked(setup: Setup, robot: str) -> ObservedRobot:
@@ -112,11 +112,11 @@ def parked(setup: Setup, robot: str) -> ObservedRobot:
     return ObservedRobot(joints=tuple(math.radians(angle) for angle in mounted.park))
 
 
-def shapes_of(setup: Setup) -> dict[str, Shape]:
+def shapes_of(setup: Setup) -> dict[str, RememberedShape]:
     """Return the shapes of the types that the inventory uses."""
     names = sorted({part.type for part in setup.lab.inventory.values()})
     kinds = {name: setup.catalog[name].geometry for name in names}
-    return {name: Shape(footprint=g.footprint, height=g.height) for name, g in kinds.items()}
+    return {name: RememberedShape(footprint=g.footprint, height=g.height) for name, g in kinds.items()}
 
 
 def initial_values(kind: ComponentType) -> dict[str, ObservedValue]:

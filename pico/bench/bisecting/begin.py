@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pico.bench.bisecting.records import Task, Tried
-from pico.bench.bisecting.search import Bisection, Builder
+from pico.bench.bisecting.records import BisectionTask, Tried
+from pico.bench.bisecting.search import Bisection, TrialBench
 from pico.diagnostics import PicoError, error
 from pico.history.bisect.kept import GitBisect, require_order
 from pico.model.record import as_json
@@ -19,7 +19,7 @@ MEASURE = 5.0
 
 
 def begin(
-    bench: Builder, bad: str, good: str, *, expect: str | None = None, from_bad: bool = False,
+    bench: TrialBench, bad: str, good: str, *, expect: str | None = None, from_bad: bool = False,
     measure: float = MEASURE, trust: bool = False, suspicion: float = 10.0,
 ) -> Bisection:  # fmt: skip
     """Begin to bisect between two revisions, or go on where the same one is under way. Nothing moves yet, and no file
@@ -49,7 +49,7 @@ def begin(
         hint = "`pico bisect continue` goes on with it, `pico bisect reset` ends it"
         raise PicoError(error("bisect", f"the bisection under way asks for {asked}", hint=hint))
     require_order(history.root, *ends, (bad, good))
-    task = Task(
+    task = BisectionTask(
         bad=ends[0], good=ends[1], bad_name=bad, good_name=good, expect=wanted, measure=measure, trust=trust,
         suspicion=suspicion,
     )  # fmt: skip
@@ -60,7 +60,7 @@ def begin(
     return Bisection(bench, git, task)
 
 
-def under_way(bench: Builder, *, expect: str | None = None, measure: float | None = None) -> Bisection:
+def under_way(bench: TrialBench, *, expect: str | None = None, measure: float | None = None) -> Bisection:
     """Return the bisection that was begun here, as it was left; raises PicoError where there is none.
 
     One that `git bisect start --no-checkout` began, or that was replayed, can be taken up, too, with what is expected.
@@ -78,7 +78,7 @@ def under_way(bench: Builder, *, expect: str | None = None, measure: float | Non
     if found is None:
         if ends.bad is None or not ends.good:
             raise PicoError(error("bisect", "git knows no bad and no good commit yet", hint="`git bisect bad COMMIT`"))
-        found = Task(bad=ends.bad, good=ends.good[0], trust=True)
+        found = BisectionTask(bad=ends.bad, good=ends.good[0], trust=True)
     found = replace(
         found,
         expect=found.expect if expect is None else (Expectation(that=expect),),
@@ -90,7 +90,7 @@ def under_way(bench: Builder, *, expect: str | None = None, measure: float | Non
     return bisection
 
 
-def _left(bench: Builder, ends: tuple[str, str]) -> Bisection | None:
+def _left(bench: TrialBench, ends: tuple[str, str]) -> Bisection | None:
     """Return the bisection between these ends where it is under way; raises PicoError for another one that is not
     over."""
     git = _of_git(bench)
@@ -109,18 +109,18 @@ def _left(bench: Builder, ends: tuple[str, str]) -> Bisection | None:
     return None
 
 
-def _of_git(bench: Builder) -> GitBisect | None:
+def _of_git(bench: TrialBench) -> GitBisect | None:
     root: Path = bench.folder.history().root
     return GitBisect.under_way(root)
 
 
-def _task(git: GitBisect) -> Task | None:
+def _task(git: GitBisect) -> BisectionTask | None:
     """Return what the bisection is about, as its log tells; None where PICO did not begin it."""
     for note in git.notes():
         try:
             data = dict(note["task"])
             expect = tuple(Expectation(**one) for one in data.pop("expect", ()))
-            return Task(**data, expect=expect)
+            return BisectionTask(**data, expect=expect)
         except (KeyError, TypeError, ValueError):
             continue
     return None

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from pico.bench.bisecting.costs import Leaves, PlanSeconds, leaves
 from pico.diagnostics import PicoError
-from pico.history.bisect.choice import Choice, Suspects, choices, halfway
+from pico.history.bisect.choice import NextCommit, Suspects, choices, halfway
 from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.observation import Observation
@@ -110,7 +110,7 @@ class Configurations:
             return any(other is own for other in others)
         return any(_of(other, names) == _of(own, names) for other in others if other is not None)
 
-    def ranked(self, lineage: Lineage, suspects: Suspects, seen: Observation, measure: float) -> list[Choice]:
+    def ranked(self, lineage: Lineage, suspects: Suspects, seen: Observation, measure: float) -> list[NextCommit]:
         """Return what to try next from the bench as it stands, the best first."""
         names = [commit for commit, _ in lineage]
         goals = {n: self.clock.to(seen, state) for n in suspects.testable if (state := self.state(names[n]))}

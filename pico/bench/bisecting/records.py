@@ -14,7 +14,7 @@ End = Literal["", "good", "bad", "fork"]
 
 
 @record
-class Task:
+class BisectionTask:
     """Two commits, `bad` and `good`, by id, and how the user called them; what is expected (nothing: a person judges);
     how long a measurement takes [s]; whether the ends are taken on `trust`, without a measurement; how many times
     likelier a commit is that changed a component that is spoken of (`suspicion`)."""
@@ -64,7 +64,7 @@ class Proposal:
 
 
 @record
-class Outcome:
+class BisectionOutcome:
     """What a bisection came to: the first bad commit, or those of which it is one, where the others could not be told.
 
     `mended`: the fork of a good branch is bad, so the first bad commit lies elsewhere. `tried`: how many

@@ -9,9 +9,9 @@ from typing import Protocol
 
 from pico.bench.bisecting.configurations import Configurations, Lineage, alike
 from pico.bench.bisecting.judging import decisive, impossible, not_as_called, require_known, verdict
-from pico.bench.bisecting.records import End, Outcome, Proposal, Task, Tried
+from pico.bench.bisecting.records import BisectionOutcome, BisectionTask, End, Proposal, Tried
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.history.bisect.choice import Choice
+from pico.history.bisect.choice import NextCommit
 from pico.history.bisect.kept import Ends, GitBisect, Verdict
 from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
@@ -23,7 +23,7 @@ PLANNED = 3
 """So many of the best choices are really planned, before one of them is taken."""
 
 
-class Builder(Protocol):
+class TrialBench(Protocol):
     """What a bench does for a bisection."""
 
     @property
@@ -45,7 +45,7 @@ class Bisection:
     `tried`: everything that was judged so far, also what needed no trial.
     """
 
-    def __init__(self, bench: Builder, git: GitBisect, task: Task, tried: Sequence[Tried] = ()) -> None:
+    def __init__(self, bench: TrialBench, git: GitBisect, task: BisectionTask, tried: Sequence[Tried] = ()) -> None:
         self.bench, self.git, self.task = bench, git, task
         self.tried = list(tried)
         self.mended: str | None = None
@@ -139,14 +139,14 @@ class Bisection:
         forks = [t for t in self.tried if t.end == "fork" and t.verdict == "bad"]
         self.mended = forks[-1].commit if forks else None
 
-    def outcome(self) -> Outcome:
+    def outcome(self) -> BisectionOutcome:
         """Return what it came to, so far."""
         ends = self.git.ends()
         lineage = self.git.suspects(ends)
         names = tuple(commit for commit, _ in lineage)
         found = names[0] if len(names) == 1 and self.mended is None else None
         trials = [t for t in self.tried if t.by in ("measured", "person")]
-        return Outcome(
+        return BisectionOutcome(
             first_bad=found, suspects=() if found else names, mended=self.mended, said=self.said,
             tried=len(trials), seconds=sum(t.seconds for t in trials) + self._spent(),
             halving=self._halving(found) if found else None, runs=self._runs(found) if found else (),
@@ -243,7 +243,7 @@ class Bisection:
         return True
 
     def _planned(
-        self, ranked: Sequence[Choice], names: Sequence[str], seen: Observation
+        self, ranked: Sequence[NextCommit], names: Sequence[str], seen: Observation
     ) -> tuple[str, Plan] | None:  # fmt: skip
         """Return the best of some choices by their plans; None where one of them can't be built and was skipped."""
         plans = []

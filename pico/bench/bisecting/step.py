@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from pico.bench.bisecting.judging import impossible, require_known, verdict
-from pico.bench.bisecting.search import Builder
+from pico.bench.bisecting.search import TrialBench
 from pico.diagnostics import PicoError
 from pico.history.bisect.kept import HEAD, GitBisect, Verdict
 from pico.history.git import command as git
@@ -18,7 +18,7 @@ from pico.policy.expectations import require_expressions
 
 
 @record
-class Step:
+class TrialStep:
     """What became of a trial: the verdict on `commit`, and `why`. `seconds`: how long the bench took [s]."""
 
     commit: str
@@ -44,7 +44,7 @@ def under_trial(folder: LabFolder) -> str:
     return pointed or repository.resolve("HEAD").id
 
 
-def step(bench: Builder, expect: str, bring: Callable[[Plan], float]) -> Step:
+def step(bench: TrialBench, expect: str, bring: Callable[[Plan], float]) -> TrialStep:
     """Bring the bench to the commit under trial and judge it by an expression.
 
     `bring`: runs a plan and returns its seconds; raises PicoError where the bench does not get there. Raises PicoError
@@ -55,11 +55,11 @@ def step(bench: Builder, expect: str, bring: Callable[[Plan], float]) -> Step:
     try:
         bench.folder.state_at(commit)
     except PicoError as exc:
-        return Step(commit=commit, verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
+        return TrialStep(commit=commit, verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
     plan = bench.plan(commit, expecting=False)
     require_known(bench.setup, bench.observe(), plan)
     if why := impossible(plan):
-        return Step(commit=commit, verdict="skip", why=why)
+        return TrialStep(commit=commit, verdict="skip", why=why)
     seconds = bring(plan)
     found, why = verdict(bench.setup, bench.observe(), (Expectation(that=expect),))
-    return Step(commit=commit, verdict=found, why=why, seconds=seconds)
+    return TrialStep(commit=commit, verdict=found, why=why, seconds=seconds)

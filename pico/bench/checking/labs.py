@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pico.bench.checking.candidate import Candidate, Origin, in_folder, in_memory, origin
 from pico.bench.checking.steps import check_lab
-from pico.bench.checking.verdict import Checked, LabChecked
+from pico.bench.checking.verdict import CheckReport, LabChecked
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.history.repository.against import Against, against
 from pico.history.repository.repository import Repository
@@ -24,7 +24,7 @@ def check(
     fidelity: str = "kinematic",
     pictures: Path | None = None,
     environment: Mapping[str, str] | None = None,
-) -> Checked:
+) -> CheckReport:
     """Check the lab that `path` lies in, or every lab below it that differs from the base, and return what was found.
 
     `revision`: what to compare with, see `repository.against.against`. `merging`: check what HEAD would be once this
@@ -49,7 +49,7 @@ def check(
             continue
         found = check_lab(candidate, before, what=what, fidelity=fidelity, folder=_shown(repository, root))
         labs.append(_drawn(candidate, before, found, pictures, labs))
-    return Checked(what=what, base=base, labs=tuple(labs), alike=tuple(alike))
+    return CheckReport(what=what, base=base, labs=tuple(labs), alike=tuple(alike))
 
 
 def _roots(path: Path) -> tuple[list[Path], bool]:

@@ -96,7 +96,7 @@ class LabChecked:
 
 
 @record
-class Checked:
+class CheckReport:
     """What became of every lab that was checked. `what`: what was checked, `base`: against what; `alike`: labs that do
     not differ from the base, and were passed over."""
 

@@ -8,7 +8,7 @@ from typing import Any
 from pico.drawing.beams import Place
 from pico.drawing.film.film import Caption
 from pico.drawing.marks import Mark
-from pico.drawing.steps import Step
+from pico.drawing.steps import DrawnStep
 from pico.model.diff import Change, show_value
 from pico.model.event import Event
 from pico.model.lab import Setup
@@ -49,34 +49,34 @@ def goals(setup: Setup, plan: Plan) -> dict[str, Pose]:
     return {name: ends[name].pose for name in moved_by(plan) if name in ends}
 
 
-def steps(plan: Plan) -> tuple[Step, ...]:
+def steps(plan: Plan) -> tuple[DrawnStep, ...]:
     """Return the operations of a plan, numbered as `pico apply` counts them."""
     return tuple(_step(number, op, plan) for number, op in enumerate(plan.operations, 1))
 
 
-def _step(number: int, op: Operation, plan: Plan) -> Step:
+def _step(number: int, op: Operation, plan: Plan) -> DrawnStep:
     before, after, tunable = (op.arguments.get(word) for word in ("from", "to", "tunable"))
     if op.primitive in ("move", "stow") and isinstance(before, Mapping) and isinstance(after, Mapping):
         words = f"{_place(before)} → {_place(after)}"
-        return Step(number, op.component, words, op.component, Pose(**before["pose"]), Pose(**after["pose"]))
+        return DrawnStep(number, op.component, words, op.component, Pose(**before["pose"]), Pose(**after["pose"]))
     if tunable is None:
-        return Step(number, op.component, op.primitive)
+        return DrawnStep(number, op.component, op.primitive)
     change = next((c for c in plan.changes if (c.component, c.tunable) == (op.component, tunable)), None)
     said = change.text if change and op.reason.kind != "interlock" else f"{show_value(before)} → {show_value(after)}"
-    return Step(number, f"{op.component}.{tunable}", said if op.primitive == "set" else op.primitive)
+    return DrawnStep(number, f"{op.component}.{tunable}", said if op.primitive == "set" else op.primitive)
 
 
-def differences(setup: Setup, a: LabState, b: LabState, changes: Sequence[Change]) -> tuple[Step, ...]:
+def differences(setup: Setup, a: LabState, b: LabState, changes: Sequence[Change]) -> tuple[DrawnStep, ...]:
     """Return what differs from state `a` to `b`, numbered in the order of `changes`."""
     found = []
     for number, change in enumerate(changes, 1):
         name = change.component
         if change.tunable == "pose" and name in setup.lab.inventory:
             start, goal = place_of(setup, a, name)[1], place_of(setup, b, name)[1]
-            found.append(Step(number, name, change.text, name, start, goal))
+            found.append(DrawnStep(number, name, change.text, name, start, goal))
         else:
             title = name if change.tunable == "pose" else f"{name}.{change.tunable}"
-            found.append(Step(number, title, change.text))
+            found.append(DrawnStep(number, title, change.text))
     return tuple(found)
 
 

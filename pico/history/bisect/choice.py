@@ -48,7 +48,7 @@ class Suspects:
 
 
 @dataclass(frozen=True)
-class Choice:
+class NextCommit:
     """A commit to try next. `travel`: how long the bench needs to get there; `measure`: the measurement; `future`: what
     is expected after it [s]; `doubt`: how much longer it counts because a neighbor could not be told."""
 
@@ -65,7 +65,7 @@ class Choice:
 
 def choices(
     suspects: Suspects, first: Callable[[int], float], between: Callable[[int, int], float], measure: float
-) -> list[Choice]:
+) -> list[NextCommit]:
     """Return the commits worth trying next, the best first.
 
     `first(c)`: how long the bench needs from where it stands to commit c; `between(a, b)`: from a to b; `measure`: how
@@ -85,7 +85,7 @@ def halfway(suspects: Suspects) -> int | None:
 
 def _promising(
     suspects: Suspects, first: Callable[[int], float], between: Callable[[int, int], float], measure: float
-) -> list[Choice]:
+) -> list[NextCommit]:
     """Return the trials with the most information per second, with what is expected after each where the trial with
     the most is always taken."""
     if not suspects.testable:
@@ -93,7 +93,7 @@ def _promising(
     greedy = _Greedy(suspects, between, measure)
     travel = {n: first(n) for n in greedy.trials}
     best = greedy.rated([travel[n] for n in greedy.trials])[:PROMISING]
-    return [Choice(n, travel[n], measure, greedy.after(n), _doubt(suspects, n)) for n in best]
+    return [NextCommit(n, travel[n], measure, greedy.after(n), _doubt(suspects, n)) for n in best]
 
 
 @dataclass
@@ -176,7 +176,7 @@ def _doubt(suspects: Suspects, n: int) -> float:
 
 def _exact(
     suspects: Suspects, first: Callable[[int], float], between: Callable[[int, int], float], measure: float
-) -> list[Choice]:
+) -> list[NextCommit]:
     """Return every first trial with the least expected time after it.
 
     The first bad commit is in (lo, hi]; a trial of m in between, from where the bench stands, leaves (lo, m] with the
@@ -186,7 +186,9 @@ def _exact(
     table = _Intervals(suspects, between, measure)
     table.fill()
     last = len(suspects.parents) - 1
-    return [Choice(n, first(n), measure, table.after(n, last), _doubt(suspects, n)) for n in sorted(suspects.testable)]
+    return [
+        NextCommit(n, first(n), measure, table.after(n, last), _doubt(suspects, n)) for n in sorted(suspects.testable)
+    ]
 
 
 @dataclass

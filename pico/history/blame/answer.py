@@ -6,18 +6,18 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from pico.history.blame.follow import Address, Blame, Node, Units
+from pico.history.blame.follow import Address, Blame, LeafNode, Units
 from pico.history.blame.how import RunBrief, brief_from
 from pico.history.blame.leaves import POSE, Leaf, canonical
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class BlamedRow:
     """One leaf: its value in `unit` (None: it is gone), and its node."""
 
     value: Leaf | None
     unit: str
-    node: Node
+    node: LeafNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,26 +34,26 @@ class Answer:
     """All leaves of a commit, those that are gone included; what could not be read on the way; the runs that the
     commits which changed a leaf brought along."""
 
-    rows: Mapping[Address, Row] = field(default_factory=dict)
+    rows: Mapping[Address, BlamedRow] = field(default_factory=dict)
     unread: tuple[Unread, ...] = ()
     runs: Mapping[str, tuple[RunBrief, ...]] = field(default_factory=dict)
 
 
 def answer(blame: Blame, packaged: Units, unread: Iterable[Unread] = ()) -> Answer:
     """Return the answer of a walk that ended in `blame`, without runs."""
-    rows: dict[Address, Row] = {}
+    rows: dict[Address, BlamedRow] = {}
     now = {name: blame.leaves(name) for name in blame.components()}
     for at, node in sorted(blame.nodes.items(), key=lambda item: (item[0][0], item[0][1] != POSE, item[0][1])):
         unit = blame.unit(*at, packaged)
         value = canonical(at[1], now.get(at[0], {}).get(at[1]), unit)
-        rows[at] = Row(value, unit or "", node)
+        rows[at] = BlamedRow(value, unit or "", node)
     return Answer(rows, tuple(unread))
 
 
 def dumps(answer: Answer) -> str:
     """Return an answer as JSON, for `loads`."""
     commits: dict[str, int] = {}
-    numbers: dict[Node, int] = {}
+    numbers: dict[LeafNode, int] = {}
     nodes: list[tuple[Leaf | None, int, int]] = []
     for row in answer.rows.values():
         fresh = []
@@ -74,11 +74,11 @@ def dumps(answer: Answer) -> str:
 def loads(text: str) -> Answer:
     """Return what `dumps` wrote; raises ValueError, TypeError or IndexError for anything else."""
     commits, stored, rows, unread, runs = json.loads(text)
-    nodes: list[Node] = []
+    nodes: list[LeafNode] = []
     for value, commit, before in stored:
-        nodes.append(Node(value, commits[commit], nodes[before] if before >= 0 else None))
+        nodes.append(LeafNode(value, commits[commit], nodes[before] if before >= 0 else None))
     return Answer(
-        {(component, tunable): Row(value, unit, nodes[at]) for component, tunable, value, unit, at in rows},
+        {(component, tunable): BlamedRow(value, unit, nodes[at]) for component, tunable, value, unit, at in rows},
         tuple(Unread(*entry) for entry in unread),
         {commit: tuple(brief_from(data) for data in found) for commit, found in runs.items()},
     )

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
-from pico.history.blame.answer import Answer, Row, Unread
+from pico.history.blame.answer import Answer, BlamedRow, Unread
 from pico.history.blame.edits import with_edits
-from pico.history.blame.follow import Address, Node
+from pico.history.blame.follow import Address, LeafNode
 from pico.history.blame.how import How, how
 from pico.history.blame.leaves import POSE, Leaf, canonical, shown
 from pico.history.blame.walk import Walker
@@ -25,7 +25,7 @@ from pico.model.record import record
 
 
 @record
-class Turn:
+class LeafChange:
     """One change of a leaf: the `commit` that made it (None: not committed), its first name or short id, and how.
 
     `before` and `after` are as in a `Change`, None where there is none; `text` says them as a motion. `earlier`: this
@@ -54,8 +54,8 @@ class BlamedLeaf:
     tunable: str
     value: Any = None
     unit: str = ""
-    last: Turn
-    history: tuple[Turn, ...] | None = None
+    last: LeafChange
+    history: tuple[LeafChange, ...] | None = None
 
 
 @record
@@ -120,7 +120,7 @@ def _notes(walker: Walker, root: Path, commit: str | None, part: str) -> tuple[N
     return notes({path: data}, part)
 
 
-def _chosen(rows: Mapping[Address, Row], what: Sequence[str]) -> dict[Address, Row]:
+def _chosen(rows: Mapping[Address, BlamedRow], what: Sequence[str]) -> dict[Address, BlamedRow]:
     """Return the rows that are asked for; of a component as a whole those that are not gone, unless all of it is."""
     if not what:
         return {at: row for at, row in rows.items() if row.value is not None or row.node.commit == ""}
@@ -155,33 +155,33 @@ def _unknown(component: str, tunable: str, mine: Iterable[Address], rows: Iterab
 class _Turns:
     """Puts nodes, commits and runs together."""
 
-    def __init__(self, walker: Walker, whole: Answer, rows: Iterable[Row], *, history: bool) -> None:
+    def __init__(self, walker: Walker, whole: Answer, rows: Iterable[BlamedRow], *, history: bool) -> None:
         self.history, self.shallow = history, walker.shallow
         nodes = [n for row in rows for n in (row.node.chain() if history else (row.node,))]
         names = {n.commit for n in nodes if n.commit}
         self.commits: Mapping[str, Commit] = walker.repository.commits(names)
         self.runs = whole.runs
 
-    def leaf(self, at: Address, row: Row) -> BlamedLeaf:
+    def leaf(self, at: Address, row: BlamedRow) -> BlamedLeaf:
         turns = tuple(self.turn(at, node, row.unit) for node in row.node.chain()) if self.history else None
         last = turns[0] if turns else self.turn(at, row.node, row.unit)
         value = shown(row.value)
         return BlamedLeaf(component=at[0], tunable=at[1], value=value, unit=row.unit, last=last, history=turns)
 
-    def turn(self, at: Address, node: Node, unit: str) -> Turn:
+    def turn(self, at: Address, node: LeafNode, unit: str) -> LeafChange:
         before, after = (_value(at, n, unit) for n in (node.before, node))
         text = _text(at, before, after, unit)
         if not node.commit:
-            return Turn(how=How(kind="edit"), before=before, after=after, text=text)
+            return LeafChange(how=How(kind="edit"), before=before, after=after, text=text)
         commit = self.commits[node.commit]
-        return Turn(
+        return LeafChange(
             commit=commit.id, name=commit.label, author=commit.author.partition(" <")[0], time=commit.time.isoformat(),
             summary=commit.summary, how=how(commit, self.runs.get(commit.id, ()), at), before=before, after=after,
             text=text, earlier=commit.id in self.shallow,
         )  # fmt: skip
 
 
-def _value(at: Address, node: Node | None, unit: str) -> Any:
+def _value(at: Address, node: LeafNode | None, unit: str) -> Any:
     leaf: Leaf | None = node.value if node else None
     return shown(canonical(at[1], leaf, unit))
 

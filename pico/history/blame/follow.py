@@ -22,23 +22,23 @@ Units = Callable[[str], Mapping[str, str]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Node:
+class LeafNode:
     """A leaf since `commit`: its value (None: it is gone), and what it was `before` that."""
 
     value: Leaf | None
     commit: str
-    before: Node | None = None
+    before: LeafNode | None = None
 
-    def chain(self) -> Iterator[Node]:
+    def chain(self) -> Iterator[LeafNode]:
         """Yield this and all before it, newest first."""
-        node: Node | None = self
+        node: LeafNode | None = self
         while node is not None:
             yield node
             node = node.before
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class WalkStep:
     """One commit on the walk, with its parents."""
 
     commit: str
@@ -49,14 +49,14 @@ class Step:
 class Blame:
     """The leaves of one commit, each with its node; leaves that are gone have one, too."""
 
-    nodes: dict[Address, Node] = field(default_factory=dict)
+    nodes: dict[Address, LeafNode] = field(default_factory=dict)
     files: dict[str, Flat] = field(default_factory=dict)
     _states: dict[str, tuple[str, ...]] = field(default_factory=dict)  # component -> the files that state it
     _parts: dict[str, tuple[str, ...]] = field(default_factory=dict)  # part -> the files whose inventory has it
     _types: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, files: Mapping[str, Flat], nodes: Mapping[Address, Node]) -> Blame:
+    def of(cls, files: Mapping[str, Flat], nodes: Mapping[Address, LeafNode]) -> Blame:
         """Return the blame of a commit that holds `files`, where its nodes are known."""
         blame = cls(dict(nodes))
         for path, flat in files.items():
@@ -112,7 +112,7 @@ class Blame:
                 else:
                     del self.nodes[at]
                 return
-        self.nodes[at] = Node(new, commit, self.nodes.get(at))
+        self.nodes[at] = LeafNode(new, commit, self.nodes.get(at))
 
     def _same(self, at: Address, a: Leaf | None, b: Leaf | None, packaged: Units) -> bool:
         if a == b or a is None or b is None or not ('"' in a or '"' in b):
@@ -153,7 +153,7 @@ def _touched(old: Flat | None, new: Flat | None) -> Iterator[str]:
 
 
 def walk(
-    steps: Sequence[Step],
+    steps: Sequence[WalkStep],
     delta: Callable[[str, str | None], Delta],
     packaged: Units,
     known: Mapping[str, Blame] | None = None,

@@ -15,7 +15,7 @@ from pico.diagnostics import PicoError, error
 from pico.history.blame.answer import Answer, Unread, answer, dumps, loads
 from pico.history.blame.flat import Flat, flatten
 from pico.history.blame.flat import loads as flat_from
-from pico.history.blame.follow import Blame, Delta, Step, walk
+from pico.history.blame.follow import Blame, Delta, WalkStep, walk
 from pico.history.blame.how import RunBrief, brief_of
 from pico.history.git.cache import VERSION, Cache
 from pico.history.git.unread import modules
@@ -143,20 +143,20 @@ class Walker:
         self._unread, self._known = list(found.unread), dict(found.runs)
         return Blame.of(files, {at: row.node for at, row in found.rows.items()})
 
-    def _steps(self, commit: str, start: str | None) -> list[Step]:
+    def _steps(self, commit: str, start: str | None) -> list[WalkStep]:
         """Return the commits from `start` on, parents first; all of them where others than it lead there, too."""
         from pygit2.enums import SortMode
 
         walker = self._git.walk(commit, SortMode.TOPOLOGICAL | SortMode.REVERSE)
         if start:
             walker.hide(start)
-        steps = [Step(str(c.id), tuple(str(p) for p in c.parent_ids)) for c in walker]
+        steps = [WalkStep(str(c.id), tuple(str(p) for p in c.parent_ids)) for c in walker]
         if start and not {p for s in steps for p in s.parents} <= {start, *(s.commit for s in steps)}:
             return self._steps(commit, None)
         self._follow(steps)
         return steps
 
-    def _follow(self, steps: Sequence[Step]) -> None:
+    def _follow(self, steps: Sequence[WalkStep]) -> None:
         """Find out where the lab was before its folder was moved."""
         for step in reversed(steps) if self.folder else ():
             here = self._folders.setdefault(step.commit, self.folder)

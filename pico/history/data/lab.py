@@ -7,10 +7,10 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError, error
 from pico.history.data.needs import Needs, kept_needs, needs
-from pico.history.data.places import SETTING, Place, configured, place_of
+from pico.history.data.places import SETTING, CopyPlace, configured, place_of
 from pico.history.data.pointers import Pointed, write_pointers
 from pico.history.data.transfer import Holdings, Moved, Shared, holdings, pull, push
-from pico.history.data.upkeep import Checked, Garbage, check, garbage, remove
+from pico.history.data.upkeep import Garbage, StoreCheck, check, garbage, remove
 from pico.history.repository.repository import Repository
 from pico.runs.store import Store
 
@@ -62,7 +62,7 @@ class LabData:
         """Copy from the place what is needed and not here."""
         return pull(self.store, self._place(place), self.needs(), shared)
 
-    def check(self, shared: Shared = _quiet) -> Checked:
+    def check(self, shared: Shared = _quiet) -> StoreCheck:
         """Read every object again, set aside what is damaged, and return what is wrong."""
         return check(self.store, self.needs(), shared)
 
@@ -78,7 +78,7 @@ class LabData:
         """Write Git LFS pointers beside the runs of a lab, for a commit; see `write_pointers`."""
         return write_pointers(self.repository, lab, self.store, runs)
 
-    def _place(self, word: str | None) -> Place:
+    def _place(self, word: str | None) -> CopyPlace:
         found = place_of(self.repository, word)
         if found is None:
             hint = f"name a folder, or set one for good: `git config {SETTING} FOLDER`"

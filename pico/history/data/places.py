@@ -20,7 +20,7 @@ LFS = "lfs"
 """The place where git-lfs keeps what it fetched, and what it will push."""
 
 
-class Place(Protocol):
+class CopyPlace(Protocol):
     """Keeps copies of objects; every method raises PicoError."""
 
     name: str
@@ -38,7 +38,7 @@ class Place(Protocol):
         ...
 
 
-def place_of(repository: Repository, word: str | None) -> Place | None:
+def place_of(repository: Repository, word: str | None) -> CopyPlace | None:
     """Return the place that `word` names (a folder, an URL such as `s3://bucket/lab`, or `lfs`), else the one
     configured, or None where there is none. A relative folder counts from the top of the working tree.
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.data.needs import Need, Needs
 from pico.history.data.pieces import Heard
-from pico.history.data.places import Place
+from pico.history.data.places import CopyPlace
 from pico.model.record import record
 from pico.runs.store import Store
 
@@ -56,7 +56,7 @@ class Moved:
     diagnostics: tuple[Diagnostic, ...]
 
 
-def holdings(store: Store, place: Place | None, needs: Needs) -> Holdings:
+def holdings(store: Store, place: CopyPlace | None, needs: Needs) -> Holdings:
     """Return what is where; raises PicoError where the store or the place can't be read."""
     here = frozenset(store.all())
     return Holdings(
@@ -68,7 +68,7 @@ def holdings(store: Store, place: Place | None, needs: Needs) -> Holdings:
     )
 
 
-def push(store: Store, place: Place, needs: Needs, shared: Shared) -> Moved:
+def push(store: Store, place: CopyPlace, needs: Needs, shared: Shared) -> Moved:
     """Copy to `place` what is needed, here and not there. What is damaged here is told, and the others go.
 
     Raises PicoError where the place can't be written.
@@ -77,7 +77,7 @@ def push(store: Store, place: Place, needs: Needs, shared: Shared) -> Moved:
     return _move(found, found.unsent, lambda n, heard: place.send(n, store, heard), shared)
 
 
-def pull(store: Store, place: Place, needs: Needs, shared: Shared) -> Moved:
+def pull(store: Store, place: CopyPlace, needs: Needs, shared: Shared) -> Moved:
     """Copy from `place` what is needed and not here; else as `push`."""
     found = holdings(store, place, needs)
     there = [n for n in found.absent if n.sha256 in (found.there or ())]

@@ -9,7 +9,7 @@ from pico.runs.store import Store
 
 
 @record
-class Checked:
+class StoreCheck:
     """What a look at every object found: how many there are with how many bytes, which are damaged (and were set
     aside), which are needed and not here."""
 
@@ -38,7 +38,7 @@ class Garbage:
         return sum(size for _, size in self.removable)
 
 
-def check(store: Store, needs: Needs, shared: Shared) -> Checked:
+def check(store: Store, needs: Needs, shared: Shared) -> StoreCheck:
     """Read every object again and set aside what is damaged; raises PicoError where the store can't be read."""
     sizes = {name: store.size(name) for name in store.all()}
     total, through, damaged = max(sum(sizes.values()), 1), 0, []
@@ -48,7 +48,9 @@ def check(store: Store, needs: Needs, shared: Shared) -> Checked:
         through += size
         shared(through / total)
     missing = tuple(n for n in needs.values() if n.sha256 not in sizes)
-    return Checked(objects=len(sizes), size=sum(sizes.values()), damaged=tuple(damaged), missing=missing, needs=needs)
+    return StoreCheck(
+        objects=len(sizes), size=sum(sizes.values()), damaged=tuple(damaged), missing=missing, needs=needs
+    )
 
 
 def garbage(store: Store, kept: Needs, grace: float) -> Garbage:

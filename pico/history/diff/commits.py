@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git.commit import Commit
 from pico.history.git.trees import Odd, manifests, subtree
 from pico.history.git.unread import unread_at
-from pico.history.lab.folder import STATE_ONLY, Entry, LabFolder, between
+from pico.history.lab.folder import STATE_ONLY, CommitEntry, LabFolder, between
 from pico.manifest.bench_view import BenchView, view_of
 from pico.manifest.files import decode
 from pico.manifest.load import load_files
@@ -42,7 +42,7 @@ class CommitDiffs:
         self._benches: dict[BenchFiles, tuple[Setup, BenchView]] = {}
         self._states: dict[tuple[str, BenchFiles], Mapping[str, ComponentState]] = {}
 
-    def entry(self, commit: Commit, *, names: Iterable[str] = ()) -> Entry:
+    def entry(self, commit: Commit, *, names: Iterable[str] = ()) -> CommitEntry:
         """Return a commit with its physical diff against its first parent, as `LabFolder.entry` does.
 
         With `names`, only what these components do is looked for; files that don't name them are not read.
@@ -50,7 +50,7 @@ class CommitDiffs:
         if not commit.parents or commit.parents[0] not in self._git:
             return self.folder.entry(commit)
         try:
-            return Entry(commit=commit, changes=self.changes(commit.parents[0], commit.id, names=names))
+            return CommitEntry(commit=commit, changes=self.changes(commit.parents[0], commit.id, names=names))
         except PicoError:
             return self.folder.entry(commit)
 

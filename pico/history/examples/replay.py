@@ -11,7 +11,7 @@ Files = Mapping[str, bytes]
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class ExampleCommit:
     """One commit to make: its tag, its branch, the tag of the commit it follows (None for the first), all its files."""
 
     tag: str
@@ -21,20 +21,20 @@ class Step:
     files: Files
 
 
-def replay(history: Sequence[Mapping[str, Any]], files: Files) -> Iterator[Step]:
+def replay(history: Sequence[Mapping[str, Any]], files: Files) -> Iterator[ExampleCommit]:
     """Yield the commits of `history`, in order, starting from `files`.
 
     A commit follows `from` (a tag) where it is given, else the last one on its branch; `changes` holds for each
     component its `slot`, `pose` (of which only what is written changes) and values. Raises PicoError where a change
     can't be written into the manifests, KeyError for a `from` that comes later.
     """
-    steps: dict[str, Step] = {}
+    steps: dict[str, ExampleCommit] = {}
     last: dict[str, str] = {}
     for commit in history:
         tag, branch = commit["tag"], commit["branch"]
         follows = commit.get("from") or last.get(branch)
         before = steps[follows].files if follows else files
-        steps[tag] = Step(tag, branch, follows, commit["message"], changed(before, commit["changes"]))
+        steps[tag] = ExampleCommit(tag, branch, follows, commit["message"], changed(before, commit["changes"]))
         last[branch] = tag
         yield steps[tag]
 

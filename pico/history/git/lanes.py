@@ -9,7 +9,7 @@ from pico.history.git.commit import Commit
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class RailRow:
     """One line of the rail: of a commit (`| * `), or of an edge between lines of history (`|/`), without a commit."""
 
     rail: str
@@ -40,7 +40,7 @@ def topological(commits: Sequence[Commit]) -> list[Commit]:
     return ordered
 
 
-def lanes(commits: Iterable[Commit]) -> list[Row]:
+def lanes(commits: Iterable[Commit]) -> list[RailRow]:
     """Return the rail for `commits`, children before parents: one row a commit, and rows for the edges between.
 
     Parents that are not among the commits end their line. All rails are equally wide.
@@ -48,12 +48,12 @@ def lanes(commits: Iterable[Commit]) -> list[Row]:
     shown = list(commits)
     known = {c.id for c in shown}
     expected: list[str] = []  # the commit that each line of history, left to right, waits for
-    rows: list[Row] = []
+    rows: list[RailRow] = []
     for commit in shown:
         if commit.id not in expected:
             expected.append(commit.id)
         here = expected.index(commit.id)
-        rows.append(Row(" ".join("*" if i == here else "|" for i in range(len(expected))), commit))
+        rows.append(RailRow(" ".join("*" if i == here else "|" for i in range(len(expected))), commit))
         parents = [p for p in commit.parents if p in known]
         if not parents:
             rows += _closed(expected, here)
@@ -66,26 +66,26 @@ def lanes(commits: Iterable[Commit]) -> list[Row]:
     while rows and rows[-1].commit is None:
         rows.pop()
     width = max((len(r.rail) for r in rows), default=0)
-    return [Row(r.rail.ljust(width), r.commit) for r in rows]
+    return [RailRow(r.rail.ljust(width), r.commit) for r in rows]
 
 
-def _closed(expected: list[str], here: int) -> list[Row]:
+def _closed(expected: list[str], here: int) -> list[RailRow]:
     """End the line `here`; the lines right of it move one to the left."""
     rows = [_shift(len(expected), here, joining=False)] if here < len(expected) - 1 else []
     del expected[here]
     return rows
 
 
-def _split(count: int, here: int) -> Row:
+def _split(count: int, here: int) -> RailRow:
     """Return the row in which a line leaves `here` to the right and the lines beyond make room."""
     cells = [" "] * (2 * count + 1)
     for i in range(count):
         cells[2 * i if i <= here else 2 * i + 1] = "|" if i <= here else "\\"
     cells[2 * here + 1] = "\\"
-    return Row("".join(cells).rstrip())
+    return RailRow("".join(cells).rstrip())
 
 
-def _joined(expected: list[str]) -> list[Row]:
+def _joined(expected: list[str]) -> list[RailRow]:
     """Join lines that wait for the same commit, the right one running to the left one, and return the rows."""
     rows = []
     while len(set(expected)) < len(expected):
@@ -96,11 +96,11 @@ def _joined(expected: list[str]) -> list[Row]:
         for at in range(right - 1, left, -1):  # the edge crosses the lines between
             cells = list(" ".join("|" for _ in expected))
             cells[2 * at - 1] = "/"
-            rows.append(Row("".join(cells)))
+            rows.append(RailRow("".join(cells)))
     return rows
 
 
-def _shift(count: int, gone: int, *, joining: bool) -> Row:
+def _shift(count: int, gone: int, *, joining: bool) -> RailRow:
     """Return the row in which line `gone` vanishes (to the left where `joining`) and those right of it follow."""
     cells = [" "] * (2 * count)
     for i in range(count):
@@ -108,4 +108,4 @@ def _shift(count: int, gone: int, *, joining: bool) -> Row:
             cells[2 * i] = "|"
         elif i > gone or joining:
             cells[2 * i - 1] = "/"
-    return Row("".join(cells).rstrip())
+    return RailRow("".join(cells).rstrip())

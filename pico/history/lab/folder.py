@@ -45,7 +45,7 @@ FULL = 40
 
 
 @record
-class Entry:
+class CommitEntry:
     """One commit with what it changed on the table against its first parent, or why that can't be told.
 
     Where the history was asked for it: the `runs` that it carries, and how far its state is proven (`standing`; None
@@ -220,13 +220,13 @@ class LabFolder:
         """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
         return between(self.historic(a or "HEAD"), self.historic(b) if b else (self.setup, self.state))
 
-    def entry(self, commit: Commit) -> Entry:
+    def entry(self, commit: Commit) -> CommitEntry:
         """Return a commit with its physical diff. What a first commit is compared with is every part at home."""
         try:
             after = self.historic(commit.id)
         except PicoError as exc:
-            return Entry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
-        return Entry(commit=commit, changes=self.since(commit.parents[0] if commit.parents else None, after))
+            return CommitEntry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
+        return CommitEntry(commit=commit, changes=self.since(commit.parents[0] if commit.parents else None, after))
 
     def since(self, commit: str | None, after: tuple[Setup, LabState]) -> tuple[Change, ...]:
         """Return what changed on the table since a commit; since every part was at home, where there is none."""

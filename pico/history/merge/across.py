@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from pico.history.merge.leaves import OUT, Conflict
-from pico.history.merge.parts import Part, Parts, bare, put, read, without
+from pico.history.merge.parts import ComponentLines, Parts, bare, put, read, without
 
 Files = dict[str, bytes]
 Versions = tuple[bytes | None, bytes | None, bytes | None]
@@ -119,7 +119,7 @@ class _Sight:
         self.unclear |= {key for pairs in found for key, path in pairs if path in broken}
         self.homes = [dict(pairs) for pairs in found]
 
-    def part(self, version: int, path: str, name: str) -> Part | None:
+    def part(self, version: int, path: str, name: str) -> ComponentLines | None:
         """Return a component as a file of a version has it, None where it can't be taken out of there."""
         found = self.parts[version].get(path)
         return found.lines.get(name) if found and found.lines else None
@@ -131,7 +131,7 @@ class _Moves:
     def __init__(self, sight: _Sight) -> None:
         self.sight = sight
         self.out: list[dict[str, list[str]]] = [{}, {}, {}]
-        self.into: list[dict[str, dict[str, Part]]] = [{}, {}, {}]
+        self.into: list[dict[str, dict[str, ComponentLines]]] = [{}, {}, {}]
 
     def follow(self, key: Key, homes: list[str | None]) -> None:
         """Move a component, in the versions that have it elsewhere, to the file into which one side or both moved it;
@@ -152,7 +152,7 @@ class _Moves:
                 home, part = homes[i], parts[i]
                 assert home is not None and part is not None
                 self.out[i].setdefault(home, []).append(name)
-                self.into[i].setdefault(target, {})[name] = Part(part.lines, after)
+                self.into[i].setdefault(target, {})[name] = ComponentLines(part.lines, after)
 
     def made(self, version: int) -> Files:
         """Return the files of a version with what was collected done to them."""
@@ -173,7 +173,7 @@ class _Moves:
         return data if there == version else bare(data)
 
 
-def _same(a: Part | None, b: Part | None) -> bool:
+def _same(a: ComponentLines | None, b: ComponentLines | None) -> bool:
     """Whether two versions of a component say the same in the same way, save blank lines."""
     return a is not None and b is not None and [x for x in a.lines if x] == [x for x in b.lines if x]
 

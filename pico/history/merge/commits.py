@@ -14,7 +14,7 @@ from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_commits
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.history.writing.claim import Goal
-from pico.history.writing.made import Step
+from pico.history.writing.made import NewCommit
 from pico.history.writing.underway import refuse_begun
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
@@ -66,7 +66,9 @@ def merge_revision(folder: LabFolder, revision: str, check: Check, message: str 
     else:
         text = with_trailers(message.strip() or f"Merge {revision}", planned_trailers(manifests))
         repository.advance(
-            [Step(union.tree, text, (theirs.id,), name="the merge")], doing=doing, reason=f"merge {revision}: by PICO"
+            [NewCommit(union.tree, text, (theirs.id,), name="the merge")],
+            doing=doing,
+            reason=f"merge {revision}: by PICO",
         )
     folder.reload()
     made = repository.resolve("HEAD")

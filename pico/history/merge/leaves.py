@@ -55,7 +55,7 @@ class Coupled:
 
 
 @dataclass
-class Outcome:
+class MergedLeaves:
     """What the merged manifest must say: with ours, and with theirs, where they disagree."""
 
     ours: Any = None
@@ -94,9 +94,9 @@ def leaves(node: Node, path: Path = ()) -> Iterator[tuple[Path, Node]]:
 
 def merge_leaves(
     base: Sequence[Node | None], ours: Sequence[Node], theirs: Sequence[Node], groups: Groups, *, strict: bool = False
-) -> Outcome:
+) -> MergedLeaves:
     """Merge the roots of the documents of three versions; `strict`: coupled tunables count as a conflict."""
-    outcome = Outcome(ours=[], theirs=[])
+    outcome = MergedLeaves(ours=[], theirs=[])
     for i, (b, o, t) in enumerate(zip(base, ours, theirs, strict=True)):
         coupled = list(_coupled(i, b, o, t, groups)) if _is_state(o) else []
         forced = {path for _, paths in coupled for path in paths} if strict else set()

@@ -14,7 +14,7 @@ from typing import Any
 
 from pico.diagnostics import PicoError
 from pico.history.merge.layout import merge_layout
-from pico.history.merge.leaves import Conflict, Coupled, Groups, Outcome, Path, canonical, leaves, merge_leaves
+from pico.history.merge.leaves import Conflict, Coupled, Groups, MergedLeaves, Path, canonical, leaves, merge_leaves
 from pico.history.merge.lines import merge_lines
 from pico.history.merge.markers import OPEN, Labels, has_token, token, view, written
 from pico.manifest.files import decode
@@ -52,7 +52,7 @@ class _Plan:
     ours: _Version
     theirs: _Version
     values: dict[int, tuple[str, str]]
-    outcome: Outcome
+    outcome: MergedLeaves
     remarks: Counter[str] = field(default_factory=Counter)
 
 
@@ -139,7 +139,7 @@ def _whole(ours: bytes, theirs: bytes, labels: Labels) -> bytes:
     return b"".join([*parts, f"{closed} {labels.theirs}".encode() + end])
 
 
-def _alike(was: _Version, mine: _Version, other: _Version, outcome: Outcome) -> _Plan:
+def _alike(was: _Version, mine: _Version, other: _Version, outcome: MergedLeaves) -> _Plan:
     """Write what wins into all three versions wherever a value stands in both sides; a token where none wins."""
     at = [_leaves(v) for v in (was, mine, other)]
     numbers = {c.path: i for i, c in enumerate(outcome.conflicts) if not c.keys}

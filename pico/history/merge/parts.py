@@ -17,7 +17,7 @@ _BREAK = re.compile(r"\r\n|\n|\r")
 
 
 @dataclass(frozen=True)
-class Part:
+class ComponentLines:
     """A component as it stands in a file: its lines, as far to the left as they go, and what it comes after."""
 
     lines: tuple[str, ...]
@@ -29,7 +29,7 @@ class Parts:
     """The `names` of the components of a file; as `lines` where the file can be taken apart, which braces prevent."""
 
     names: tuple[str, ...] = ()
-    lines: Mapping[str, Part] | None = None
+    lines: Mapping[str, ComponentLines] | None = None
 
 
 def read(data: bytes) -> Parts | None:
@@ -61,7 +61,7 @@ def bare(data: bytes) -> bytes:
     return Editor(document).newline.join([*lines, f"{key.text}:", ""]).encode()
 
 
-def put(data: bytes, parts: Mapping[str, Part]) -> bytes:
+def put(data: bytes, parts: Mapping[str, ComponentLines]) -> bytes:
     """Return a manifest that has `lines` with components put in, each after the last one that it comes `after`."""
     document, key, components = _state(data)
     editor, splices = Editor(document), []
@@ -80,7 +80,7 @@ def _names(document: Document) -> Iterable[str]:
     return node.entries if isinstance(node, Map) else ()
 
 
-def _parts(document: Document) -> Iterator[tuple[str, Part]]:
+def _parts(document: Document) -> Iterator[tuple[str, ComponentLines]]:
     found = _mapping(document)
     if found is None:
         return
@@ -91,7 +91,7 @@ def _parts(document: Document) -> Iterator[tuple[str, Part]]:
         start, end = editor.block(key, components, name)
         text = _BREAK.split(editor.content[start:end])
         lines = text[:-1] if not text[-1] else text
-        yield name, Part(tuple(_left(line, editor.column(at)) for line in lines), before)
+        yield name, ComponentLines(tuple(_left(line, editor.column(at)) for line in lines), before)
         before = (*before, name)
 
 

@@ -20,7 +20,7 @@ from pico.history.git.unread import read_tree
 from pico.history.writing.claim import GitFolders, Goal
 from pico.history.writing.landing import Landing, land
 from pico.history.writing.lock import write_lock
-from pico.history.writing.made import Step
+from pico.history.writing.made import NewCommit
 from pico.history.writing.passage import Start, advance, go, shelve
 from pico.history.writing.recovery import leave_word, recover
 from pico.history.writing.underway import refuse_begun
@@ -265,7 +265,7 @@ class Repository:
             land(self._folders(), what)
         return self.resolve("HEAD")
 
-    def advance(self, steps: Sequence[Step], *, doing: str, reason: str) -> tuple[Commit, ...]:
+    def advance(self, steps: Sequence[NewCommit], *, doing: str, reason: str) -> tuple[Commit, ...]:
         """Commit trees that were computed one on the other, with files and index, and return the commits.
 
         All of them are made, or none; killed at any instant, it is as before, or it is brought to its end by whoever

@@ -25,7 +25,7 @@ from pico.history.restoring.messages import (
     rootless,
 )  # fmt: skip
 from pico.history.writing.claim import Goal
-from pico.history.writing.made import Step
+from pico.history.writing.made import NewCommit
 from pico.manifest.load import Manifests
 from pico.model.diff import Change
 from pico.model.record import record
@@ -198,13 +198,13 @@ def _changes(before: Manifests, after: Manifests) -> tuple[Change, ...]:
         return ()
 
 
-def _commit(folder: LabFolder, step: _Step, message: str) -> Step:
+def _commit(folder: LabFolder, step: _Step, message: str) -> NewCommit:
     assert step.manifests is not None
     if step.way == "revert":
         text, author = revert_message(step.commit, step.parent, message), None
     else:
         text, author = cherry_message(step.commit), (step.commit.author, step.commit.time)
-    return Step(
+    return NewCommit(
         _whole(folder, step), with_trailers(text, planned_trailers(step.manifests)), author=author, name=step.name
     )
 

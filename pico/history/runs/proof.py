@@ -23,7 +23,7 @@ from pico.runs.files import intact
 
 
 @dataclass(frozen=True)
-class Claim:
+class CommitClaim:
     """What a commit holds and says: the digest of its state, the runs that it added, its message, how many parents."""
 
     commit: str
@@ -108,7 +108,7 @@ class Standings:
             return Standing(verdict="inherited", commit=commit.id, state=state, why=why, diagnostics=tuple(wrong))
         added = runs_added(self.folder.history(), commit, self.folder.root, wrong)
         carries = len(commit.parents) > 1 and bool(self.runs)
-        claim = Claim(commit.id, state, commit.message, tuple(d.id for d in added), len(commit.parents), carries)
+        claim = CommitClaim(commit.id, state, commit.message, tuple(d.id for d in added), len(commit.parents), carries)
         return unproven(claim, tuple(wrong))
 
 
@@ -117,7 +117,7 @@ def standing(folder: LabFolder, commit: Commit) -> Standing:
     return Standings(folder).of(commit)
 
 
-def unproven(claim: Claim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:
+def unproven(claim: CommitClaim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:
     """Return the standing of a commit to whose state no run led."""
 
     def judged(verdict: Verdict, why: str, evidence: str | None = None) -> Standing:

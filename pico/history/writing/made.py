@@ -11,7 +11,7 @@ from pico.history.writing.under import Under
 
 
 @dataclass(frozen=True)
-class Step:
+class NewCommit:
     """A commit to be made: its tree and message, whom it merges, and whose change it is where not of who commits.
 
     `name`: what to call it where it can't be made.
@@ -29,7 +29,7 @@ class Step:
         return f"commit {self.name}".strip()
 
 
-def make(under: Under, step: Step, parent: str) -> str:
+def make(under: Under, step: NewCommit, parent: str) -> str:
     """Make a commit on `parent`, and return its id; the index of `under`, and the files, are as it shall have them.
 
     A hook may change index and message, and refuse: raises PicoError with its words, or with git's.
@@ -46,7 +46,7 @@ def make(under: Under, step: Step, parent: str) -> str:
     return under.git(*words, doing=step.doing, stdin=message, extra=_author(step)).strip()
 
 
-def _message(under: Under, step: Step) -> str:
+def _message(under: Under, step: NewCommit) -> str:
     """Return the message as the hooks leave it, cleaned up as git does where no editor was open."""
     path = under.at.own / "COMMIT_EDITMSG"
     path.write_text(step.message, encoding="utf-8")
@@ -56,7 +56,7 @@ def _message(under: Under, step: Step) -> str:
     return under.git("stripspace", doing="read the message", stdin=said)
 
 
-def _author(step: Step) -> dict[str, str]:
+def _author(step: NewCommit) -> dict[str, str]:
     if step.author is None:
         return {}
     name, _, mail = step.author[0].rpartition(" <")

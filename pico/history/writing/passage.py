@@ -20,7 +20,7 @@ from pico.diagnostics import PicoError
 from pico.history.git import command as git
 from pico.history.writing.claim import Claim, GitFolders, Goal, Said
 from pico.history.writing.index_lock import index_lock
-from pico.history.writing.made import Step, make
+from pico.history.writing.made import NewCommit, make
 from pico.history.writing.shelving import dropped, shelf, stored
 from pico.history.writing.under import Under, listed
 from pico.history.writing.worktree import bring
@@ -31,7 +31,7 @@ _FILES = "index.files"
 
 
 @dataclass(frozen=True)
-class Settled:
+class SettledClaim:
     """How a claim was brought to its end: `there`, at its goal, else back. `kept`: files left as somebody edited them;
     `why`: what kept HEAD from moving."""
 
@@ -49,7 +49,7 @@ class Start:
     doing: str
 
 
-def advance(at: GitFolders, start: Start, steps: Sequence[Step], reason: str) -> tuple[str, ...]:
+def advance(at: GitFolders, start: Start, steps: Sequence[NewCommit], reason: str) -> tuple[str, ...]:
     """Make commits one on the other, let files, index and HEAD go to the last one, and return their ids.
 
     What else is staged stays staged, what else was edited stays edited. Raises PicoError, with everything as it was,
@@ -103,12 +103,12 @@ def _pass(at: GitFolders, start: Start, work: Callable[[Claim], None]) -> None:
         raise settled.why
 
 
-def settle(at: GitFolders, claim: Claim) -> Settled:
+def settle(at: GitFolders, claim: Claim) -> SettledClaim:
     """Bring what a claim tells of to its end: on to where it leads, else back. Doing it twice does it once.
 
     The claim may be given up after it. Raises PicoError where that can't be done now (a full disk).
     """
-    said, done = claim.said(), Settled()
+    said, done = claim.said(), SettledClaim()
     if said.begun and said.base:
         done = _onwards(at, claim, said, said.base, said.to) if said.to else _back(at, claim, said, said.base)
     (at.private / _FILES).unlink(missing_ok=True)
@@ -116,13 +116,13 @@ def settle(at: GitFolders, claim: Claim) -> Settled:
     return done
 
 
-def _onwards(at: GitFolders, claim: Claim, said: Said, base: str, to: Goal) -> Settled:
+def _onwards(at: GitFolders, claim: Claim, said: Said, base: str, to: Goal) -> SettledClaim:
     index = Under(at, claim)
     if to.shelf and not to.tree and (why := stored(index, to)):
-        return Settled(why=why)  # the edits stay where they are
+        return SettledClaim(why=why)  # the edits stay where they are
     kept = bring(Under(at, claim, _FILES), (base, *said.trees), to.tree or to.commit)
     if to.tree:
-        return Settled(True, kept, dropped(index, to) if to.shelf else None)
+        return SettledClaim(True, kept, dropped(index, to) if to.shelf else None)
     if to.shelf:
         _unstaged(index, said.trees, base)
     else:
@@ -133,15 +133,15 @@ def _onwards(at: GitFolders, claim: Claim, said: Said, base: str, to: Goal) -> S
     except PicoError as exc:
         claim.turns_back(to.commit)
         return replace(_back(at, claim, claim.said(), base), why=exc)
-    return Settled(True, kept)
+    return SettledClaim(True, kept)
 
 
-def _back(at: GitFolders, claim: Claim, said: Said, base: str) -> Settled:
+def _back(at: GitFolders, claim: Claim, said: Said, base: str) -> SettledClaim:
     kept = bring(Under(at, claim, _FILES), said.trees, base)
     index = Under(at, claim)
     _restaged(index, said.trees[-1], base)
     index.adopt()
-    return Settled(False, kept)
+    return SettledClaim(False, kept)
 
 
 def _restaged(index: Under, before: str, after: str) -> None:

@@ -27,7 +27,7 @@ _MANY = 200
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WantedFile:
     """How a file is to be: its mode and blob (zeros for none); `known`: the blobs that it may hold now."""
 
     mode: str
@@ -69,9 +69,9 @@ def bring(under: Under, known: Sequence[str], to: str, begin: Callable[[], None]
     return kept
 
 
-def _wanted(under: Under, known: Sequence[str], to: str) -> dict[str, Wanted]:
+def _wanted(under: Under, known: Sequence[str], to: str) -> dict[str, WantedFile]:
     left_out = _left_out(under)
-    found: dict[str, Wanted] = {}
+    found: dict[str, WantedFile] = {}
     for tree in known:
         words = under.git("diff-tree", "-r", "-z", "--no-renames", tree, to, doing="compare two commits").split("\0")
         for told, path in zip(words[::2], words[1::2], strict=False):
@@ -79,7 +79,7 @@ def _wanted(under: Under, known: Sequence[str], to: str) -> dict[str, Wanted]:
             if path in left_out or _GITLINK in (was, mode):
                 continue
             also = found[path].known if path in found else frozenset()
-            found[path] = Wanted(mode, after, also | {before})
+            found[path] = WantedFile(mode, after, also | {before})
     return found
 
 
@@ -89,7 +89,7 @@ def _left_out(under: Under) -> set[str]:
     return {entry[2:] for entry in entries if entry.startswith("S ")}
 
 
-def _present(under: Under, wanted: Mapping[str, Wanted]) -> dict[str, str]:
+def _present(under: Under, wanted: Mapping[str, WantedFile]) -> dict[str, str]:
     """Return by path the blob that each file would be, zeros where there is none."""
     root = under.at.root
     gone = {root / p for p, w in wanted.items() if w.blob == _NOTHING}
@@ -124,13 +124,13 @@ def _files_below(folder: Path) -> Iterator[Path]:
     return (p for p in folder.rglob("*") if p.is_symlink() or not p.is_dir())
 
 
-def _is_so(place: Path, now: str, wish: Wanted) -> bool:
+def _is_so(place: Path, now: str, wish: WantedFile) -> bool:
     if now != wish.blob:
         return False
     return now == _NOTHING or place.is_symlink() or os.access(place, os.X_OK) == (wish.mode == _PROGRAM)
 
 
-def _refuse(paths: Sequence[str], wanted: Mapping[str, Wanted]) -> None:
+def _refuse(paths: Sequence[str], wanted: Mapping[str, WantedFile]) -> None:
     """Raise PicoError where files would be lost: edits, or what git does not keep."""
     for loose in (True, False):
         some = [p for p in paths if (wanted[p].known == {_NOTHING}) is loose]

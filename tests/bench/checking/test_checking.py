@@ -11,17 +11,17 @@ from changing import Lab
 
 from pico.backends.lease import BenchLock
 from pico.bench.bench import Bench
-from pico.bench.checking import Checked, check
+from pico.bench.checking import CheckReport, check
 from pico.diagnostics import PicoError
 
 TILTED = ("x: 520\n      y: 420\n      yaw: 0", "x: 520\n      y: 420\n      yaw: 30")
 
 
-def checked(lab: Lab, revision: str | None = None, **options: object) -> Checked:
+def checked(lab: Lab, revision: str | None = None, **options: object) -> CheckReport:
     return check(lab.root, revision, environment={}, **options)  # type: ignore[arg-type]
 
 
-def verdicts(found: Checked) -> Mapping[str, str]:
+def verdicts(found: CheckReport) -> Mapping[str, str]:
     return {c.question: c.verdict for c in found.labs[0].checks}
 
 

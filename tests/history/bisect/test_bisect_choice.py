@@ -11,7 +11,7 @@ from giving import Git
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pico.history.bisect.choice import Choice, Suspects, choices, halfway
+from pico.history.bisect.choice import NextCommit, Suspects, choices, halfway
 
 SECONDS = st.floats(0, 100, allow_nan=False)
 
@@ -81,7 +81,7 @@ def test_on_a_line_of_history_no_order_of_trials_takes_less_time(bench: Bench) -
         assert (ranked[0].score() if ranked else 0.0) == pytest.approx(least(bench))
 
 
-def narrowed(bench: Bench, left: list[int], at: int | None) -> tuple[list[Choice], list[int]]:
+def narrowed(bench: Bench, left: list[int], at: int | None) -> tuple[list[NextCommit], list[int]]:
     """Return the choices among those that are left, from where the bench stands."""
     number = {c: n for n, c in enumerate(left)}
     parents = [[number[p] for p in bench.suspects.parents[c] if p in number] for c in left]

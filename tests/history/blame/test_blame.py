@@ -21,7 +21,7 @@ from pico.diagnostics import PicoError
 from pico.history.blame.answer import answer, dumps, loads
 from pico.history.blame.blamed import Blamed, blame
 from pico.history.blame.flat import flatten, parsed
-from pico.history.blame.follow import Blame, Step, walk
+from pico.history.blame.follow import Blame, WalkStep, walk
 from pico.history.blame.leaves import shown
 from pico.history.blame.lines import read_lines
 from pico.history.blame.walk import CACHE, Walker, packaged_units
@@ -52,7 +52,7 @@ def walked(versions: Sequence[Version], first: int, last: int, known: Mapping[st
     """Walk the ancestors of version `last` that are no ancestors of `first - 1`, in memory."""
     ids = names(len(versions))
     wanted = ancestors(versions, last) - (ancestors(versions, first - 1) if first else set())
-    steps = [Step(ids[i], tuple(ids[p] for p in versions[i].parents)) for i in sorted(wanted)]
+    steps = [WalkStep(ids[i], tuple(ids[p] for p in versions[i].parents)) for i in sorted(wanted)]
 
     def delta(commit: str, base: str | None) -> dict[str, Any]:
         new = versions[ids.index(commit)].files()
