@@ -5,12 +5,12 @@ it and the git that it starts write below the lab, and lets the call of a given 
 on, as a disk that is full or was mounted read-only, EIO once, as a bad sector. Each command runs at each of its points
 with each fault, in a process and a lab of its own; with `--points` at so many of them, drawn by `--seed`.
 
-Afterwards: nobody speaks of a mistake in PICO; the message says which disk and why, and truly what was not done (moved,
-written into manifests, committed); no temporary file, lock or torn
-file is left (save one that a read-only disk did not let go of, the journal that SQLite plays back, and the lock of what
-PICO says that it will end: the next call must clear them); success was said only where the command did all of it; and
-the same command on the mended disk reaches what it reaches on a good one. Prints a table, and what was wrong; the exit
-code is 1 where anything was.
+Afterwards: nobody speaks of a mistake in PICO; the message says which disk and why, and truly what was not done
+(moved, written into manifests, committed); no temporary file, lock or torn file is left (save one that a read-only
+disk did not let go of, the journal that SQLite plays back, and the lock of what PICO says that it will end: the next
+call must clear them); success was said only where the command did all of it; and the same command on the mended disk,
+after what its hint asks for, reaches what it reaches on a good one. Prints a table, and what was wrong; the exit code
+is 1 where anything was.
 """
 
 from __future__ import annotations
@@ -425,6 +425,9 @@ def answered(judge: Judge, case: Case, fault: str, code: int | None, said: str, 
 def mended(judge: Judge, case: Case, code: int | None, good: Good) -> tuple[list[str], str]:
     """Call a command again on the mended disk; return what was wrong then, and what it said."""
     again = judge.run(judge.lab, *case.words)
+    if way := re.search(r"help: `pico (recover|capture( p2)?)`", judge.said.read_text()):
+        judge.run(judge.lab, *way[1].split(), *(["--auto-approve"] if way[1] == "recover" else []))
+        again = judge.run(judge.lab, *case.words)
     after, wrong, said = judge.state(case.out), [], ""
     if after != good.after and not (case.adds and 0 in (code, again)):
         wrong.append("not reached after")

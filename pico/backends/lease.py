@@ -70,8 +70,7 @@ class BenchLock:
         try:
             require_attached(self._root)  # it may have been taken to another worktree meanwhile
             with self._writing():
-                for folder in (self._folder, self._folder / "sim"):
-                    sweep(folder)
+                sweep(self._folder)
         except PicoError:
             os.close(file)
             raise

@@ -67,7 +67,9 @@ def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity
     from pico.backends.sight import require_trusted
 
     seen, setup = require_trusted(look.observation), bench.setup
-    problems = [_not_there(number) for number in sorted(types) if f"unknown/{number}" not in look.sighting.unknown]
+    problems = [
+        _not_there(setup, number) for number in sorted(types) if f"unknown/{number}" not in look.sighting.unknown
+    ]
     parts: list[Adopted] = []
     free = _free_slots(setup, look)
     # Those that stand in a slot first, so that it becomes their home and not that of another part.
@@ -163,7 +165,10 @@ def _name(setup: Setup, kind: str, marker: int) -> str:
     return f"{kind}_{marker}"
 
 
-def _not_there(marker: int) -> Diagnostic:
+def _not_there(setup: Setup, marker: int) -> Diagnostic:
+    if known := next((name for name, part in setup.lab.inventory.items() if part.marker == marker), ""):
+        hint = f"`pico capture {known}` takes where it stands into the state"
+        return error("no-marker", f"marker {marker} is that of {known}, which the inventory has", hint=hint)
     text = f"no marker {marker} stands on the table that the inventory lacks"
     return error("no-marker", text, hint="`pico scan` lists what is seen")
 

@@ -120,7 +120,9 @@ def _part(setup: Setup, seen: Observation, component: str) -> None:
     part = seen.components.get(component)
     if part is None or part.presence != "seen" or part.pose is None:
         what = part.presence if part else "missing"
-        raise PicoError(error("missing", f"{component} is {what}: it must be seen standing on the table first"))
+        hint = "`pico recover` sets it down" if what == "held" else "`pico drift` says what is seen of it"
+        text = f"{component} is {what}: it must be seen standing on the table first"
+        raise PicoError(error("missing", text, hint=hint))
 
 
 def _tunable(setup: Setup, seen: Observation, component: str, tunable: str) -> None:

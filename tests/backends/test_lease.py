@@ -82,9 +82,7 @@ def test_what_a_killed_mover_was_writing_is_cleared_by_whoever_takes_the_bench_n
     process = holder(tmp_path)
     process.kill()
     process.communicate()
-    folder = tmp_path / ".pico" / "sim"
-    folder.mkdir()
     for number in (process.pid, os.getpid()):
-        (folder / f".world.json.{number}.tmp").touch()
+        (tmp_path / ".pico" / f".memory.json.{number}.tmp").touch()
     with BenchLock(tmp_path).held("test"):
-        assert [path.name for path in folder.iterdir()] == [f".world.json.{os.getpid()}.tmp"]
+        assert [p.name for p in (tmp_path / ".pico").glob("*.tmp")] == [f".memory.json.{os.getpid()}.tmp"]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,6 +26,17 @@ from pico.model.quantities import Value
 from pico.model.record import as_json
 
 SETUP, _ = shel()
+
+
+def test_what_a_killed_writer_left_beside_the_world_is_cleared_by_who_reads_it(tmp_path: Path) -> None:
+    dead = subprocess.Popen(["true"])
+    dead.wait()
+    save_world(tmp_path, new_world(SETUP))
+    path = world_path(tmp_path)
+    for number in (dead.pid, os.getpid()):
+        path.with_name(f".world.json.{number}.tmp").touch()
+    load_world(SETUP, tmp_path)
+    assert {p.name for p in path.parent.iterdir()} == {"world.json", f".world.json.{os.getpid()}.tmp"}
 
 
 def with_parts(**parts: Part | None) -> Setup:

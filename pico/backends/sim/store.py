@@ -6,6 +6,7 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import FORMAT, FreePose, RememberedShape, World, WorldBody, new_world
 from pico.cameras.errors import CameraShift
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.disk import write_whole, writing
+from pico.disk import sweep, write_whole, writing
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
@@ -31,9 +32,12 @@ def world_path(root: Path) -> Path:
 def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]:
     """Return the simulated table of the lab in `root` and what had to change because the lab did.
 
-    A lab without one gets a new world; nothing is written. Raises PicoError where the file can't be read.
+    A lab without one gets a new world; nothing is written, and what a killed writer left is cleared. Raises PicoError
+    where the file can't be read.
     """
     path = world_path(root)
+    with suppress(OSError):
+        sweep(path.parent)
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
