@@ -19,7 +19,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     at_once = _at_once(words)
     if at_once is None:
         try:
-            from .ending import ended_by_signals
+            from .terminal.ending import ended_by_signals
 
             with ended_by_signals():
                 from .app import run
@@ -40,11 +40,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _at_once(words: list[str]) -> str | None:
     """Return the answer to `--version`, to the top-level `--help` and to Tab, or None where a command must run."""
     if "_PICO_COMPLETE" in os.environ:
-        from .complete import candidates
+        from .at_once.complete import candidates
 
         return "\n".join(candidates(words))
     if words in ([], ["--help"], ["-h"], ["help"]):
-        from .help import help_text
+        from .at_once.help import help_text
 
         return help_text()
     if words in (["--version"], ["-V"]):

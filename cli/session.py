@@ -13,9 +13,9 @@ import typer
 
 from pico.diagnostics import PicoError, error
 
-from .output import write
+from .terminal.output import write
+from .terminal.waiting import waiting
 from .views.style import inert_json
-from .waiting import waiting
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -9,9 +9,20 @@ import typer
 
 from pico.diagnostics import PicoError, error
 
-from ..arguments import Exact, Exclude, Fidelity, LockTimeout, PlanOrRevision, Prefer, StopOnError, Targets, Yes
-from ..running import approve
-from ..scope import Scoped, scope_of
+from ..arguments import (
+    Exact,
+    Exclude,
+    Fidelity,
+    LockTimeout,
+    PlanOrRevision,
+    Prefer,
+    Scoped,
+    StopOnError,
+    Targets,
+    Yes,
+    scope_of,
+)
+from ..runs.approving import approve
 from ..session import Session
 
 CLASS = Scoped

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..arguments import Fidelity, LockTimeout, Yes
-from ..output import write
+from ..runs.trying import go_on
 from ..session import Session
+from ..terminal.output import write
+from ..views import bisect as view
 
 if TYPE_CHECKING:
     from pico.history.bisect.kept import Verdict
@@ -84,8 +86,6 @@ def continue_(
     lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Go on with the bisection under way, from the bench as it stands."""
-    from ..bisecting import go_on
-
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity, writing=True)
     return go_on(session, bench, bench.bisection(expect=expect), auto_approve)
@@ -121,8 +121,6 @@ def skip(
 @app.command()
 def status(context: typer.Context) -> None:
     """Show what was tried, what is under trial, and how many are left."""
-    from ..views import bisect as view
-
     session = Session.of(context)
     bench = session.bench()
     search = bench.bisection()
@@ -153,9 +151,6 @@ def reset(context: typer.Context) -> None:
 def _begin(
     context: typer.Context, bad: str, good: str, how: dict[str, Any], auto_approve: bool, fidelity: str | None
 ) -> int:  # fmt: skip
-    from ..bisecting import go_on
-    from ..views import bisect as view
-
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity, writing=True)
     search = bench.bisect(bad, good, **how)
@@ -166,9 +161,6 @@ def _begin(
 def _told(
     context: typer.Context, verdict: Verdict, commit: str | None, auto_approve: bool, fidelity: str | None
 ) -> int:  # fmt: skip
-    from ..bisecting import go_on
-    from ..views import bisect as view
-
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity, writing=True)
     search = bench.bisection()

@@ -30,7 +30,7 @@ def bisect_step(
     """
     from pico.bench.bisecting.step import TrialStep, bisecting, step
 
-    from ..bisecting import bring
+    from ..runs.trying import bring
     from ..views import bisect as view
 
     session = Session.of(context)

@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..paging import paged
 from ..session import Session
+from ..terminal.paging import paged
 from ..views import blame as view
 
 

@@ -22,5 +22,4 @@ def capture(
     Only values that differ by more than their tolerance change, one line each; comments and layout stay.
     """
     session = Session.of(context)
-    bench = session.bench(writing=not dry_run)
-    session.show(view, bench.capture(*(only or ()), write=not dry_run))
+    session.show(view, session.bench(writing=not dry_run).capture(*(only or ()), write=not dry_run))

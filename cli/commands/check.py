@@ -12,10 +12,10 @@ import typer
 from pico.disk import write_whole, writing
 
 from ..arguments import Fidelity
-from ..output import write
 from ..session import Session
+from ..terminal.output import write
+from ..terminal.waiting import waiting
 from ..views import check as view
-from ..waiting import waiting
 
 if TYPE_CHECKING:
     from pico.bench.checking import CheckReport

@@ -9,9 +9,9 @@ import typer
 from pico.attachment import require_attached
 from pico.diagnostics import ExitCode
 
-from ..arguments import Fidelity, LockTimeout, Yes
-from ..running import execute, question, show
-from ..scope import Scoped, scope_of
+from ..arguments import Fidelity, LockTimeout, Scoped, Yes, scope_of
+from ..runs.approving import question, show
+from ..runs.running import execute
 from ..session import Session
 from ..views import taken as taken_view
 

@@ -48,7 +48,7 @@ def commit(
     mode: CommitMode = "capture" if capture else "planned" if planned else "strict"
     text = "\n\n".join(message) if message else None
     if edit:
-        from ..editing import edited
+        from ..terminal.editing import edited
 
         text = edited(bench, text if text is not None else bench.draft(mode, only=only or ()))
     made = bench.commit(text, mode, only=only or (), meta=recorded)

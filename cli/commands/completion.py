@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ..complete import HOW, SCRIPTS
+from ..at_once.complete import HOW, SCRIPTS
 from ..session import Session
 
 

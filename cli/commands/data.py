@@ -12,8 +12,8 @@ from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Yes
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import data as view
-from ..waiting import waiting
 
 if TYPE_CHECKING:
     from pico.history.data.lab import LabData

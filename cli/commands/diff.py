@@ -7,10 +7,9 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Revision
-from ..paging import paged
-from ..scope import Scoped, scope_of
+from ..arguments import Revision, Scoped, scope_of
 from ..session import Session
+from ..terminal.paging import paged
 from ..views import diff as view
 
 CLASS = Scoped

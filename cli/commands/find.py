@@ -12,8 +12,8 @@ from pico.model.request import require_component
 
 from ..arguments import Component
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import find as view
-from ..waiting import waiting
 
 Picture = Annotated[
     Path | None, typer.Option("--picture", metavar="PNG", help="What a camera sees around it, with names drawn in.")

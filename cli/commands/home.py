@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..arguments import Component, DryRun, Fidelity, LockTimeout
-from ..running import single
+from ..runs.approving import single
 from ..session import Session
 
 

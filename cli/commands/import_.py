@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import imported as view
-from ..waiting import waiting
 
 Types = Annotated[
     list[str] | None,

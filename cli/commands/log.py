@@ -9,9 +9,9 @@ import typer
 
 from pico.diagnostics import PicoError, error
 
-from ..paging import paged
-from ..scope import Scoped, scope_of
+from ..arguments import Scoped, scope_of
 from ..session import Session
+from ..terminal.paging import paged
 from ..views import log as view
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..arguments import Component, DryRun, Fidelity, LockTimeout, Speed
-from ..running import finish
+from ..runs.approving import finish
 from ..session import Session
 
 

@@ -10,8 +10,7 @@ import typer
 from pico.diagnostics import ExitCode
 from pico.disk import write_whole
 
-from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Targets
-from ..scope import Scoped, scope_of
+from ..arguments import DetailedExit, Exact, Exclude, Fidelity, Out, Prefer, Revision, Scoped, Targets, scope_of
 from ..session import Session
 from ..views import plan as view
 

@@ -8,8 +8,8 @@ from typing import Annotated, Literal
 import typer
 
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import published as view
-from ..waiting import waiting
 
 
 def publish(

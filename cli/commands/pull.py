@@ -10,9 +10,9 @@ from pico.diagnostics import ExitCode, warning
 
 from ..arguments import GitWords
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import data as said
 from ..views import pulled as view
-from ..waiting import waiting
 
 SETTINGS = {"ignore_unknown_options": True}
 

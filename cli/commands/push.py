@@ -11,9 +11,9 @@ from pico.diagnostics import PicoError, error, warning
 
 from ..arguments import GitWords
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import data as said
 from ..views import pushed as view
-from ..waiting import waiting
 
 if TYPE_CHECKING:
     from pico.history.data.lab import LabData

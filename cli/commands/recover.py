@@ -9,7 +9,7 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, LockTimeout, Yes
-from ..running import approve
+from ..runs.approving import approve
 from ..session import Session
 
 Keys = Annotated[

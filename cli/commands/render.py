@@ -13,8 +13,8 @@ from pico.disk import write_whole
 
 from ..arguments import Revision
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import picture as view
-from ..waiting import waiting
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -7,7 +7,7 @@ import typer
 from pico.diagnostics import PicoError, error
 
 from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, pairs
-from ..running import single
+from ..runs.approving import single
 from ..session import Session
 
 SETTINGS = {"ignore_unknown_options": True}

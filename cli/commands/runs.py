@@ -39,8 +39,7 @@ def list_(
     """
     session = Session.of(context)
     wrong: list[Diagnostic] = []
-    found = session.bench().runs(revision, every=every, component=component, diagnostics=wrong)
-    session.show(table, found, wrong)
+    session.show(table, session.bench().runs(revision, every=every, component=component, diagnostics=wrong), wrong)
     session.tell(wrong)
 
 

@@ -10,8 +10,8 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import scan as view
-from ..waiting import waiting
 
 Picture = Annotated[
     Path | None, typer.Option("--picture", metavar="PNG", help="The overhead picture with names drawn in.")

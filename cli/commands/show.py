@@ -7,8 +7,8 @@ import typer
 from pico.model.plan import Plan
 
 from ..arguments import PlanOrRevision
-from ..paging import paged
 from ..session import Session
+from ..terminal.paging import paged
 from ..views import plan as plan_view
 from ..views import revision as revision_view
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from ..arguments import Component
 from ..session import Session
 from ..views import simulated as said
+
+if TYPE_CHECKING:
+    from pico.backends.sim.table import SimulatedTable
 
 app = typer.Typer(
     rich_markup_mode=None,
@@ -20,9 +24,7 @@ app = typer.Typer(
 @app.command()
 def reset(context: typer.Context) -> None:
     """Put every part of the simulated bench home, as in a new world."""
-    session = Session.of(context)
-    session.bench().sim.reset()
-    session.show(said, "every part of the simulated bench is at home")
+    _act(context, lambda sim: sim.reset(), "every part of the simulated bench is at home")
 
 
 @app.command()
@@ -51,18 +53,15 @@ def bump(
     dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
 ) -> None:
     """Push a camera, as somebody bumping its post would: it keeps looking from there until a reset."""
-    session = Session.of(context)
-    session.bench().sim.bump(camera, shift=(dx, dy, dz), turn=(0.0, 0.0, dyaw))
-    moved = f"({dx:g}, {dy:g}, {dz:g}) mm, {dyaw:g} deg"
-    session.show(said, f"{camera or 'every camera at the table'} moved by {moved}; its calibration is as before")
+    moved = f"{camera or 'every camera at the table'} moved by ({dx:g}, {dy:g}, {dz:g}) mm, {dyaw:g} deg"
+    shift, turn = (dx, dy, dz), (0.0, 0.0, dyaw)
+    _act(context, lambda sim: sim.bump(camera, shift=shift, turn=turn), f"{moved}; its calibration is as before")
 
 
 @app.command()
 def remove(context: typer.Context, name: Component) -> None:
     """Take a component off the simulated table: it is then missing."""
-    session = Session.of(context)
-    session.bench().sim.remove(name)
-    session.show(said, f"{name} is off the table; `pico sim reset` brings everything back")
+    _act(context, lambda sim: sim.remove(name), f"{name} is off the table; `pico sim reset` brings everything back")
 
 
 @app.command()
@@ -71,8 +70,7 @@ def view(context: typer.Context) -> None:
     from pico.drawing.viewer import require_display
 
     require_display()
-    session = Session.of(context)
-    session.bench().view()
+    Session.of(context).bench().view()
 
 
 @app.command()
@@ -84,9 +82,8 @@ def person(
     ],
 ) -> None:
     """Let somebody step up to the simulated table, or go away: policies ask about it, and nothing heals meanwhile."""
-    session = Session.of(context)
-    session.bench().sim.person(where == "here")
-    session.show(said, "somebody is at the table" if where == "here" else "nobody is at the table")
+    here = where == "here"
+    _act(context, lambda sim: sim.person(here), f"{'somebody' if here else 'nobody'} is at the table")
 
 
 @app.command(name="power-cycle")
@@ -96,9 +93,7 @@ def power_cycle(context: typer.Context) -> None:
     Axes that must be homed then stand nobody knows where, and the next plan homes them first; electronics are dark and
     closed.
     """
-    session = Session.of(context)
-    session.bench().sim.power_cycle()
-    session.show(said, "the power was off; the next plan homes what must be homed")
+    _act(context, lambda sim: sim.power_cycle(), "the power was off; the next plan homes what must be homed")
 
 
 @app.command()
@@ -116,3 +111,10 @@ def faults(
     found = session.bench().sim.faults(words or ())
     rates = ", ".join(f"{kind} {100 * rate:g} %" for kind, rate in found.rates.items() if rate)
     session.show(said, f"faults: {rates} of the operations, seed {found.seed}" if rates else "nothing goes wrong")
+
+
+def _act(context: typer.Context, act: Callable[[SimulatedTable], object], text: str) -> None:
+    """Do something to the simulated world, and say what."""
+    session = Session.of(context)
+    act(session.bench().sim)
+    session.show(said, text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from ..arguments import Component, DryRun, Fidelity, LockTimeout, Speed
-from ..running import single
+from ..runs.approving import single
 from ..session import Session
 
 

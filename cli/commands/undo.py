@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from ..arguments import Fidelity, LockTimeout, Yes
-from ..running import approve
+from ..runs.approving import approve
 from ..session import Session
 
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 from commanding import Pico
-from pico_cli.complete import candidates
-from pico_cli.paging import _pager
+from pico_cli.at_once.complete import candidates
 from pico_cli.session import Session
+from pico_cli.terminal.paging import _pager
 
 from pico.history.git import trees
 from pico.history.repository.repository import Repository

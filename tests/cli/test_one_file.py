@@ -11,8 +11,8 @@ from pathlib import Path
 import pico_cli.commands
 import pytest
 from commanding import Pico, edit
-from pico_cli.complete import candidates
-from pico_cli.help import help_text
+from pico_cli.at_once.complete import candidates
+from pico_cli.at_once.help import help_text
 
 from pico.resources import catalog_dir, labs_dir
 

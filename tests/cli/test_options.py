@@ -12,11 +12,11 @@ from typing import Any
 import pytest
 from commanding import Pico, edit
 from pico_cli.app import build
+from pico_cli.at_once.complete import SHARED, candidates
+from pico_cli.at_once.declared import declared
+from pico_cli.at_once.help import help_text
 from pico_cli.commands import files, summary
-from pico_cli.complete import SHARED, candidates
-from pico_cli.declared import declared
-from pico_cli.help import help_text
-from pico_cli.output import write
+from pico_cli.terminal.output import write
 
 LEAVES = [f"{name} {below}".strip() for name, path in files().items() for below in declared(path)]
 

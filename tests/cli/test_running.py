@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 from commanding import Pico
-from pico_cli.running import execute, question
+from pico_cli.runs.approving import question
+from pico_cli.runs.running import execute
 from pico_cli.session import Session
 
 from pico.bench.async_bench import AsyncBench

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .commands import summary
+from ..commands import summary
 
 OPTIONS = {
     "-C DIR": "Work as if started in DIR.",

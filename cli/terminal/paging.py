@@ -8,8 +8,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
+from ..session import Session
 from .ending import Ended
-from .session import Session
 
 
 @contextmanager

@@ -10,15 +10,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import ExitCode
 from pico.model.record import as_json
 
-from .output import write
-from .session import Session, standing
-from .views import plan as plan_view
-from .views import report as report_view
-from .views import verified
-from .views.run import Progress
+from ..session import Session, standing
+from ..terminal.output import write
+from ..views import report as report_view
+from ..views.run import Progress
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -48,9 +45,13 @@ class Screen:
             write(sys.stdout, live, end="", over=True)
 
     def stay(self, line: str) -> None:
+        self.clear()
+        self.session.say(line)
+
+    def clear(self) -> None:
+        """Leave the line that is overwritten empty."""
         if self.terminal:
             write(sys.stdout, "", end="", over=True)
-        self.session.say(line)
 
 
 def execute(
@@ -104,73 +105,3 @@ def watched(run: Execution, show: Callable[[Event], None]) -> tuple[int, ...]:
 
 def _say(text: str) -> None:
     os.write(2, text.encode())  # print is not safe in the handler of a signal
-
-
-def approve(
-    session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
-) -> int:
-    """Show a plan, ask, run it, and return the exit code; `options` are those of `AsyncBench.run`."""
-    if code := show(session, plan, auto_approve, head=bench.head_name(), goal=bench.goal_name(plan)):
-        return code
-    if not plan.operations:
-        bench.settle()
-        return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
-    session.say("")
-    if not session.confirm(question(plan), auto_approve):
-        session.say("Nothing moved.")
-        return ExitCode.ERROR
-    return execute(session, bench, plan, record, **options)
-
-
-def single(
-    session: Session,
-    component: str,
-    primitive: str,
-    arguments: dict[str, str],
-    speed: float | None,
-    dry_run: bool,
-    fidelity: str | None,
-) -> int:
-    """Plan one operation and run it."""
-    bench = session.bench(fidelity, speed, writing=not dry_run)
-    return finish(session, bench, bench.single(component, primitive, arguments), dry_run)
-
-
-def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool) -> int:
-    """Show and run the plan of one operation. Nobody is asked: the command named it."""
-    code = show(session, plan, single=True)
-    if code or dry_run or not plan.operations:
-        return code
-    session.say("")
-    return execute(session, bench, plan)
-
-
-def show(session: Session, plan: Plan, auto_approve: bool = True, **how: Any) -> ExitCode:
-    """Show a plan and what is wrong with it; return why it can't be run, or DONE. Raises PicoError where nobody can be
-    asked; `how`: see `views.plan.text`."""
-    if plan.operations:
-        session.require_answer(auto_approve)
-    session.show(plan_view, plan, **how)
-    session.tell(plan.diagnostics)
-    return plan.exit_code
-
-
-def _expected(session: Session, bench: Bench, plan: Plan) -> int:
-    """Check the expectations of a goal that the bench has reached already."""
-    if not plan.target.expect or plan.target.scope:
-        return ExitCode.DONE
-    found = bench.expected(plan)
-    if session.json:
-        session.document(verified.data(found))
-    session.say("\n".join(report_view.expectations(found.expectations)))
-    return found.exit_code
-
-
-def question(plan: Plan) -> str:
-    """Return what is asked before anything moves."""
-    moved = len({op.component for op in plan.operations if op.primitive in ("move", "stow")})
-    where = f"on {plan.backend} ({plan.fidelity})"
-    if moved:
-        return f"Move {moved} {'component' if moved == 1 else 'components'} {where}?"
-    steps = len(plan.operations)
-    return f"Run {steps} {'operation' if steps == 1 else 'operations'} {where}?"

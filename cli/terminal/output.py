@@ -8,7 +8,7 @@ import stat
 import sys
 from typing import TextIO
 
-from .views.style import inert, plain
+from ..views.style import inert, plain
 
 GONE = (errno.EPIPE, errno.EIO)
 """Writing fails so where nobody reads any more: a pipe was closed, or a terminal."""

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
-from .output import write
+from ..session import Session
+from ..terminal.waiting import waiting
+from ..views import bisect as view
+from ..views.run import Progress
 from .running import Screen, watched
-from .session import Session
-from .views import bisect as view
-from .views.run import Progress
-from .waiting import waiting
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -83,7 +81,7 @@ def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
     report = run.report
     if report.outcome == "done" and report.reached:
         return report.seconds, ExitCode.DONE
-    from .views import report as report_view
+    from ..views import report as report_view
 
     session.show(report_view, report)
     session.tell(report.diagnostics)
@@ -96,10 +94,6 @@ class Quiet(Screen):
     def show(self, event: Event) -> None:
         if not self.session.json and not self.progress.line(event):
             super().show(event)
-
-    def clear(self) -> None:
-        if self.terminal:
-            write(sys.stdout, "", end="", over=True)
 
 
 def _over(session: Session, bench: Bench, search: Bisection) -> int:

@@ -13,7 +13,9 @@ Declared = tuple[dict[str, str], list[str]]
 def declared(file: str) -> dict[str, Declared]:
     """Return what the command in a file takes, or each command of the group in it by its name; "" is a single one."""
     path = Path(file)
-    tree, shared = (ast.parse(p.read_text(encoding="utf-8")) for p in (path, Path(__file__).with_name("arguments.py")))
+    tree, shared = (
+        ast.parse(p.read_text(encoding="utf-8")) for p in (path, Path(__file__).parents[1] / "arguments.py")
+    )
     named = {n.targets[0].id: n.value for n in (*shared.body, *tree.body)
              if isinstance(n, ast.Assign) and isinstance(n.targets[0], ast.Name)}  # fmt: skip
     found = {_name(node, path.stem): node for node in tree.body if isinstance(node, ast.FunctionDef)}

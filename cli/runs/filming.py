@@ -7,9 +7,9 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .session import Session
-from .views import film as view
-from .waiting import waiting
+from ..session import Session
+from ..terminal.waiting import waiting
+from ..views import film as view
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .commands import files
+from ..commands import files
 
 if TYPE_CHECKING:
     from .declared import Declared

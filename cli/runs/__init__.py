@@ -1,0 +1,1 @@
+"""From a plan to its report: shown, approved, run with its progress on the screen, filmed."""
