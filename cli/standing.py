@@ -26,8 +26,9 @@ class Standing:
         self.head = at and (head, small(at.common / head.removeprefix(b"ref: ").decode(errors="surrogateescape")))
 
     def told(self, found: Sequence[Diagnostic]) -> list[Diagnostic]:
-        """Return `found` with a note of what is as it was, and what is not, where a disk is what is wrong."""
-        if not any(of_disk(d) for d in found):
+        """Return `found` with a note of what is as it was, and what is not, where a disk is wrong, or where git failed
+        and does not tell why."""
+        if not any(of_disk(d) or d.code == "git" for d in found):
             return [*found]
         now = Standing(self.root)
         said = [
