@@ -40,7 +40,7 @@ from pico_cli.main import main as pico  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
 from pico.bench.bisecting.costs import PlanSeconds  # noqa: E402
 from pico.bench.bisecting.step import step  # noqa: E402
-from pico.history.bisect.kept import GitBisect  # noqa: E402
+from pico.history.bisect.git_state import GitBisect  # noqa: E402
 from pico.model.plan import Plan  # noqa: E402
 
 

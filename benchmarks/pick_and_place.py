@@ -30,7 +30,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from oracles.penetration import Watch  # noqa: E402
 
-from pico.backends.sim.judge import standing  # noqa: E402
+from pico.backends.sim.checks import standing  # noqa: E402
 from pico.backends.sim.mover import MoveFailed  # noqa: E402
 from pico.backends.sim.physics import PhysicsWorld  # noqa: E402
 from pico.backends.sim.world import new_world  # noqa: E402

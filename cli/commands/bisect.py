@@ -14,7 +14,7 @@ from ..terminal.output import write
 from ..views import bisect as view
 
 if TYPE_CHECKING:
-    from pico.history.bisect.kept import Verdict
+    from pico.history.bisect.git_state import Verdict
 
 Bad = Annotated[str, typer.Argument(metavar="BAD", help="A revision that is bad.")]
 Good = Annotated[str, typer.Argument(metavar="GOOD", help="An earlier one that is good.")]

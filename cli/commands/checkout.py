@@ -13,11 +13,11 @@ from ..arguments import Fidelity, LockTimeout, Scoped, Yes, scope_of
 from ..runs.approving import question, show
 from ..runs.running import execute
 from ..session import Session
-from ..views import taken as taken_view
+from ..views import checkout as view
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
-    from pico.history.restoring.selected import Taken
+    from pico.history.restoring.selected import SelectedParts
     from pico.model.plan import Plan
 
 CLASS = Scoped
@@ -43,12 +43,12 @@ def checkout(
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)
     named = scope_of(context)
-    what = bench.taken(revision, named) if named else revision
+    what = bench.parts_at(revision, named) if named else revision
     before = bench.here()
     if files_only:
         return _files(session, bench, what, before)
     plan = bench.checkout_plan(what)
-    goal = bench.goal_name(plan) if isinstance(what, str) else taken_view.goal(bench.name_of(revision))
+    goal = bench.goal_name(plan) if isinstance(what, str) else view.goal(bench.name_of(revision))
     if code := show(session, plan, auto_approve, head=bench.head_name(), goal=goal):
         return code
     if plan.operations and not session.confirm("\n" + question(plan), auto_approve):
@@ -57,7 +57,7 @@ def checkout(
     return _go(session, bench, what, plan, before)
 
 
-def _go(session: Session, bench: Bench, what: str | Taken, plan: Plan, before: str) -> int:
+def _go(session: Session, bench: Bench, what: str | SelectedParts, plan: Plan, before: str) -> int:
     """Bring files and bench there, and return the exit code."""
     if plan.operations:
         require_attached(bench.root)
@@ -67,27 +67,27 @@ def _go(session: Session, bench: Bench, what: str | Taken, plan: Plan, before: s
         session.say(f"\nThe files are at {bench.head_name()}. Go back with `pico checkout {before}`.")
         back = ""
     else:
-        session.say(f"\n{taken_view.text(what)}")
-        back = taken_view.next_step(what)
+        session.say(f"\n{view.text(what)}")
+        back = view.next_step(what)
     if plan.operations:
         return execute(session, bench, plan, after=back)
     session.say(back)
     return ExitCode.DONE
 
 
-def _files(session: Session, bench: Bench, what: str | Taken, before: str) -> int:
+def _files(session: Session, bench: Bench, what: str | SelectedParts, before: str) -> int:
     """Bring the files there and nothing else."""
     if isinstance(what, str):
         bench.folder.refuse_edits()
     notes = bench.checkout_files(what)
     if session.json:
-        session.document(taken_view.data(what, commit=bench.head_commit()))
+        session.document(view.data(what, commit=bench.head_commit()))
         return ExitCode.DONE
     session.report(notes)
     if isinstance(what, str):
         session.say(f"The files are at {bench.head_name()}; nothing moved: `pico plan` shows what would.")
         session.say(f"Go back with `pico checkout {before} --files-only`.")
     else:
-        session.say(f"{taken_view.text(what)}\nNothing moved: `pico plan` shows what would.")
-        session.say(taken_view.next_step(what, files_only=True))
+        session.say(f"{view.text(what)}\nNothing moved: `pico plan` shows what would.")
+        session.say(view.next_step(what, files_only=True))
     return ExitCode.DONE

@@ -8,7 +8,7 @@ import typer
 
 from ..arguments import Mainline, NoCommit
 from ..session import Session
-from ..views import carried as view
+from ..views import transplanted as view
 
 
 def cherry_pick(

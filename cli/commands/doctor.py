@@ -13,11 +13,11 @@ from ..views import doctor as view
 def doctor(context: typer.Context) -> int:
     """Check that git, its merge driver and the manifests are as PICO needs them."""
     from pico.history.git.attributes import checkup
-    from pico.history.lab.withheld import withheld
+    from pico.history.lab.missing_files import missing_files
     from pico.manifest.folders import check_folder
 
     session = Session.of(context)
-    checked = check_folder(session.folder, beside=withheld)
+    checked = check_folder(session.folder, beside=missing_files)
     found = (*checkup(session.folder), *checked.diagnostics)
     session.tell(found)
     session.show(view, found)

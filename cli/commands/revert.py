@@ -10,7 +10,7 @@ from pico.diagnostics import PicoError, error
 
 from ..arguments import Mainline, NoCommit
 from ..session import Session
-from ..views import carried as view
+from ..views import transplanted as view
 
 
 def revert(

@@ -22,13 +22,13 @@ def validate(
     Also that everything has room where the state wants it. All errors at once, each with its place. Does not ask the
     bench; asks Git what it keeps out of the folder, and what its merge kept.
     """
-    from pico.history.lab.withheld import withheld
+    from pico.history.lab.missing_files import missing_files
     from pico.history.merge.checked import overlapping
     from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
 
     session = Session.of(context)
-    where, asked = session.folder, (lambda root, read: [*overlapping(read), *doubts_in(root, read)], withheld)
+    where, asked = session.folder, (lambda root, read: [*overlapping(read), *doubts_in(root, read)], missing_files)
     checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
     session.tell(checked.diagnostics)
     session.show(view, checked)

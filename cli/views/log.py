@@ -112,7 +112,7 @@ def _what(entry: CommitEntry) -> str:
 
 def _long(entry: CommitEntry, _: int) -> list[str]:
     what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else lines(entry.changes)
-    return [*header(entry), "", *what, *proven(entry), ""]
+    return [*header(entry), "", *what, *evidence_lines(entry), ""]
 
 
 def header(entry: CommitEntry) -> list[str]:
@@ -137,7 +137,7 @@ def proofs(entry: CommitEntry) -> list[str]:
     return [*evidence, *(ended(run) for run in entry.runs)]
 
 
-def proven(entry: CommitEntry) -> list[str]:
+def evidence_lines(entry: CommitEntry) -> list[str]:
     """Return lines with the evidence for a commit, and for each of its runs how it ended and what did not hold."""
     found = []
     standing = entry.standing

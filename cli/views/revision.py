@@ -9,7 +9,7 @@ from pico.model.record import as_json
 from pico.model.state import place_of
 
 from .diff import lines
-from .log import entry_data, header, noted, proven
+from .log import entry_data, evidence_lines, header, noted
 from .style import columns, paint, place
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def text(found: Shown) -> str:
     table = [[paint("dim", cell) for cell in ("component", "where", "tunables")], *_rows(found)]
     digest = found.state.digest()
     head = f"{component} at {entry.commit.label}:" if component else f"State {digest[:19]}:"
-    block = [*header(entry), "", "Changed:", *what, *proven(entry), "", *said, *([""] if said else [])]
+    block = [*header(entry), "", "Changed:", *what, *evidence_lines(entry), "", *said, *([""] if said else [])]
     return "\n".join([*block, head, *columns(table, indent="  ")])
 
 

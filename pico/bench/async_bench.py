@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
     from pico.drawing.film.film import Caption
-    from pico.history.restoring.selected import Taken
+    from pico.history.restoring.selected import SelectedParts
     from pico.manifest.load import Manifests
     from pico.model.state import LabState
     from pico.planning.explaining.explain import Explanation
@@ -207,7 +207,7 @@ class AsyncBench(Drawings):
 
         return explain(self.setup, plan, component)
 
-    async def checkout_plan(self, revision: str | Taken, *, exact: bool = False) -> Plan:
+    async def checkout_plan(self, revision: str | SelectedParts, *, exact: bool = False) -> Plan:
         """Return the plan to a revision that is about to be checked out, or to what is taken from one for some
         components; raises PicoError where edits would be lost."""
         if not isinstance(revision, str):
@@ -216,7 +216,7 @@ class AsyncBench(Drawings):
         self.folder.refuse_edits()
         return (await self.plan(revision, exact=exact)).because("checkout")
 
-    def checkout_files(self, revision: str | Taken) -> tuple[Diagnostic, ...]:
+    def checkout_files(self, revision: str | SelectedParts) -> tuple[Diagnostic, ...]:
         """Check a revision out with git, or write what is taken from one. Moves nothing; raises PicoError.
 
         This bench stays what it is, for a revision can't change which parts there are; a warning says so where the

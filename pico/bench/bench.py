@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     from pico.history.data.lab import LabData
     from pico.history.git.commit import Commit
     from pico.history.merge.commits import MergeMade
-    from pico.history.restoring.selected import Taken
+    from pico.history.restoring.selected import SelectedParts
     from pico.history.restoring.stash import Stash
-    from pico.history.restoring.transplant import Carried
+    from pico.history.restoring.transplant import Transplanted
     from pico.history.runs.comparing import Comparison
     from pico.model.run import Run
     from pico.planning.explaining.explain import Explanation
@@ -92,29 +92,29 @@ class Bench(Reader):
 
     def scan(self) -> Look:
         """Look at the table through its cameras; see `pico.bench.looking.scan`."""
-        from pico.bench import looking as scans
+        from pico.bench import looking
 
-        return self._thread.wait(scans.scan(self._bench))
+        return self._thread.wait(looking.scan(self._bench))
 
     def import_parts(self, types: Sequence[str] = (), *, write: bool = True) -> Imported:
         """Take what stands on the table and is not in the inventory into it; see `pico.bench.importing`."""
-        from pico.bench import importing as imports
+        from pico.bench import importing
 
-        wanted = imports.read_types(types)
-        parts = imports.importable(self._bench, self.scan(), wanted)
-        return imports.take_in(self._bench, parts, write=write)
+        wanted = importing.read_types(types)
+        parts = importing.importable(self._bench, self.scan(), wanted)
+        return importing.take_in(self._bench, parts, write=write)
 
     def calibrate(self) -> Calibration:
         """Find out where the cameras are, and write it; see `pico.bench.looking.calibrate`."""
-        from pico.bench import looking as scans
+        from pico.bench import looking
 
-        return scans.calibrate(self._bench)
+        return looking.calibrate(self._bench)
 
     def scan_picture(self, look: Look, *, out: Path | None = None, component: str | None = None) -> Image:
         """Return a camera's picture of a scan, with names drawn in; see `pico.bench.looking.picture`."""
-        from pico.bench import looking as scans
+        from pico.bench import looking
 
-        return scans.picture(self._bench, look, out, component)
+        return looking.picture(self._bench, look, out, component)
 
     def plan(
         self,
@@ -136,31 +136,31 @@ class Bench(Reader):
 
     def require_fresh(self, plan: Plan) -> None:
         """Raise PicoError (exit code STALE) where a saved plan does not fit any more; see `pico.bench.saved_plans`."""
-        from pico.bench import saved_plans as saved
+        from pico.bench import saved_plans
 
-        self._thread.wait(saved.require_fresh(self._bench, plan))
+        self._thread.wait(saved_plans.require_fresh(self._bench, plan))
 
     def refreshed(self, plan: Plan) -> Plan:
         """Return a new plan to the goal of a saved one; see `pico.bench.saved_plans`."""
-        from pico.bench import saved_plans as saved
+        from pico.bench import saved_plans
 
-        return self._thread.wait(saved.refreshed(self._bench, plan))
+        return self._thread.wait(saved_plans.refreshed(self._bench, plan))
 
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is; see `AsyncBench.explain`."""
         return self._bench.explain(plan, component)
 
-    def taken(self, revision: str, names: Sequence[str]) -> Taken:
+    def parts_at(self, revision: str, names: Sequence[str]) -> SelectedParts:
         """Return what the manifests must say for parts of a state to be as in a revision; see `restoring.checked`."""
-        from pico.history.restoring import checked as restoring
+        from pico.history.restoring import checked
 
-        return restoring.take(self.folder, revision, names)
+        return checked.select_parts(self.folder, revision, names)
 
-    def checkout_plan(self, revision: str | Taken, *, exact: bool = False) -> Plan:
+    def checkout_plan(self, revision: str | SelectedParts, *, exact: bool = False) -> Plan:
         """Return the plan to a revision, or to a part of one, that is about to be checked out."""
         return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
 
-    def checkout_files(self, revision: str | Taken) -> tuple[Diagnostic, ...]:
+    def checkout_files(self, revision: str | SelectedParts) -> tuple[Diagnostic, ...]:
         """Check a revision, or a part of one, out. Moves nothing; see `AsyncBench.checkout_files`."""
         return self._bench.checkout_files(revision)
 
@@ -196,39 +196,39 @@ class Bench(Reader):
 
     def resume_plan(self) -> tuple[Plan, str]:
         """Return the plan to the goal of the last run, and its id; see `pico.bench.resuming`."""
-        from pico.bench import resuming as takeup
+        from pico.bench import resuming
 
-        return self._thread.wait(takeup.resume_plan(self._bench))
+        return self._thread.wait(resuming.resume_plan(self._bench))
 
     def undo_plan(self) -> Plan:
         """Return the plan back to before the last run; see `pico.bench.resuming`."""
-        from pico.bench import resuming as takeup
+        from pico.bench import resuming
 
-        return self._thread.wait(takeup.undo_plan(self._bench))
+        return self._thread.wait(resuming.undo_plan(self._bench))
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold; see `pico.bench.resuming`."""
-        from pico.bench import resuming as takeup
+        from pico.bench import resuming
 
-        return self._thread.wait(takeup.recover_plan(self._bench))
+        return self._thread.wait(resuming.recover_plan(self._bench))
 
     def settle(self) -> None:
         """Record what became of operations that a killed run had begun; see `pico.bench.resuming`."""
-        from pico.bench import resuming as takeup
+        from pico.bench import resuming
 
-        self._thread.wait(takeup.settle(self._bench))
+        self._thread.wait(resuming.settle(self._bench))
 
     def open_questions(self) -> list[Diagnostic]:
         """Return what only a person can tell of the last runs."""
-        from pico.bench import resuming as takeup
+        from pico.bench import resuming
 
-        return takeup.open_questions(self._bench)
+        return resuming.open_questions(self._bench)
 
     def answer(self, key: str, *, done: bool) -> None:
         """Record what a person says of an operation that only a person can tell the end of; raises PicoError."""
-        from pico.bench import resuming as takeup
+        from pico.bench import resuming
 
-        takeup.answer(self._bench, key, "done" if done else "failed")
+        resuming.answer(self._bench, key, "done" if done else "failed")
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
@@ -258,24 +258,24 @@ class Bench(Reader):
 
     def look(self) -> Drifted:
         """Return where the bench has left HEAD, by how much, how surely and who did it; see `pico.bench.drift`."""
-        from pico.bench import drift as watching
+        from pico.bench import drift
 
-        return self._thread.wait(watching.look(self._bench))
+        return self._thread.wait(drift.look(self._bench))
 
     def heal(self, found: Drifted) -> RunReport | None:
         """Bring back what drifted, where the lab's policy allows it; see `pico.bench.drift`."""
-        from pico.bench import drift as watching
+        from pico.bench import drift
 
-        plan = self._thread.wait(watching.heal_plan(self._bench, found))
+        plan = self._thread.wait(drift.heal_plan(self._bench, found))
         return self.apply(plan) if plan else None
 
     def watch(self, *, interval: float = 10.0, looks: int | None = None, heal: bool = False) -> Iterator[Told]:
         """Look again and again, `interval` s apart, and `heal` where the lab's policy allows it; see `watching`."""
-        from pico.bench import drift as watching
+        from pico.bench import drift
         from pico.bench.watching import watch
 
         if heal:
-            watching.require_heal(self.setup)
+            drift.require_heal(self.setup)
         return watch(self.look, self.heal if heal else None, interval, looks)
 
     def verify(self, revision: str | None = None) -> Verified:
@@ -337,19 +337,21 @@ class Bench(Reader):
 
         return publish(self.folder, revision, out, **options)
 
-    def revert(self, revision: str, message: str = "", *, mainline: int | None = None, commit: bool = True) -> Carried:
+    def revert(
+        self, revision: str, message: str = "", *, mainline: int | None = None, commit: bool = True
+    ) -> Transplanted:
         """Take back what a revision changed, in the manifests; see `pico.history.restoring.checked`."""
-        from pico.history.restoring import checked as restoring
+        from pico.history.restoring import checked
 
-        return restoring.revert(self.folder, revision, message=message, mainline=mainline, commit=commit)
+        return checked.revert(self.folder, revision, message=message, mainline=mainline, commit=commit)
 
     def cherry_pick(
         self, revisions: Sequence[str], *, mainline: int | None = None, commit: bool = True
-    ) -> tuple[Carried, ...]:
+    ) -> tuple[Transplanted, ...]:
         """Do once more what revisions changed, in the manifests; see `pico.history.restoring.checked`."""
-        from pico.history.restoring import checked as restoring
+        from pico.history.restoring import checked
 
-        return restoring.cherry_pick(self.folder, revisions, mainline=mainline, commit=commit)
+        return checked.cherry_pick(self.folder, revisions, mainline=mainline, commit=commit)
 
     @property
     def stash(self) -> Stash:

@@ -32,8 +32,8 @@ def picture(bench: AsyncBench, look: Look, out: Path | None = None, component: s
 
     `component`: only the part of the picture around it, large. `out`: write it there, too, as PNG. Raises PicoError.
     """
+    from pico.drawing.camera_picture import annotated
     from pico.drawing.picture import write_png
-    from pico.drawing.sighted import annotated
 
     if component is not None:
         require_component(bench.setup, component)

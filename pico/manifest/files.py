@@ -9,9 +9,17 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.manifest.behind import behind, head_of
+from pico.manifest.file_names import (
+    MAX_BYTES,
+    SUFFIX,
+    about,
+    declares_api,
+    hidden,
+    misnamed_manifest,
+    named_as_manifest,
+)
+from pico.manifest.links import head_of, manifest_behind
 from pico.manifest.text.source import Source
-from pico.manifest.which import MAX_BYTES, SUFFIX, about, alike, declared, hidden, misnamed
 
 MAX_LEVELS = 64
 """Folders in folders."""
@@ -74,7 +82,11 @@ def _walk(root: Path, found: list[Diagnostic]) -> Iterator[os.DirEntry[str]]:
         folders = {e: Path(e.path) for e in reversed(listed) if e.is_dir(follow_symlinks=False)}
         below += [path for entry, path in folders.items() if not hidden(entry.name)]
         for entry in listed:
-            if entry not in folders and not hidden(entry.name) and (alike(entry.name) or entry.is_symlink()):
+            if (
+                entry not in folders
+                and not hidden(entry.name)
+                and (named_as_manifest(entry.name) or entry.is_symlink())
+            ):
                 yield entry
 
 
@@ -83,9 +95,9 @@ def _passed_over(entry: os.DirEntry[str], shown: str, root: Path) -> list[Diagno
     try:
         if entry.is_symlink():
             target = Path(entry.path).readlink()
-            found = behind(Path(entry.path).parent / target, root, shown, str(target))
+            found = manifest_behind(Path(entry.path).parent / target, root, shown, str(target))
             return [found] if found else []
-        return [misnamed(shown)] if declared(head_of(Path(entry.path))) else []
+        return [misnamed_manifest(shown)] if declares_api(head_of(Path(entry.path))) else []
     except OSError as exc:
         return [shut(shown, exc)]
 

@@ -17,7 +17,7 @@ from pico.model.pose import Pose, angle_between
 from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.types import Joints, MovePath, Segment, SegmentName
 from pico.twin.gestures import CHUNK, Steps, backward, nudge, passing, settle, walk
-from pico.twin.lost import Lost, lies, whereabouts
+from pico.twin.missing_parts import Lost, lies, whereabouts
 from pico.twin.physics import Twin
 from pico.twin.sight import HandSight
 

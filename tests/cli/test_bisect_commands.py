@@ -17,7 +17,7 @@ from pico_cli.main import main
 from test_stopping_commands import started
 
 from pico.backends.lease import BenchLock
-from pico.history.bisect.kept import GitBisect
+from pico.history.bisect.git_state import GitBisect
 
 STEP = f"{sys.executable} -c 'import sys; from pico_cli.main import main; sys.exit(main())' bisect-step"
 TABLE = Path("state/table.yaml")

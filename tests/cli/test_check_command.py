@@ -17,7 +17,7 @@ from pico_cli.views.markdown import fenced, prose
 
 from pico.bench.checking import Check, CheckReport, LabChecked
 from pico.diagnostics import error
-from pico.history.repository.against import Against
+from pico.history.repository.comparison_base import ComparisonBase
 from pico.model.diff import Change
 
 STATE = "state/table.yaml"
@@ -117,7 +117,7 @@ def hostile(labs: int = 1, changes: int = 3, findings: int = 3) -> CheckReport:
     failed = Check(question="stands", verdict="failed", text=HOSTILE, diagnostics=found)
     change = tuple(Change(component=f"c{n}", tunable=HOSTILE, before=HOSTILE, text=HOSTILE) for n in range(changes))
     one = LabChecked(lab=HOSTILE, folder=HOSTILE, checks=(failed,), changes=change, bench=(HOSTILE,), notes=(HOSTILE,))
-    return CheckReport(what=HOSTILE, base=Against(name=HOSTILE), labs=(one,) * labs)
+    return CheckReport(what=HOSTILE, base=ComparisonBase(name=HOSTILE), labs=(one,) * labs)
 
 
 def outside_code(markdown: str) -> str:

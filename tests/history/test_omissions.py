@@ -160,7 +160,7 @@ def test_a_link_to_more_than_can_be_looked_at_is_told(
     box.begin(modules=False)
     for number in range(12):
         (tmp_path / f"{number}.txt").touch()
-    monkeypatch.setattr("pico.manifest.behind.MOST", 10)
+    monkeypatch.setattr("pico.manifest.links.MOST", 10)
     (box.lab / "data").symlink_to(tmp_path)
     found = read_lab(box.lab)
     assert found.state == ALL

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from physical import bench, finish, fresh, path_to, to
 
-from pico.backends.sim.judge import standing
+from pico.backends.sim.checks import standing
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld, seeing
 from pico.backends.sim.world import new_world

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock, utc_now
 from pico.backends.protocol import Capabilities, Lease
-from pico.backends.sim import judge
+from pico.backends.sim import checks
 from pico.backends.sim.store import load_world
 from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
@@ -152,7 +152,7 @@ class SimBackend:
 
     async def measure(self, component: str, measurable: str) -> Any:
         """Raises PicoError: light is not simulated yet."""
-        raise PicoError(judge.not_simulated(component, measurable))
+        raise PicoError(checks.not_simulated(component, measurable))
 
     def events(self) -> AsyncGenerator[Event, None]:
         """Yield start and progress of the operations in execution, from now on until the backend is closed."""
@@ -244,7 +244,7 @@ class SimBackend:
             text = f"the lease {lease.token} of {lease.holder} is not the current one"
             raise PicoError(error("lease", text), ExitCode.LOCKED)
         if self._halted:
-            raise PicoError(judge.HALTED, ExitCode.INTERRUPTED)
+            raise PicoError(checks.HALTED, ExitCode.INTERRUPTED)
         result = await session.execute(operation, key)
         if result.outcome == "done" and operation.primitive in ("move", "stow"):
             self._note_placed(operation, result.ended)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 
-from pico.backends.sim import judge
+from pico.backends.sim import checks
 from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import MoveFailed, WorldMover
@@ -37,7 +37,7 @@ class Mishaps:
         if fault is None or fault.kind != "slip" or not isinstance(self._mover, KinematicWorld):
             return
         world = self._world()
-        where = beside(judge.standing_pose(world, name), fault.draw)
+        where = beside(checks.standing_pose(world, name), fault.draw)
         if room_at(self._setup, name, where, _standing(world)):
             self._mover.let_go(name, where, "seen")
 
@@ -46,7 +46,7 @@ class Mishaps:
 
         Raises MoveFailed, outcome unknown, where no look shows it.
         """
-        pose = judge.standing_pose(self._world(), name)
+        pose = checks.standing_pose(self._world(), name)
         if fault is None or fault.kind not in ("camera", "reading"):
             return pose
         believed: list[Pose] = []
@@ -58,7 +58,7 @@ class Mishaps:
         if believed:
             return believed[-1]
         self.unseen.add(name)
-        raise MoveFailed(judge.unseen(name), "unknown")
+        raise MoveFailed(checks.unseen(name), "unknown")
 
     def strike(self, fault: Fault, robot: str, name: str, let_rest: Callable[[], None]) -> Steps:
         """Let a part drop out of the hand on its way, or the arm stop with it; raises MoveFailed.
@@ -75,11 +75,11 @@ class Mishaps:
         yield REST
         pose = self._mover.carried(robot)
         if fault.kind == "jam" or pose is None:
-            raise MoveFailed(judge.jammed(robot, name))
+            raise MoveFailed(checks.jammed(robot, name))
         presence = self._fallen(name, pose, fault)
         assert isinstance(self._mover, KinematicWorld)  # else it has a twin
         self._mover.let_go(name, pose, presence)
-        raise MoveFailed(judge.dropped(robot, name, pose, presence))
+        raise MoveFailed(checks.dropped(robot, name, pose, presence))
 
     def _fallen(self, name: str, pose: Pose, fault: Fault) -> Presence:
         room = room_at(self._setup, name, pose, _standing(self._world()))
@@ -98,11 +98,11 @@ def driven_badly(fault: Fault | None, address: str, seconds: float) -> Steps:
         yield LOOK  # the first reading is wrong, so it is read again, and again
     elif fault.kind == "jam":
         yield seconds * fault.at
-        raise MoveFailed(judge.axis_jammed(address))
+        raise MoveFailed(checks.axis_jammed(address))
     elif fault.kind == "timeout":
         yield 2 * seconds
         if fault.draw.random() < 0.5:  # it did nothing; else it did, and only its answer was lost
-            raise MoveFailed(judge.no_answer(address))
+            raise MoveFailed(checks.no_answer(address))
 
 
 def _readings(pose: Pose, fault: Fault) -> list[Pose | None]:

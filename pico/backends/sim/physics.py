@@ -21,7 +21,7 @@ from pico.model.pose import Pose, angle_between
 from pico.motion.types import MovePath
 from pico.twin.gestures import walk
 from pico.twin.handling import Handling
-from pico.twin.lost import FALLEN, TOPPLED, Lost
+from pico.twin.missing_parts import FALLEN, TOPPLED, Lost
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import SceneBody

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from pico.backends.attempt import Attempts
-from pico.backends.sim import judge
+from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
@@ -114,9 +114,9 @@ class WorldSession:
     async def stop(self) -> None:
         """Stop everything under way: arms come to rest, hands hold what they hold, shutters close."""
         self._halting = True
-        self._time.interrupt(MoveFailed(judge.STOPPED))
+        self._time.interrupt(MoveFailed(checks.STOPPED))
         await self._time.idle()
-        dark = judge.shut(self._setup, self._world)
+        dark = checks.shut(self._setup, self._world)
         if dark is not self._world:
             self._world = dark
             self.store()
@@ -151,34 +151,34 @@ class WorldSession:
             return (yield from self._park(operation, key))
         if operation.primitive in ("set", "home"):
             return (yield from self._set(operation, key))
-        raise judge.refused(operation)
+        raise checks.refused(operation)
 
     def _move(self, operation: Operation, key: str) -> InProgress:
         """Pick and place on the table as it is now: the path is found anew, from where arm and component really are."""
         name = operation.component
-        planned, goal, slot = judge.places(operation)
+        planned, goal, slot = checks.places(operation)
         start, path = self._way(operation, planned, goal)
         if isinstance(path, Blocked):
-            raise judge.blocked(name, path)
-        judge.require_dark(self._setup, self.world(), operation)
+            raise checks.blocked(name, path)
+        checks.require_dark(self._setup, self.world(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
         fault = self._mishaps.of(operation, key)
         with self._in_zones(operation, path):
             data = yield from self._reported(actual, key, path, self._mover.move(actual, path), fault)
         self._mishaps.slipped(name, fault)
         seen = yield from self._mishaps.looked_at(name, fault)
-        judge.require_placed(self._setup, self.world().with_body(name, pose=seen), name, goal, slot)
+        checks.require_placed(self._setup, self.world().with_body(name, pose=seen), name, goal, slot)
         return data
 
     def _way(self, operation: Operation, planned: Pose, goal: Pose) -> tuple[Pose, MovePath | Blocked]:
         """Return where a part stands, or is in the hand, and the path that takes it from there to its goal."""
         world, name, robot = self.world(), operation.component, operation.robot or ""
-        standing, joints = judge.standing(self._setup, world), world.robots
-        if judge.in_hand(operation):
-            held = judge.require_held(self._setup, world, operation)
+        standing, joints = checks.standing(self._setup, world), world.robots
+        if checks.in_hand(operation):
+            held = checks.require_held(self._setup, world, operation)
             now = joints[robot].joints
             return held, self._motion.set_down(robot, name, held, goal, standing, now, self._elsewhere(robot))
-        start = judge.require_ready(self._setup, world, operation, planned)
+        start = checks.require_ready(self._setup, world, operation, planned)
         path = self._motion.move(
             robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)), standing, joints[robot].joints,
             self._elsewhere(robot),
@@ -189,11 +189,11 @@ class WorldSession:
         robot = operation.robot or operation.component
         if robot not in self._setup.lab.robots:
             raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
-        judge.require_empty(self.world(), robot)
+        checks.require_empty(self.world(), robot)
         joints = self.world().robots[robot].joints
-        path = self._motion.park(robot, joints, judge.standing(self._setup, self.world()), self._elsewhere(robot))
+        path = self._motion.park(robot, joints, checks.standing(self._setup, self.world()), self._elsewhere(robot))
         if isinstance(path, Blocked):
-            raise judge.blocked(robot, path)
+            raise checks.blocked(robot, path)
         with self._in_zones(operation, path):
             return (yield from self._reported(operation, key, path, self._mover.park(path)))
 
@@ -207,7 +207,7 @@ class WorldSession:
         inside = {z.name for z in shared if enters(self._setup, z, path)}
         for robot, zones in self._zones.items():
             if inside & zones:
-                raise judge.meets(operation.component, robot, min(inside & zones))
+                raise checks.meets(operation.component, robot, min(inside & zones))
         self._zones[path.robot] = inside | {z.name for z in shared if z.name in operation.resources}
         try:
             yield
@@ -220,15 +220,15 @@ class WorldSession:
 
     def _set(self, operation: Operation, key: str) -> InProgress:
         """Drive a tunable to a value, or its axis to its home; while it moves nobody knows its value."""
-        name, (tunable, kind) = operation.component, judge.setpoint(self._setup, operation)
-        judge.standing_pose(self.world(), name)
+        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
+        checks.standing_pose(self.world(), name)
         live, fault = self._world.components[name].values[tunable], self._mishaps.of(operation, key)
         before = None if live.status == "unknown" else live.value
         if operation.primitive == "home":
             goal: Value = kind.axis.home if kind.axis else 0.0
             seconds = home_seconds(kind, before)
         else:
-            goal = judge.require_value(name, tunable, kind, operation.arguments.get("to"))
+            goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
             seconds = set_seconds(kind, before, goal)
             if before is None and kind.axis and kind.axis.kind == "homed":  # it must be homed first
                 seconds = home_seconds(kind, None) + set_seconds(kind, kind.axis.home, goal)
@@ -285,8 +285,8 @@ class WorldSession:
             self._drop_work(work)
             yield REST
             yield from self._withdraw(path.robot)
-            raise MoveFailed(judge.left(operation.component))
-        start, _, _ = judge.places(operation)
+            raise MoveFailed(checks.left(operation.component))
+        start, _, _ = checks.places(operation)
         back = self._back(operation, start)
         if back is None or not sooner(path, elapsed, back):
             return True
@@ -296,7 +296,7 @@ class WorldSession:
         there = {**operation.arguments, "to": {"pose": as_json(start)}}
         yield from self._mover.move(replace(operation, arguments=there), back)
         where = slot_at(self._setup, start) or str(start)
-        raise MoveFailed(judge.put_back(operation.component, where))
+        raise MoveFailed(checks.put_back(operation.component, where))
 
     def _back(self, operation: Operation, start: Pose) -> MovePath | None:
         """Return the way back to where a part was picked, or None where there is none or the hand holds nothing."""
@@ -305,7 +305,7 @@ class WorldSession:
         if held is None:
             return None
         back = self._motion.set_down(
-            robot, operation.component, held, start, judge.standing(self._setup, world), joints, self._elsewhere(robot)
+            robot, operation.component, held, start, checks.standing(self._setup, world), joints, self._elsewhere(robot)
         )
         return None if isinstance(back, Blocked) else back
 
@@ -313,7 +313,7 @@ class WorldSession:
         """Let an arm stop where it is, in the middle of what it does."""
         try:
             while True:
-                work.throw(MoveFailed(judge.STOPPED))
+                work.throw(MoveFailed(checks.STOPPED))
         except (MoveFailed, StopIteration):
             pass
 
@@ -321,7 +321,7 @@ class WorldSession:
         """Bring an arm with an empty hand to its park pose, where there is a way."""
         world = self.world()
         path = self._motion.park(
-            robot, world.robots[robot].joints, judge.standing(self._setup, world), self._elsewhere(robot)
+            robot, world.robots[robot].joints, checks.standing(self._setup, world), self._elsewhere(robot)
         )
         if not isinstance(path, Blocked):
             yield from self._mover.park(path)

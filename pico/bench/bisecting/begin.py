@@ -9,7 +9,7 @@ from typing import Any
 from pico.bench.bisecting.records import BisectionTask, Tried
 from pico.bench.bisecting.search import Bisection, TrialBench
 from pico.diagnostics import PicoError, error
-from pico.history.bisect.kept import GitBisect, require_order
+from pico.history.bisect.git_state import GitBisect, require_order
 from pico.model.record import as_json
 from pico.model.state import Expectation
 from pico.policy.expectations import require_expressions

@@ -8,7 +8,7 @@ from typing import Any
 
 from pico.bench.bisecting.records import Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.history.bisect.kept import Verdict
+from pico.history.bisect.git_state import Verdict
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pico.history.bisect.kept import Verdict
+from pico.history.bisect.git_state import Verdict
 from pico.model.plan import Plan
 from pico.model.record import record
 from pico.model.state import Expectation

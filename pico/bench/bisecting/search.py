@@ -12,7 +12,7 @@ from pico.bench.bisecting.judging import decisive, impossible, not_as_called, re
 from pico.bench.bisecting.records import BisectionOutcome, BisectionTask, End, Proposal, Tried
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.history.bisect.choice import NextCommit
-from pico.history.bisect.kept import Ends, GitBisect, Verdict
+from pico.history.bisect.git_state import Ends, GitBisect, Verdict
 from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.observation import Observation

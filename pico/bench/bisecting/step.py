@@ -8,7 +8,7 @@ from pathlib import Path
 from pico.bench.bisecting.judging import impossible, require_known, verdict
 from pico.bench.bisecting.search import TrialBench
 from pico.diagnostics import PicoError
-from pico.history.bisect.kept import HEAD, GitBisect, Verdict
+from pico.history.bisect.git_state import HEAD, GitBisect, Verdict
 from pico.history.git import command as git
 from pico.history.lab.folder import LabFolder
 from pico.model.plan import Plan

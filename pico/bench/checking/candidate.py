@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.history.lab.withheld import withheld
+from pico.history.lab.missing_files import missing_files
 from pico.history.merge.checked import overlapping
 from pico.history.merge.doubts import unsettled
-from pico.history.repository.against import Against
+from pico.history.repository.comparison_base import ComparisonBase
 from pico.history.repository.repository import Repository
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
@@ -44,7 +44,7 @@ class Candidate:
 class Origin:
     """A lab as it was before: its bench and state where they can be read, and what to know about that."""
 
-    against: Against
+    against: ComparisonBase
     files: Mapping[str, bytes] = field(default_factory=dict)
     setup: Setup | None = None
     state: LabState | None = None
@@ -55,7 +55,7 @@ def in_folder(root: Path, repository: Repository | None = None) -> Candidate:
     """Return the lab of the folder `root` as its files are now, and as a merge in its repository left them. Never
     raises for what they hold."""
     files, found = read_folder(root)
-    read = _read(root, files, [*found, *withheld(root, files, found)])
+    read = _read(root, files, [*found, *missing_files(root, files, found)])
     doubts = unsettled(repository, root, read.manifests)
     return replace(read, manifests=replace(read.manifests, diagnostics=(*read.manifests.diagnostics, *doubts)))
 
@@ -71,7 +71,7 @@ def _read(root: Path, files: Mapping[str, bytes], found: list[Diagnostic]) -> Ca
     return Candidate(root, files, replace(manifests, diagnostics=everything))
 
 
-def origin(repository: Repository | None, base: Against, root: Path) -> Origin:
+def origin(repository: Repository | None, base: ComparisonBase, root: Path) -> Origin:
     """Return the lab of the folder `root` as the commit `base` has it."""
     if repository is None or base.commit is None:
         return Origin(base, notes=("there is nothing to compare with: from every part at home",))

@@ -11,7 +11,7 @@ from pico.bench.checking.candidate import Candidate, Origin, in_folder, in_memor
 from pico.bench.checking.steps import check_lab
 from pico.bench.checking.verdict import CheckReport, LabChecked
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.history.repository.against import Against, against
+from pico.history.repository.comparison_base import ComparisonBase, comparison_base
 from pico.history.repository.repository import Repository
 from pico.manifest.load import find_lab, labs_below
 
@@ -27,7 +27,7 @@ def check(
 ) -> CheckReport:
     """Check the lab that `path` lies in, or every lab below it that differs from the base, and return what was found.
 
-    `revision`: what to compare with, see `repository.against.against`. `merging`: check what HEAD would be once this
+    `revision`: what to compare with, see `comparison_base`. `merging`: check what HEAD would be once this
     revision is merged into it, instead of the files as they are, against that revision where no other is named.
     `pictures`: the folder for pictures of what changes. Raises PicoError where there is no lab or no such revision,
     and for a merge with conflicts.
@@ -69,14 +69,14 @@ def _base(
     environment: Mapping[str, str] | None,
     edited: bool,
     merging: str | None,
-) -> Against:
+) -> ComparisonBase:
     if repository is None:
         if named := revision or merging:
             raise PicoError(error("git-none", f"this lab is in no Git repository, so there is no revision `{named}`"))
-        return Against(name="nothing: no Git repository")
+        return ComparisonBase(name="nothing: no Git repository")
     if merging and revision is None:
-        return Against(commit=repository.resolve(merging).id, name=merging)
-    return against(repository, revision, os.environ if environment is None else environment, edited=edited)
+        return ComparisonBase(commit=repository.resolve(merging).id, name=merging)
+    return comparison_base(repository, revision, os.environ if environment is None else environment, edited=edited)
 
 
 def _what(repository: Repository | None, edited: bool, merging: str | None) -> str:
@@ -108,7 +108,7 @@ def _drawn(
 ) -> LabChecked:
     if pictures is None or found.plan is None:
         return found
-    from pico.bench.checking.drawn import draw
+    from pico.bench.checking.before_after import draw
 
     alike = sum(lab.lab == found.lab for lab in others)
     stem = f"{found.lab}-{alike + 1}" if alike else found.lab

@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
-from pico.history.repository.against import Against
+from pico.history.repository.comparison_base import ComparisonBase
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.plan import Plan
@@ -73,7 +73,7 @@ class LabChecked:
 
     lab: str
     folder: str = "."
-    base: Against = Against()
+    base: ComparisonBase = ComparisonBase()
     fidelity: str = "kinematic"
     checks: tuple[Check, ...] = ()
     changes: tuple[Change, ...] = ()
@@ -102,7 +102,7 @@ class CheckReport:
 
     schema: str = SCHEMA
     what: str
-    base: Against = Against()
+    base: ComparisonBase = ComparisonBase()
     labs: tuple[LabChecked, ...] = ()
     alike: tuple[str, ...] = field(default=())
 

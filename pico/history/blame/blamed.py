@@ -17,7 +17,7 @@ from pico.history.blame.walk import Walker
 from pico.history.git.commit import Commit
 from pico.history.lab.notes import Note, note_path, notes
 from pico.history.repository.repository import Repository
-from pico.manifest.which import MAX_BYTES
+from pico.manifest.file_names import MAX_BYTES
 from pico.model.catalog import Tunable
 from pico.model.diff import describe_move, describe_value
 from pico.model.pose import Pose

@@ -13,7 +13,7 @@ from pathlib import Path
 from pico.diagnostics import PicoError
 from pico.history.diff.manifests import FileDiff, diff_files
 from pico.history.git.diff_wrapper import ALONE, SUMMARY
-from pico.manifest.which import MAX_BYTES
+from pico.manifest.file_names import MAX_BYTES
 from pico.model.diff import Change
 
 FAILED = 42

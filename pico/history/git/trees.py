@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.manifest.file_names import hidden, is_manifest, named_as_manifest
 from pico.manifest.files import MAX_LEVELS
-from pico.manifest.which import alike, hidden, is_manifest
 
 Odd = tuple[str, Any]
 """A path in a tree, and what stands there."""
@@ -31,7 +31,7 @@ def manifests(tree: Any, odd: list[Odd] | None = None, module: Module = lambda p
         elsewhere = entry.filemode in (FileMode.COMMIT, FileMode.LINK)
         if is_manifest(path) and not elsewhere:
             yield path, entry
-        elif odd is not None and (elsewhere or alike(path)) and not hidden(path):
+        elif odd is not None and (elsewhere or named_as_manifest(path)) and not hidden(path):
             odd.append((path, entry))
 
 

@@ -10,8 +10,18 @@ from typing import Any, Protocol
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git.trees import Module, Odd, entries, manifests, subtree
-from pico.manifest.behind import behind, lost
-from pico.manifest.which import MAX_BYTES, about, alike, declared, hidden, is_manifest, linked, misnamed, unseen
+from pico.manifest.file_names import (
+    MAX_BYTES,
+    about,
+    declares_api,
+    hidden,
+    is_manifest,
+    linked,
+    misnamed_manifest,
+    named_as_manifest,
+    unseen,
+)
+from pico.manifest.links import broken_link, manifest_behind
 
 
 class Roots(Protocol):
@@ -83,7 +93,7 @@ class _Tree:
             return submodule(self.repository, posixpath.join(self.lab, path), str(entry.id), shown)
         if entry.filemode == FileMode.LINK:
             return self._link(path, bytes(entry.data).decode(errors="replace"), shown)
-        return misnamed(shown) if declared(bytes(entry.data)) else None
+        return misnamed_manifest(shown) if declares_api(bytes(entry.data)) else None
 
     def _link(self, path: str, target: str, shown: str) -> Diagnostic | None:
         """Return what to say of a link: a tree is searched where it leads into one, the disk where it leads out."""
@@ -92,16 +102,16 @@ class _Tree:
         at = posixpath.normpath(posixpath.join(self.lab, posixpath.dirname(path), target))
         if at.startswith(("/", "../")) or at == "..":
             root = self.repository.root
-            return behind(root / self.lab / posixpath.dirname(path) / target, root / self.lab, shown, target)
+            return manifest_behind(root / self.lab / posixpath.dirname(path) / target, root / self.lab, shown, target)
         if self._is_read(at):
             return None
         goal = self._entry(at)
         if goal is None:
-            return lost(shown, target)
+            return broken_link(shown, target)
         if goal.type_str == "tree":
             holds = next((p for p, e in _ours(goal) if not self._is_read(posixpath.join(at, p))), "")
             return linked(shown, target, holds) if holds else None
-        return linked(shown, target, at) if alike(path) and declared(bytes(goal.data)) else None
+        return linked(shown, target, at) if named_as_manifest(path) and declares_api(bytes(goal.data)) else None
 
     def _is_read(self, at: str) -> bool:
         """Return whether what lies at a path of the commit is read as one of the lab's."""
@@ -127,7 +137,11 @@ class _Tree:
 def _ours(tree: Any) -> Iterable[Odd]:
     """Yield the manifests in a tree, under whatever name."""
     listed = entries(tree, lambda folder: not hidden(folder))
-    return ((p, e) for p, e in listed if e.type_str == "blob" and alike(p) and not hidden(p) and declared(e.data))
+    return (
+        (p, e)
+        for p, e in listed
+        if e.type_str == "blob" and named_as_manifest(p) and not hidden(p) and declares_api(e.data)
+    )
 
 
 def submodule(repository: Roots, path: str, commit: str, shown: str) -> Diagnostic | None:

@@ -12,8 +12,8 @@ from pico.history.lab.run_files import run_trailers, write_once
 from pico.history.messages.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
 from pico.history.writing.underway import require_resolved
 from pico.manifest.edit import components_of
+from pico.manifest.file_names import is_manifest
 from pico.manifest.load import load_files
-from pico.manifest.which import is_manifest
 from pico.model.address import Named
 from pico.model.diff import Change
 from pico.model.record import record

@@ -17,8 +17,8 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
 from pico.history.lab.files import write_file
+from pico.history.lab.missing_files import missing_files
 from pico.history.lab.notes import Note, note_path, notes, read_note, require_part, with_note
-from pico.history.lab.withheld import withheld
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
 from pico.history.writing.underway import refuse_begun
@@ -105,7 +105,7 @@ class LabFolder:
         files, found = read_folder(self.root)
         if files == self._files and not found:
             return
-        found += withheld(self.root, files, found, lambda: self.repository)
+        found += missing_files(self.root, files, found, lambda: self.repository)
         shown = shown_path(self.root)
         bench = _bench_of({os.path.relpath(p, shown): data for p, data in files.items()})
         known = self._benches.get(bench) if self._files and not found else None

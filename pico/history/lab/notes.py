@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.manifest.which import MAX_BYTES
+from pico.manifest.file_names import MAX_BYTES
 from pico.model.lab import Setup
 from pico.model.record import record
 

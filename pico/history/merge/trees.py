@@ -13,7 +13,7 @@ from pico.history.merge.groups import groups_of, is_lab
 from pico.history.merge.leaves import Conflict, Coupled
 from pico.history.merge.manifests import Merged, merge
 from pico.history.merge.markers import Labels
-from pico.manifest.which import is_manifest
+from pico.manifest.file_names import is_manifest
 
 
 @dataclass

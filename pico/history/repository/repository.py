@@ -24,8 +24,8 @@ from pico.history.writing.made import NewCommit
 from pico.history.writing.passage import Start, advance, go, shelve
 from pico.history.writing.recovery import leave_word, recover
 from pico.history.writing.underway import refuse_begun
+from pico.manifest.file_names import is_manifest
 from pico.manifest.load import bare_repository
-from pico.manifest.which import is_manifest
 
 MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.

@@ -10,31 +10,31 @@ from pico.history.lab.folder import LabFolder
 from pico.history.merge.checked import impossible, overlapping
 from pico.history.restoring import selected as taken
 from pico.history.restoring import transplant as carry
-from pico.history.restoring.selected import Taken
-from pico.history.restoring.transplant import Carried
+from pico.history.restoring.selected import SelectedParts
+from pico.history.restoring.transplant import Transplanted
 from pico.manifest.load import Manifests
 
 
 def revert(
     folder: LabFolder, revision: str, *, message: str = "", mainline: int | None = None, commit: bool = True
-) -> Carried:
+) -> Transplanted:
     """Take back what a revision changed; see `restoring.transplant.revert`. Nothing moves, runs and notes stay."""
     return carry.revert(folder, revision, out_of_reach, message=message, mainline=mainline, commit=commit)
 
 
 def cherry_pick(
     folder: LabFolder, revisions: Sequence[str], *, mainline: int | None = None, commit: bool = True
-) -> tuple[Carried, ...]:
+) -> tuple[Transplanted, ...]:
     """Do once more what revisions changed; see `restoring.transplant.cherry_pick`. Nothing moves, no run is copied."""
     return carry.cherry_pick(folder, revisions, out_of_reach, mainline=mainline, commit=commit)
 
 
-def take(folder: LabFolder, revision: str, names: Sequence[str]) -> Taken:
+def select_parts(folder: LabFolder, revision: str, names: Sequence[str]) -> SelectedParts:
     """Return what the manifests must say for components or tunables to be as in a revision; see `restoring.selected`.
 
     Raises PicoError as that does, and (exit 3) where one of them could not stand beside the rest of the manifest.
     """
-    found = taken.take(folder, revision, names)
+    found = taken.select_parts(folder, revision, names)
     parts = {name.partition(".")[0] for name in found.names} if found.changes else set()
     wrong = [d for d in overlapping(found.manifests) if parts & set(re.findall(r"\w+", d.summary))]
     if wrong:

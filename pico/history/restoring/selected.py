@@ -22,7 +22,7 @@ _GONE = ("unknown-component", "unknown-slot")
 
 
 @dataclass(frozen=True)
-class Taken:
+class SelectedParts:
     """Values of a revision as the manifests would hold them. `names`: what was asked for; `files`: those that must be
     written, by path, and what they hold `before`; `changes`: from the manifests as they are; `manifests`: what the lab
     then says."""
@@ -45,7 +45,7 @@ class Taken:
             folder.reload()
 
 
-def take(folder: LabFolder, revision: str, names: Iterable[str]) -> Taken:
+def select_parts(folder: LabFolder, revision: str, names: Iterable[str]) -> SelectedParts:
     """Return what the manifests must say for `names` (`p2`, `p1.angle`) to be as in a revision. Writes nothing.
 
     A component that the revision does not have goes home. Raises PicoError for what the lab does not have, for tunables
@@ -63,7 +63,7 @@ def take(folder: LabFolder, revision: str, names: Iterable[str]) -> Taken:
     if revision not in ("HEAD", "@"):
         _refuse_edited(folder, changes)
     before = {path: files[path] for path in written}
-    return Taken(revision, tuple(addresses(named)), written, before, changes, manifests)
+    return SelectedParts(revision, tuple(addresses(named)), written, before, changes, manifests)
 
 
 def state_for(folder: LabFolder, manifests: Manifests, revision: str, names: Iterable[str]) -> LabState:

@@ -36,7 +36,7 @@ Check = Callable[[Manifests, Manifests], tuple[Diagnostic, ...]]
 
 
 @record
-class Carried:
+class Transplanted:
     """What came of taking a change back (`revert`) or doing it once more (`cherry-pick`).
 
     `of`: the commit that made the change, `name` what it was called, `summary` its first line. `files`: the manifests
@@ -78,7 +78,7 @@ class _Step:
 def revert(
     folder: LabFolder, revision: str, check: Check, *, message: str = "", mainline: int | None = None,
     commit: bool = True,
-) -> Carried:  # fmt: skip
+) -> Transplanted:  # fmt: skip
     """Take back what a revision changed in the manifests, as a new commit; later changes of other tunables stay.
 
     `mainline`: the parent, from 1, that a merge is compared with. Raises PicoError, with nothing written: for edits
@@ -90,7 +90,7 @@ def revert(
 
 def cherry_pick(
     folder: LabFolder, revisions: Sequence[str], check: Check, *, mainline: int | None = None, commit: bool = True
-) -> tuple[Carried, ...]:
+) -> tuple[Transplanted, ...]:
     """Do to the manifests what revisions, or ranges (`main..e1`), changed in them: a commit each, whose message and
     author stay. Nothing is written unless all of them can be. Raises PicoError as `revert` does.
     """
@@ -100,7 +100,7 @@ def cherry_pick(
 
 def _carry(
     folder: LabFolder, revisions: Sequence[str], way: Way, check: Check, mainline: int | None, message: str | None
-) -> list[Carried]:
+) -> list[Transplanted]:
     """Compute every step in memory, then write all of them or none; `message` is None where nothing is committed."""
     with folder.writing(f"pico {way}"):
         folder.refuse_edits(way)
@@ -166,7 +166,7 @@ def _parent(folder: LabFolder, commit: Commit, name: str, mainline: int | None) 
     return sides[(mainline or 1) - 1] if sides else None
 
 
-def _write(folder: LabFolder, steps: Sequence[_Step], way: Way, message: str | None) -> list[Carried]:
+def _write(folder: LabFolder, steps: Sequence[_Step], way: Way, message: str | None) -> list[Transplanted]:
     """Write what the steps change, and commit that and nothing else, each for itself."""
     repository, moving = folder.history(), [s for s in steps if s.moves]
     doing = f"pico {way} {' '.join(s.name for s in moving)}"
@@ -181,10 +181,10 @@ def _write(folder: LabFolder, steps: Sequence[_Step], way: Way, message: str | N
     return [_done(folder, step, next(each, None) if step.moves else None) for step in steps]
 
 
-def _done(folder: LabFolder, step: _Step, made: Commit | None) -> Carried:
+def _done(folder: LabFolder, step: _Step, made: Commit | None) -> Transplanted:
     handle = opened(folder.history().root)
     old, new = (blobs(handle[tree]) for tree in (step.before, step.after))
-    return Carried(
+    return Transplanted(
         way=step.way, of=step.commit.id, name=step.name, summary=step.commit.summary, diagnostics=step.diagnostics,
         files=tuple(sorted(p for p in old.keys() | new.keys() if old.get(p) != new.get(p))),
         commit=made.id if made else None, changes=folder.entry(made).changes if made else step.changes,

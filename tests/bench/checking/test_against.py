@@ -8,14 +8,14 @@ import pytest
 from changing import Lab
 
 from pico.diagnostics import PicoError
-from pico.history.repository.against import against
+from pico.history.repository.comparison_base import comparison_base
 from pico.history.repository.repository import Repository
 
 
 def base(lab: Lab, revision: str | None = None, *, edited: bool = False, **environment: str) -> tuple[str | None, str]:
     repository = Repository.discover(lab.root)
     assert repository is not None
-    found = against(repository, revision, environment, edited=edited)
+    found = comparison_base(repository, revision, environment, edited=edited)
     return found.commit, found.name
 
 

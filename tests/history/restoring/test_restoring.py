@@ -21,10 +21,10 @@ from pico.history.lab.folder import LabFolder
 from pico.history.merge.checked import merge
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_trees
-from pico.history.restoring.checked import cherry_pick, revert, take
+from pico.history.restoring.checked import cherry_pick, revert, select_parts
 from pico.history.restoring.last_change import last_change
 from pico.history.restoring.stash import Stash
-from pico.history.restoring.transplant import Carried
+from pico.history.restoring.transplant import Transplanted
 
 State = dict[Leaf, float | str]
 
@@ -135,7 +135,7 @@ def said(found: PicoError) -> str:
     return "\n".join(f"{d.summary} {d.detail} {d.hint}" for d in found.diagnostics)
 
 
-def changed(done: Carried) -> list[tuple[str, str]]:
+def changed(done: Transplanted) -> list[tuple[str, str]]:
     return [(c.component, c.tunable) for c in done.changes]
 
 
@@ -284,7 +284,7 @@ def test_what_git_has_begun_is_ended_first(lab: LabFolder, git: Git) -> None:
 
 
 def test_what_was_edited_meanwhile_is_not_overwritten(lab: LabFolder, git: Git) -> None:
-    found = take(lab, "C3", ["p2"])
+    found = select_parts(lab, "C3", ["p2"])
     edit(lab, git, "p1", "angle: 1", "angle: 7")
     assert "edited meanwhile" in said(refused(lab, lambda: found.write(lab)))
 

@@ -13,10 +13,10 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git import command as git
 from pico.history.git.trees import Odd, manifests
 from pico.history.git.unread import content_of, submodule
-from pico.history.lab.aside import aside
+from pico.history.lab.unread_states import unread_states
 from pico.manifest.edit import components_of
+from pico.manifest.file_names import GONE, UNSEEN, about, declares_api
 from pico.manifest.files import shown_path
-from pico.manifest.which import GONE, UNSEEN, about, declared
 
 if TYPE_CHECKING:
     from pico.history.repository.repository import Repository
@@ -26,7 +26,7 @@ _SPARSE = f"bring it back: `git sparse-checkout disable`, or `git update-index -
 _ASSUMED = f"bring it back: `git update-index --no-assume-unchanged {{0}}` and `git restore {{0}}`; {_GOES}"
 
 
-def withheld(
+def missing_files(
     root: Path,
     files: Mapping[str, bytes],
     found: Sequence[Diagnostic],
@@ -65,7 +65,7 @@ def _missing(
     lead = f"{inside}/" if (inside := repository.relative(root)) else ""
     tags = {p.removeprefix(lead): tag for p, tag in _tags(repository, inside).items()}
     lost = [(path, content_of(entry) or b"") for path, entry in sorted(away.items())]
-    lost = [(path, data) for path, data in lost if declared(data)]
+    lost = [(path, data) for path, data in lost if declares_api(data)]
     said = [_kept_out(root, path, tags.get(path, ""), there.keys()) for path, _ in lost]
     gone = {path: components_of(data) for (path, data), d in zip(lost, said, strict=True) if d is None}
     said += [submodule(repository, lead + p, str(e.id), _shown(root, p)) for p, e in modules.items() if p in tags]
@@ -114,7 +114,7 @@ def _gone(root: Path, gone: Mapping[str, frozenset[str]], files: Mapping[str, by
         return []
     named = frozenset().union(*(components_of(data) for data in files.values()))
     homeless = {path: sorted(parts - named) for path, parts in gone.items() if parts - named}
-    kept = aside(root, {part for parts in homeless.values() for part in parts}) if homeless else {}
+    kept = unread_states(root, {part for parts in homeless.values() for part in parts}) if homeless else {}
     return [_hidden(root, path) or _lost(root, path, parts, kept) for path, parts in homeless.items()]
 
 

@@ -9,21 +9,30 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import Diagnostic
-from pico.manifest.which import MAX_BYTES, about, alike, declared, hidden, is_manifest, linked, unseen
+from pico.manifest.file_names import (
+    MAX_BYTES,
+    about,
+    declares_api,
+    hidden,
+    is_manifest,
+    linked,
+    named_as_manifest,
+    unseen,
+)
 
 MOST = 10_000
 """Files and folders that are looked at behind one link. A folder with more holds data, and no 10 to 50 components."""
 
 
-def behind(place: Path, root: Path, shown: str, target: str) -> Diagnostic | None:
+def manifest_behind(place: Path, root: Path, shown: str, target: str) -> Diagnostic | None:
     """Return what to say of a link, called `shown`, to `target`, which is at `place`; None where no manifest is there.
 
     What lies in the folder of the lab itself, `root`, is read where it lies.
     """
     try:
-        found = _search(Path(os.path.realpath(place)), Path(os.path.realpath(root)), named=alike(shown))
+        found = _search(Path(os.path.realpath(place)), Path(os.path.realpath(root)), named=named_as_manifest(shown))
     except FileNotFoundError:
-        return lost(shown, target)
+        return broken_link(shown, target)
     except OSError as exc:
         why = f"a link to {target}, which can't be read: {exc.strerror}"
         return unseen(shown, why, "make it readable, or remove the link")
@@ -34,9 +43,9 @@ def behind(place: Path, root: Path, shown: str, target: str) -> Diagnostic | Non
     return linked(shown, target, found) if found else None
 
 
-def lost(shown: str, target: str) -> Diagnostic | None:
+def broken_link(shown: str, target: str) -> Diagnostic | None:
     """Return what to say of a link that leads nowhere; None where it is called as no folder and no manifest is."""
-    if any(PurePosixPath(path).suffix and not alike(path) for path in (shown, target)):
+    if any(PurePosixPath(path).suffix and not named_as_manifest(path) for path in (shown, target)):
         return None
     hint = "bring back what it leads to, or remove it; a link in a folder whose name begins with a dot is left alone"
     return unseen(shown, f"a link to {target}, which is not there", hint)
@@ -64,13 +73,13 @@ def _search(goal: Path, root: Path, *, named: bool) -> str | None:
             if place.is_dir():
                 known.add(place)
                 below.append(place)
-            elif alike(entry.name) and place.exists() and _ours(place):
+            elif named_as_manifest(entry.name) and place.exists() and _ours(place):
                 return os.path.relpath(entry.path, goal)
     return ""
 
 
 def _ours(path: Path) -> bool:
-    return declared(head_of(path))
+    return declares_api(head_of(path))
 
 
 def head_of(path: Path) -> bytes:

@@ -7,16 +7,16 @@ import os
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
-from pico.manifest.behind import MOST, head_of
 from pico.manifest.edit import components_of
-from pico.manifest.which import MAX_BYTES, alike, hidden
+from pico.manifest.file_names import MAX_BYTES, hidden, named_as_manifest
+from pico.manifest.links import MOST, head_of
 
 _OWN = (".git", ".pico")
 _HEADER = b"LabState"
 _BEGINNING = 4096
 
 
-def aside(root: Path, parts: Collection[str]) -> Mapping[str, str]:
+def unread_states(root: Path, parts: Collection[str]) -> Mapping[str, str]:
     """Return which of `parts` a state names that lies in the folder `root` and is not read, and the path of its file.
 
     At most `MOST` files are looked at. What lies in another repository or lab is that one's.
@@ -42,7 +42,7 @@ def _unread(root: Path) -> Iterator[Path]:
             seen += 1
             if seen > MOST:
                 return
-            if not alike(name) or hidden(str(Path(folder, name))):
+            if not named_as_manifest(name) or hidden(str(Path(folder, name))):
                 yield Path(at, name)
 
 

@@ -42,12 +42,12 @@ def hidden(path: str) -> bool:
     return left_out(f"{path}/*")
 
 
-def alike(path: str) -> bool:
+def named_as_manifest(path: str) -> bool:
     """Return whether a file's name is that of a manifest, or of one in another spelling: `.yml`, `.YAML`."""
     return PurePosixPath(path).suffix.lower() in _LIKE
 
 
-def declared(data: bytes) -> bool:
+def declares_api(data: bytes) -> bool:
     """Return whether a file declares PICO's apiVersion, whatever its name and its encoding are."""
     return bool(_DECLARED.search(data.replace(b"\0", b"").lstrip(_MARKS)))
 
@@ -57,7 +57,7 @@ def about(path: str, code: str, summary: str, hint: str) -> Diagnostic:
     return error(code, f"{path}: {summary}", hint=hint, source=Source(path, "").range(0))
 
 
-def misnamed(path: str) -> Diagnostic:
+def misnamed_manifest(path: str) -> Diagnostic:
     """Return what to say of a manifest under a name that is not read."""
     better = PurePosixPath(path).with_suffix(SUFFIX).name
     return about(

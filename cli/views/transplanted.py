@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.history.restoring.transplant import Carried
+from pico.history.restoring.transplant import Transplanted
 from pico.model.record import as_json
 
 from .diff import lines
 from .style import listed, paint
 
 
-def text(done: Sequence[Carried], *, before: str) -> str:
+def text(done: Sequence[Transplanted], *, before: str) -> str:
     """Return what was written, and how to go back to the commit `before`."""
     block = [line for one in done for line in _one(one)]
     made = [one for one in done if one.commit]
@@ -26,7 +26,7 @@ def text(done: Sequence[Carried], *, before: str) -> str:
     return "\n".join(block)
 
 
-def _one(one: Carried) -> list[str]:
+def _one(one: Transplanted) -> list[str]:
     title = f'{one.name} "{one.summary}"' if one.name != one.of[:7] else f'{paint("yellow", one.name)} "{one.summary}"'
     if not one.files:
         what = "this state has nothing of it to take back" if one.way == "revert" else "this state has that already"
@@ -36,6 +36,6 @@ def _one(one: Carried) -> list[str]:
     return [f"{did} {title}{commit}", *(lines(one.changes) or ["  nothing changed on the table"])]
 
 
-def data(done: Sequence[Carried], **_: Any) -> dict[str, Any]:
+def data(done: Sequence[Transplanted], **_: Any) -> dict[str, Any]:
     """Return schema `pico.carried/v1`: for each change `way`, `of`, `commit`, `files`, `changes`, `diagnostics`."""
     return {"schema": "pico.carried/v1", "carried": as_json(done)}

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.history.restoring.selected import Taken
+from pico.history.restoring.selected import SelectedParts
 from pico.model.record import as_json
 
 from .diff import lines
 from .style import listed
 
 
-def text(taken: Taken) -> str:
+def text(taken: SelectedParts) -> str:
     """Return what the manifests say now that they did not say before, and which files were written."""
     if not taken.changes:
         return f"The manifest has {listed(taken.names)} as in {taken.revision} already."
@@ -24,7 +24,7 @@ def goal(name: str) -> str:
     return f"part of {name}"
 
 
-def next_step(taken: Taken, *, files_only: bool = False) -> str:
+def next_step(taken: SelectedParts, *, files_only: bool = False) -> str:
     """Return how to keep it and how to go back; nothing where nothing was written."""
     if not taken.changes:
         return ""
@@ -36,7 +36,7 @@ def next_step(taken: Taken, *, files_only: bool = False) -> str:
     return f"Keep it: `pico commit{planned}`. Go back with `{back}`."
 
 
-def data(what: Taken | str, *, commit: str | None) -> dict[str, Any]:
+def data(what: SelectedParts | str, *, commit: str | None) -> dict[str, Any]:
     """Return schema `pico.checkout/v1`: `revision`, `commit` at HEAD now, `names`, `files` written, `changes`."""
     if isinstance(what, str):
         return {"schema": "pico.checkout/v1", "revision": what, "commit": commit}

@@ -15,16 +15,16 @@ _WHOLE = "fetch the whole history: `fetch-depth: 0` at GitHub, `GIT_DEPTH: 0` at
 
 
 @record
-class Against:
+class ComparisonBase:
     """The commit that a change is compared with, None for nothing at all, and what it is called."""
 
     commit: str | None = None
     name: str = ""
 
 
-def against(
+def comparison_base(
     repository: Repository, revision: str | None = None, environment: Mapping[str, str] | None = None, *, edited: bool
-) -> Against:
+) -> ComparisonBase:
     """Return what to compare with: where HEAD left `revision`, else the branch that continuous integration merges into
     (by `environment`), else the default branch; the commit before where HEAD is on that and nothing was `edited`.
 
@@ -38,7 +38,7 @@ def against(
         return _before(repository, head, edited)
     goal = _resolved(repository, handle, wanted, revision)
     if head is None:
-        return Against(commit=goal, name=name)
+        return ComparisonBase(commit=goal, name=name)
     common = handle.merge_base(head, goal)
     if common is None and handle.is_shallow:
         text = f"this clone holds only the last commits: where HEAD left {name} is not among them"
@@ -46,22 +46,22 @@ def against(
     if revision is None and str(common) == head and not edited:
         return _before(repository, head, edited)
     if common is None or str(common) == goal:
-        return Against(commit=goal, name=name)
-    return Against(commit=str(common), name=f"where it left {name}")
+        return ComparisonBase(commit=goal, name=name)
+    return ComparisonBase(commit=str(common), name=f"where it left {name}")
 
 
-def _before(repository: Repository, head: str | None, edited: bool) -> Against:
+def _before(repository: Repository, head: str | None, edited: bool) -> ComparisonBase:
     """Return HEAD where something was edited since, else the commit before it."""
     if head is None:
-        return Against(name="nothing: no commit yet")
+        return ComparisonBase(name="nothing: no commit yet")
     if edited:
-        return Against(commit=head, name="HEAD")
+        return ComparisonBase(commit=head, name="HEAD")
     parents = repository.resolve(head).parents
     if parents:
-        return Against(commit=repository.resolve(parents[0]).id, name="the commit before")
+        return ComparisonBase(commit=repository.resolve(parents[0]).id, name="the commit before")
     if _handle(repository).is_shallow:
         raise PicoError(error("shallow", "this clone holds the last commit, and not the one before", hint=_WHOLE))
-    return Against(name="nothing: the first commit")
+    return ComparisonBase(name="nothing: the first commit")
 
 
 def _resolved(repository: Repository, handle: Any, name: str, revision: str | None) -> str:
