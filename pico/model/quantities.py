@@ -139,9 +139,7 @@ class Unit:
 Length = Annotated[float, Unit("mm")]
 Angle = Annotated[float, Unit("deg")]
 Milliseconds = Annotated[float, Unit("ms")]
-Seconds = Annotated[float, Unit("s")]
 Mass = Annotated[float, Unit("kg")]
-Speed = Annotated[float, Unit("mm/s")]
 
 Value = float | bool | str
 """The value of a tunable other than the pose, in the unit that its type declares."""

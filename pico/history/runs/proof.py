@@ -112,11 +112,6 @@ class Standings:
         return unproven(claim, tuple(wrong))
 
 
-def standing(folder: LabFolder, commit: Commit) -> Standing:
-    """Return the standing of one commit; for many, `Standings` looks through the history once."""
-    return Standings(folder).of(commit)
-
-
 def unproven(claim: CommitClaim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:
     """Return the standing of a commit to whose state no run led."""
 
