@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -91,6 +92,26 @@ def test_few_modules_lie_loose_and_no_room_is_overfull() -> None:
 def test_the_command_is_built_on_the_library_and_the_library_does_not_know_it() -> None:
     library = "\n".join(p.read_text() for p in FILES.values())
     assert "pico_cli" not in library
+
+
+def used(tree: ast.AST) -> Counter[str]:
+    """Return how often names stand in a tree; that they are imported is no use yet."""
+    nodes = [n for n in ast.walk(tree) if isinstance(n, ast.Name | ast.Attribute)]
+    return Counter(n.id if isinstance(n, ast.Name) else n.attr for n in nodes)
+
+
+def test_what_only_tests_ask_is_no_part_of_the_library() -> None:
+    trees = {p: ast.parse(p.read_text()) for top in ("pico", "cli") for p in (ROOT / top).rglob("*.py")}
+    uses = used(ast.Module([n for tree in trees.values() for n in tree.body], []))
+    idle = [
+        f"{path.relative_to(ROOT)}:{node.lineno} {node.name}: a test's own goes to tests/oracles"
+        for path in FILES.values()
+        for node in ast.walk(trees[path])
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+        and not node.name.startswith("__")
+        and uses[node.name] == used(node)[node.name]
+    ]
+    assert not idle, "\n".join(idle)
 
 
 def test_nothing_in_the_library_prints() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
@@ -30,35 +30,29 @@ SHOTS = 56
 GLANCES = 14
 """Poses from which a hand looks at the board."""
 
-Progress = Callable[[str, int, int], None]
 
-
-def calibrate(
-    setup: Setup, true: Mapping[str, CameraModel], seed: int, shots: int = SHOTS, progress: Progress | None = None
-) -> Calibration:
+def calibrate(setup: Setup, true: Mapping[str, CameraModel], seed: int) -> Calibration:
     """Return what calibration finds of the cameras `true` of a simulated bench, from pictures of board and datums.
 
-    `progress(what, done, of)` is told of every pose. Raises PicoError where the lab lacks datums, or a camera sees too
-    little.
+    Raises PicoError where the lab lacks datums, or a camera sees too little.
     """
     import numpy as np
 
     random = np.random.default_rng((seed, 3))
     nominal = camera_models(setup)
-    tell = progress or (lambda *_: None)
     fixed = {name: camera for name, camera in nominal.items() if camera.robot is None}
     cameras: dict[str, CameraModel] = {}
     residuals: dict[str, float] = {}
     position = 0.0
     if fixed:
-        views = [_shot(setup, {n: true[n] for n in fixed}, random, i, shots, tell) for i in range(shots)]
+        views = [_shot(setup, {n: true[n] for n in fixed}, random) for _ in range(SHOTS)]
         table = {n: detect(_photo(setup, true[n], None, random)) for n in fixed}
         found = bundle(setup, views, table, fixed)
         cameras.update(found.cameras)
         residuals.update(found.residuals)
         position = found.position
     for name in sorted(nominal.keys() - fixed.keys()):
-        seen, tools = _glances(setup, true[name], random, tell)
+        seen, tools = _glances(setup, true[name], random)
         eye = hand_eye(seen, tools, nominal[name])
         cameras[name], residuals[name] = eye.camera, eye.residual
     made = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
@@ -71,13 +65,10 @@ def _photo(setup: Setup, camera: CameraModel, board: Array | None, random: Any) 
     return photograph_sheets(camera, sheets, setup.lab.cameras[camera.name], random)
 
 
-def _shot(
-    setup: Setup, cameras: Mapping[str, CameraModel], random: Any, number: int, count: int, tell: Progress
-) -> dict[str, BoardView]:
+def _shot(setup: Setup, cameras: Mapping[str, CameraModel], random: Any) -> dict[str, BoardView]:
     """The board at a random place above the table, turned and tilted, as all fixed cameras see it."""
     import numpy as np
 
-    tell("board", number, count)
     width, depth = setup.lab.table.size
     around, lean = random.uniform(0, 2 * math.pi), random.uniform(0.4, 0.85)
     turn = rotation(np.array([math.cos(around), math.sin(around), 0.0]) * lean)
@@ -88,7 +79,7 @@ def _shot(
     return {name: view for name, view in views.items() if view is not None}
 
 
-def _glances(setup: Setup, camera: CameraModel, random: Any, tell: Progress) -> tuple[list[BoardView], list[Array]]:
+def _glances(setup: Setup, camera: CameraModel, random: Any) -> tuple[list[BoardView], list[Array]]:
     """The board on the table as a hand sees it from several poses, and the pose of the tool for each."""
     import numpy as np
 
@@ -96,8 +87,7 @@ def _glances(setup: Setup, camera: CameraModel, random: Any, tell: Progress) -> 
     middle = np.array([width / 2, depth / 2, 0.0])
     board = upright(Pose(width / 2, depth / 2, 20.0), 0.0)
     views, tools = [], []
-    for number in range(GLANCES):
-        tell(camera.name, number, GLANCES)
+    for _ in range(GLANCES):
         eye = middle + random.uniform((-150, -150, 260), (150, 150, 420))
         target = middle + random.uniform((-20, -20, 0), (20, 20, 0))
         tool = looking(eye, target, random.uniform(-40, 40)) @ np.linalg.inv(camera.pose)
