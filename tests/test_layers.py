@@ -11,8 +11,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
-    "diagnostics", "disk", "expressions", "resources", "attachment", "model", "geometry", "manifest", "vision",
-    "motion", "staging", "planning", "twin", "cameras", "drawing", "runs", "backends", "policy", "execution",
+    "diagnostics", "disk", "expressions", "resources", "attachment", "model", "geometry", "manifest", "optics",
+    "vision", "motion", "staging", "planning", "twin", "cameras", "drawing", "runs", "backends", "policy", "execution",
     "history", "bench",
 )  # fmt: skip
 LOOSE = 6

@@ -19,16 +19,21 @@ def validate(
 ) -> int:
     """Check the manifests.
 
-    Also that everything has room where the state wants it. All errors at once, each with its place. Does not ask the
-    bench; asks Git what it keeps out of the folder, and what its merge kept.
+    Also that everything has room where the state wants it, and where its beams end. All errors at once, each with its
+    place. Does not ask the bench; asks Git what it keeps out of the folder, and what its merge kept.
     """
     from pico.history.lab.missing_files import missing_files
     from pico.history.merge.checked import overlapping
     from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
+    from pico.optics.ends import stray_beams
 
     session = Session.of(context)
-    where, asked = session.folder, (lambda root, read: [*overlapping(read), *doubts_in(root, read)], missing_files)
+    asked = (
+        lambda root, read: [*overlapping(read), *stray_beams(*read.require()), *doubts_in(root, read)],
+        missing_files,
+    )
+    where = session.folder
     checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
     session.tell(checked.diagnostics)
     session.show(view, checked)

@@ -26,7 +26,7 @@ def text(found: Measured) -> str:
         else:
             rows.append(f"  {'nearest faces':<20}overlap by {-found.surfaces.gap:.2f} mm   {between}")
     if found.beam:
-        rows += ["", *_beam(found)]
+        rows += ["", *_beam(found), *_by_light(found)]
     return "\n".join([*lines, "", *rows])
 
 
@@ -62,8 +62,18 @@ def _beam(found: Measured) -> list[str]:
     return rows
 
 
+def _by_light(found: Measured) -> list[str]:
+    rows = []
+    for way in found.ways:
+        over = f" over {', '.join(way.over)}" if way.over else ""
+        rows.append(f"  along the beam of {way.source}{over}: {way.length:.2f} mm")
+    if len(found.ways) == 2:
+        rows.append(f"  the two ways differ by {found.ways[1].length - found.ways[0].length:.2f} mm")
+    return rows
+
+
 def data(found: Measured) -> dict[str, Any]:
-    """Return schema `pico.ruler/v1`: both ends, `centers`, `surfaces` and `beam`; mm and deg."""
+    """Return schema `pico.ruler/v1`: both ends, `centers`, `surfaces`, `beam` and `ways`; mm and deg."""
     surfaces, beam = found.surfaces, found.beam
     return {
         "schema": "pico.ruler/v1",
@@ -78,6 +88,7 @@ def data(found: Measured) -> dict[str, Any]:
         }
         if beam
         else None,
+        "ways": [{"source": way.source, "over": way.over, "length": way.length} for way in found.ways],
     }  # fmt: skip
 
 

@@ -185,17 +185,13 @@ def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
 
 
 def glow(setup: Setup, lit: Mapping[str, Place], poses: Mapping[str, Place] | None = None) -> tuple[Beam, ...]:
-    """Return the light of each source among `lit`, at the height of its exit, up to what stops it among `poses`."""
+    """Return the light of each source among `lit`, up to what stops it among `poses`."""
     import numpy as np
 
     from pico.drawing.perspective import Beam
 
-    found = []
-    for name, start, end in beam_paths(setup, lit if poses is None else poses):
-        if name in lit:
-            z = setup.type_of(name).frames.optical[2]
-            found.append(Beam(np.array((*start, z)) / 1000, np.array((*end, z)) / 1000))
-    return tuple(found)
+    paths = beam_paths(setup, lit if poses is None else poses)
+    return tuple(Beam(np.array(start) / 1000, np.array(end) / 1000) for name, start, end in paths if name in lit)
 
 
 def center_of(setup: Setup) -> Any:

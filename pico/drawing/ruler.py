@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.drawing.beams import Place
+from pico.drawing.beams import Place, standing
 from pico.drawing.dimensions import Dimension
 from pico.drawing.picture import placed, posed_model
 from pico.model.lab import Setup
 from pico.model.pose import short
 from pico.motion.types import Joints
+from pico.optics.axis import beams
 from pico.twin.placement import Placement
 
 Vector = tuple[float, float, float]
@@ -84,14 +85,26 @@ class AlongBeam:
 
 
 @dataclass(frozen=True, slots=True)
+class ByLight:
+    """A way that the beam of `source` takes from one end to the other, `over` which mirrors and splitters, and how long
+    it is [mm], from optic to optic."""
+
+    source: str
+    over: tuple[str, ...]
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
 class Measured:
-    """What a ruler shows; `surfaces` between two components only, `beam` where one end is a component."""
+    """What a ruler shows; `surfaces` between two components only, `beam` where one end is a component, `ways` of light
+    from one component to the other, the shortest first."""
 
     a: End
     b: End
     centers: Span
     surfaces: NearestFaces | None = None
     beam: AlongBeam | None = None
+    ways: tuple[ByLight, ...] = ()
 
     @property
     def dimensions(self) -> tuple[Dimension, ...]:
@@ -118,10 +131,27 @@ def measure(
     if problems:
         raise PicoError(problems)
     a, b = ends
-    between = None
-    if a.component and b.component and a.component != b.component:
-        between = _surfaces(setup, places, joints, a.component, b.component)
-    return Measured(a, b, Span(a.at, b.at), between, _along(places, a, b))
+    if not (a.component and b.component and a.component != b.component):
+        return Measured(a, b, Span(a.at, b.at), None, _along(places, a, b))
+    between = _surfaces(setup, places, joints, a.component, b.component)
+    ways = [*_ways(setup, poses, a.component, b.component), *_ways(setup, poses, b.component, a.component)]
+    shortest = tuple(sorted(ways, key=lambda way: way.length))
+    return Measured(a, b, Span(a.at, b.at), between, _along(places, a, b), shortest)
+
+
+def _ways(setup: Setup, poses: Mapping[str, Place], first: str, then: str) -> Iterator[ByLight]:
+    """Yield each way of a beam from one component to another."""
+    for axis in beams(setup, standing(poses)):
+        known = set()
+        for way in axis.ways(then):
+            starts = [n for n, met in enumerate(way[:-1]) if met.component == first]
+            if not starts and axis.source != first:
+                continue
+            after, begun = (starts[-1] + 1, way[starts[-1]].length) if starts else (0, 0.0)
+            over = tuple(met.component for met in way[after:-1] if met.event != "passed")
+            if (over, way[-1].length - begun) not in known:
+                known.add((over, way[-1].length - begun))
+                yield ByLight(axis.source, over, way[-1].length - begun)
 
 
 def end_of(setup: Setup, places: Mapping[str, Placement], word: str) -> End:

@@ -147,7 +147,7 @@ def _arcs(drawing: Drawing, setup: Setup, center: Point, radius: float, size: fl
 def _beams(drawing: Drawing, setup: Setup, poses: Mapping[str, Place]) -> None:
     drawing.group("beams")
     for _, start, end in beam_paths(setup, poses):
-        drawing.shape((start, end), closed=False, stroke=_BEAM, stroke_width=1.5)
+        drawing.shape((start[:2], end[:2]), closed=False, stroke=_BEAM, stroke_width=1.5)
 
 
 def _component(drawing: Drawing, setup: Setup, name: str, pose: Pose) -> None:

@@ -69,7 +69,7 @@ def draw(
             _draw_reach(canvas, setup, robot)
     if beams:
         for _, start, end in beam_paths(setup, poses):
-            canvas.line((start, end), _BEAM, 1.2)
+            canvas.line((start[:2], end[:2]), _BEAM, 1.2)
     places = flat(poses)
     for name, pose in sorted(places.items()):
         _draw_component(canvas, setup, name, pose)

@@ -108,11 +108,14 @@ def _value(
         unknown[name] = f"nobody knows {name}"
 
 
-def functions_of(setup: Setup, seen: Observation | None = None) -> tuple[Function, ...]:
+def functions_of(
+    setup: Setup, seen: Observation | None = None, reaches: Callable[[str, str], bool] = lambda *_: False
+) -> tuple[Function, ...]:
     """Return the functions of the language over a bench as observed; without `seen`, to check expressions only.
 
     `distance(a, b)`: between two components [mm]; `turned(a, b)`: from angle a to b, -180 to 180 [deg]; `abs(x)`;
-    `inside(component, region)`: whether its origin lies in a region of the lab.
+    `inside(component, region)`: whether its origin lies in a region of the lab; `reaches(laser, component)`: whether
+    the laser's beam comes to it, as whoever evaluates knows.
     """
 
     def pose(name: str) -> Pose:
@@ -129,6 +132,7 @@ def functions_of(setup: Setup, seen: Observation | None = None) -> tuple[Functio
         Function("turned", ("number", "number"), "number", angle_between),
         Function("abs", ("number",), "number", abs),
         Function("inside", ("text", "text"), "bool", _inside(setup, pose)),
+        Function("reaches", ("text", "text"), "bool", reaches),
     )
 
 

@@ -12,6 +12,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.state import Expectation
 from pico.model.vocabulary import functions_of, names_of, spoken_of, values_of
+from pico.policy.reaching import reaching
 
 
 def require_expressions(setup: Setup, texts: Iterable[str]) -> None:
@@ -34,7 +35,7 @@ def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expecta
         return ()
     names = spoken_of(setup, (e.that for e in expect))
     values, unknown = values_of(setup, seen, names)
-    language = Language(names_of(setup, names), functions_of(setup, seen))
+    language = Language(names_of(setup, names), functions_of(setup, seen, reaching(setup, seen)))
     found = []
     for one in expect:
         holds, why = None, ""

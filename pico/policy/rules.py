@@ -14,6 +14,7 @@ from pico.model.plan import Plan
 from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, spoken_of, values_of
 from pico.policy.context import policy_values
 from pico.policy.expectations import shown
+from pico.policy.reaching import reaching
 
 _NOBODY = "nothing tells whether somebody is at the table"
 
@@ -42,7 +43,7 @@ def verdicts(setup: Setup, plan: Plan, seen: Observation) -> tuple[Mapping[str, 
     values |= policy_values(setup, plan, seen)
     if seen.person is not None:
         values["human_present"] = seen.person
-    language = Language({**names_of(setup, spoken), **POLICY_NAMES}, functions_of(setup, seen))
+    language = Language({**names_of(setup, spoken), **POLICY_NAMES}, functions_of(setup, seen, reaching(setup, seen)))
     return tuple(_verdict(language, rule, values, {**unknown, "human_present": _NOBODY}) for rule in rules)
 
 

@@ -1,0 +1,286 @@
+"""Where a beam goes: the chief ray of a source by geometry alone, in the table frame [mm].
+
+This is the one answer for pictures, planner, policy, validation and ruler. A ray runs straight, passes what it can pass
+through within its clear aperture, is reflected at mirrors (their tip and tilt count) and divided at splitters, and ends
+at a detector, a block, a housing, or where it leaves the table. Lenses do not bend it and shutters are taken as open:
+whoever asks knows what is shut.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from pico.geometry.shape import Shape, placed
+from pico.model.catalog import ClearAperture, ComponentType
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+
+Vector = tuple[float, float, float]
+Event = Literal["passed", "reflected", "divided", "detected", "blocked", "left"]
+LEGS = 256
+"""Straight pieces after which a beam that goes round and round is followed no more."""
+
+_ENDS: Mapping[str, Event] = {"mirror": "reflected", "beam_splitter": "divided", "detector": "detected"}
+_NEAR = 1e-6  # mm: what a ray has just left
+_RADIANS = {"mrad": 1e-3, "deg": math.pi / 180, "rad": 1.0}
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """A component that the ray meets: what it does there, where [mm], and how far from the source along the beam [mm].
+    `component` is empty where the ray leaves the table."""
+
+    component: str
+    event: Event
+    at: Vector
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A straight piece of a beam from `start`, where it has come `begun` [mm] already, with what it meets in order; the
+    last of these ends it. `before`: the number of the leg that it goes on from; None for the first."""
+
+    start: Vector
+    begun: float
+    met: tuple[Meeting, ...]
+    before: int | None = None
+
+    @property
+    def end(self) -> Vector:
+        return self.met[-1].at
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """The beam of a source: a tree of legs, each after the one that it goes on from. `endless` where it was followed no
+    further than `LEGS` legs."""
+
+    source: str
+    legs: tuple[Leg, ...]
+    endless: bool = False
+
+    @property
+    def meetings(self) -> tuple[Meeting, ...]:
+        """All that the beam meets, leg by leg."""
+        return tuple(meeting for leg in self.legs for meeting in leg.met)
+
+    def reaches(self, component: str) -> bool:
+        """Whether light of the source comes to a component: through it, off it, or into it; not onto its housing."""
+        return any(m.component == component and m.event != "blocked" for m in self.meetings)
+
+    def ways(self, component: str) -> tuple[tuple[Meeting, ...], ...]:
+        """Return each way from the source to a component: what is met, in order, the component last."""
+        return tuple(
+            (*self._before(number), *leg.met[: at + 1])
+            for number, leg in enumerate(self.legs)
+            for at, meeting in enumerate(leg.met)
+            if meeting.component == component and meeting.event != "blocked"
+        )
+
+    def _before(self, number: int) -> tuple[Meeting, ...]:
+        before = self.legs[number].before
+        return () if before is None else (*self._before(before), *self.legs[before].met)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ray:
+    at: Vector
+    towards: Vector  # of length 1
+    begun: float
+    leaves: str
+    before: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Optic:
+    """A component as a ray finds it: its outline on the table and its height; center, normal and radius of its
+    aperture, None where nothing passes."""
+
+    name: str
+    element: str
+    shape: Shape
+    height: float
+    center: Vector | None
+    normal: Vector
+    radius: float
+
+
+def axis_of(
+    setup: Setup, poses: Mapping[str, Pose], source: str, values: Mapping[str, Mapping[str, Any]] | None = None
+) -> Axis:
+    """Return the beam of `source` among the components that stand at `poses` (the source one of them).
+
+    `values`: their tunables in the units of the catalog, of which `tip` and `tilt` of mirrors count; 0 where unknown.
+    """
+    known = values or {}
+    optics = [_optic(setup.type_of(n), n, pose, known.get(n, {})) for n, pose in poses.items()]
+    frame = setup.type_of(source).frames.optical
+    own = poses[source]
+    x, y = own.apply(*frame[:2])
+    turned = math.radians(own.yaw)
+    rays = [_Ray((x, y, frame[2]), (math.cos(turned), math.sin(turned), 0.0), 0.0, source, None)]
+    legs: list[Leg] = []
+    for ray in rays:
+        if len(legs) == LEGS:
+            return Axis(source, tuple(legs), endless=True)
+        leg, last = _leg(setup.lab.table.size, optics, ray)
+        rays += _onward(ray, leg, last, len(legs))
+        legs.append(leg)
+    return Axis(source, tuple(legs))
+
+
+def beams(
+    setup: Setup, poses: Mapping[str, Pose], values: Mapping[str, Mapping[str, Any]] | None = None
+) -> Iterator[Axis]:
+    """Yield the beam of each source that stands on the table, by name."""
+    for name in sorted(poses):
+        if setup.type_of(name).optics.element == "source":
+            yield axis_of(setup, poses, name, values)
+
+
+def _optic(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]) -> _Optic:
+    geometry, element = kind.geometry, kind.optics.element
+    aperture = _aperture(kind) if element not in ("block", "source") else None
+    center = aperture.center if aperture else (0.0, 0.0, 0.0)
+    x, y = pose.apply(*center[:2])
+    tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if element == "mirror" else (0.0, 0.0)
+    if element == "beam_splitter":
+        # what comes along +x is divided to `fold` degrees from it: the coating stands half way
+        tip = math.radians(float(kind.optics.properties.get("fold", 90.0)) / 2 + 90.0)
+    facing = math.radians(pose.yaw) + tip + (math.pi if element == "mirror" else 0.0)
+    normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
+    where = (x, y, center[2]) if aperture else None
+    shape = placed(geometry.footprint, pose)
+    return _Optic(name, element, shape, geometry.height, where, normal, aperture.diameter / 2 if aperture else 0.0)
+
+
+def _aperture(kind: ComponentType) -> ClearAperture | None:
+    """Return where light passes a component: as its geometry says, else as wide as the element is, around its axis."""
+    if kind.geometry.clear_aperture:
+        return kind.geometry.clear_aperture
+    width = kind.optics.properties.get("clear_diameter")
+    return ClearAperture(center=kind.frames.optical, diameter=width) if isinstance(width, int | float) else None
+
+
+def _turn(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
+    """Return a tunable that is an angle [rad]; 0 where it is not known or there is none."""
+    value = values.get(key)
+    return float(value) * _RADIANS[kind.tunables[key].unit or "rad"] if isinstance(value, int | float) else 0.0
+
+
+def _leg(table: tuple[float, float], optics: list[_Optic], ray: _Ray) -> tuple[Leg, _Optic | None]:
+    """Return the leg that a ray runs, and what bends or divides it at its end."""
+    length = _to_edge(table, ray)
+    found = sorted((far, o.name, o, event) for o in optics if (hit := _hit(ray, o)) for far, event in [hit])
+    met: list[Meeting] = []
+    for far, name, optic, event in found:
+        if far > length:
+            break
+        met.append(Meeting(name, event, _along(ray, far), ray.begun + far))
+        if event != "passed":
+            return Leg(ray.at, ray.begun, tuple(met), ray.before), optic
+    met.append(Meeting("", "left", _along(ray, length), ray.begun + length))
+    return Leg(ray.at, ray.begun, tuple(met), ray.before), None
+
+
+def _hit(ray: _Ray, optic: _Optic) -> tuple[float, Event] | None:
+    """Return how far ahead a ray meets a component [mm], and what becomes of it; None where it misses it."""
+    if optic.name == ray.leaves:
+        return None
+    if optic.center is not None and (far := _through(ray, optic)) is not None:
+        return far, _ENDS.get(optic.element, "passed")
+    housing = _housing(ray, optic)
+    return None if housing is None else (housing, "blocked")
+
+
+def _through(ray: _Ray, optic: _Optic) -> float | None:
+    """Return where a ray meets the plane of an optic within its clear aperture [mm ahead], None where it does not.
+
+    A splitter is as open on each side of its cube, so there the distance to the ray counts, too, and the coating is as
+    long as that takes; a mirror is seen from its face only.
+    """
+    assert optic.center is not None
+    facing = _dot(ray.towards, optic.normal)
+    if abs(facing) < 1e-6 or (optic.element == "mirror" and facing > 0):
+        return None
+    offset = _minus(optic.center, ray.at)
+    far = _dot(offset, optic.normal) / facing
+    aside = _minus(_along(ray, far), optic.center)
+    square, across = _dot(aside, aside), _dot(aside, ray.towards)
+    if optic.element == "beam_splitter":
+        square = max(square - across**2, square / 2)
+    return far if far > _NEAR and square <= optic.radius**2 else None
+
+
+def _housing(ray: _Ray, optic: _Optic) -> float | None:
+    """Return where a ray comes above the outline of a component, lower than its top [mm ahead], or None."""
+    entered = _entry(ray, optic.shape)
+    if entered is None or not 0.0 <= _along(ray, entered)[2] <= optic.height:
+        return None
+    return entered
+
+
+def _entry(ray: _Ray, shape: Shape) -> float | None:
+    """Return where a ray, seen from above, enters a disc or a convex polygon [mm ahead, along the ray in space]."""
+    (px, py, _), (dx, dy, _) = ray.at, ray.towards
+    if not shape.vertices:
+        a = dx * dx + dy * dy
+        b = (px - shape.x) * dx + (py - shape.y) * dy
+        root = b * b - a * ((px - shape.x) ** 2 + (py - shape.y) ** 2 - shape.radius**2)
+        if a == 0.0 or root < 0 or -b + math.sqrt(root) <= _NEAR * a:
+            return None
+        return max(0.0, (-b - math.sqrt(root)) / a)
+    first, last = 0.0, math.inf
+    corners = shape.vertices
+    for (ax, ay), (bx, by) in zip(corners, (*corners[1:], corners[0]), strict=True):
+        inward, ahead = (bx - ax) * (py - ay) - (by - ay) * (px - ax), (bx - ax) * dy - (by - ay) * dx
+        if ahead > 0:
+            first = max(first, -inward / ahead)
+        elif ahead < 0:
+            last = min(last, inward / -ahead)
+        elif inward < 0:
+            return None
+    return first if last > max(first, _NEAR) else None
+
+
+def _onward(ray: _Ray, leg: Leg, optic: _Optic | None, number: int) -> list[_Ray]:
+    """Return the rays that go on from the end of a leg."""
+    last = leg.met[-1]
+    if optic is None or last.event not in ("reflected", "divided"):
+        return []
+    turned = _minus(ray.towards, _times(optic.normal, 2 * _dot(ray.towards, optic.normal)))
+    ways = [ray.towards, turned] if last.event == "divided" else [turned]
+    return [_Ray(last.at, way, last.length, optic.name, number) for way in ways]
+
+
+def _to_edge(table: tuple[float, float], ray: _Ray) -> float:
+    """Return how far ahead a ray leaves the space over the table: over its edge, or into its top [mm]."""
+    ways = [
+        ((size if step > 0 else 0.0) - at) / step
+        for at, step, size in zip(ray.at[:2], ray.towards[:2], table, strict=True)
+        if abs(step) > 1e-12
+    ]
+    if ray.towards[2] < 0:
+        ways.append(ray.at[2] / -ray.towards[2])
+    return max(0.0, min(ways, default=0.0))
+
+
+def _along(ray: _Ray, far: float) -> Vector:
+    x, y, z = (p + far * d for p, d in zip(ray.at, ray.towards, strict=True))
+    return x, y, z
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def _times(a: Vector, by: float) -> Vector:
+    return a[0] * by, a[1] * by, a[2] * by

@@ -1,0 +1,38 @@
+"""Where the beams of a state end: on the table's edge or a housing, nobody wants them to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pico.diagnostics import Diagnostic, warning
+from pico.model.lab import Setup
+from pico.model.pose import short
+from pico.model.state import LabState, place_of
+from pico.optics.axis import Meeting, axis_of
+
+
+def stray_beams(setup: Setup, state: LabState) -> tuple[Diagnostic, ...]:
+    """Return a warning for each beam of a laser that the state turns on, where it leaves the table or ends on a part
+    that is no block: shutters count as open."""
+    poses = {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
+    values = {name: part.values for name, part in state.components.items()}
+    on = (n for n in sorted(poses) if setup.type_of(n).optics.element == "source" and values[n].get("emission") is True)
+    return tuple(
+        found
+        for name in on
+        for end in axis_of(setup, poses, name, values).meetings
+        for found in _stray(setup, name, end)
+    )
+
+
+def _stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
+    x, y, _ = (short(v) for v in end.at)
+    hint = "end it in a beam block or on a detector"
+    if end.event == "left":
+        yield warning("beam", f"the beam of {laser} leaves the table at ({x}, {y})", hint=hint, address=laser)
+    elif end.component == laser:
+        text = f"the beam of {laser} comes back to it at ({x}, {y})"
+        yield warning("beam", text, hint="turn what sends it back, or end it in a beam block", address=laser)
+    elif end.event == "blocked" and setup.type_of(end.component).optics.element != "block":
+        text = f"the beam of {laser} ends on the housing of {end.component} at ({x}, {y}), beside its aperture"
+        yield warning("beam", text, hint=f"move {end.component} into the beam or out of it", address=end.component)
