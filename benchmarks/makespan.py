@@ -37,7 +37,7 @@ from pico.planning.actors import actors, asides  # noqa: E402
 from pico.planning.checks.target import no_source  # noqa: E402
 from pico.planning.ordering.arm_times import timed  # noqa: E402
 from pico.planning.ordering.several_arms import work_of  # noqa: E402
-from pico.planning.ordering.solve import Problem, Solution, solve  # noqa: E402
+from pico.planning.ordering.solve import OrderedMoves, OrderingProblem, solve  # noqa: E402
 from pico.planning.ordering.travel import Clock  # noqa: E402
 from pico.planning.parts.situation import read_situation  # noqa: E402
 from pico.planning.request import Request  # noqa: E402
@@ -69,9 +69,9 @@ class Case:
         situation = read_situation(self.setup, self.seen, self.wanted)
         movers, obstacles, _ = actors(request, situation)
         others = asides(request, situation, movers)
-        answer = solve(Problem(self.setup, self.seen, movers, tuple(obstacles), others, self.motion))
+        answer = solve(OrderingProblem(self.setup, self.seen, movers, tuple(obstacles), others, self.motion))
         if (
-            not isinstance(answer, Solution)
+            not isinstance(answer, OrderedMoves)
             or len(answer.steps) > MOST
             or len({s.hold.robot for s in answer.steps}) < 2
         ):

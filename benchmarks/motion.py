@@ -31,7 +31,7 @@ from pico.motion.arms import ARM_REACH, ArmMotion  # noqa: E402
 from pico.motion.paths import STEP  # noqa: E402
 from pico.motion.recheck import Recheck, Task  # noqa: E402
 from pico.motion.scene import within_reach  # noqa: E402
-from pico.motion.types import MovePath, Standing  # noqa: E402
+from pico.motion.types import MovePath, StandingObject  # noqa: E402
 
 BAR = 15.0
 """What the median of a whole move may take without the second check [ms]."""
@@ -47,7 +47,7 @@ class Question:
     start: Pose
     goal: Pose
     grasp_yaw: float
-    standing: dict[str, Standing]
+    standing: dict[str, StandingObject]
 
     @property
     def geometry(self) -> Geometry:
@@ -70,7 +70,7 @@ def questions(parts: int, spacing: float, seed: int) -> Iterator[Question]:
         else:
             continue
         standing = {
-            f"t{i}": Standing(pose, TALL if i < 2 else STANDING[i % 4]) for i, pose in enumerate(poses[2:])
+            f"t{i}": StandingObject(pose, TALL if i < 2 else STANDING[i % 4]) for i, pose in enumerate(poses[2:])
         }  # fmt: skip
         yield Question(rnd.choice(sorted(HELD)), poses[0], poses[1], rnd.choice((0.0, 90.0)), standing)
 

@@ -40,7 +40,7 @@ from pico.model.operation import Operation, Reason  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
 from pico.model.record import as_json  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
-from pico.motion.types import Blocked, MovePath, Standing  # noqa: E402
+from pico.motion.types import Blocked, MovePath, StandingObject  # noqa: E402
 from pico.twin.physics import Twin  # noqa: E402
 from pico.twin.sight import Exact, HandSight  # noqa: E402
 
@@ -109,7 +109,7 @@ class Run:
             if start is None or geometry.grasp is None or any(goal.distance(pose) < self.apart for pose in others):
                 continue
             yaw, believed = rnd.choice(geometry.grasp.yaws), self._misjudged(start)
-            things = standing(setup, world) | {name: Standing(believed, geometry)}
+            things = standing(setup, world) | {name: StandingObject(believed, geometry)}
             cpu = time.process_time()
             path = self.motion.move(self.robot, name, believed, goal, yaw, things, world.robots[self.robot].joints)
             self.path_cpu = time.process_time() - cpu

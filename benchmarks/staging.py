@@ -37,10 +37,10 @@ from pico.model.pose import Pose  # noqa: E402
 from pico.staging.feedback import (  # noqa: E402
     Arc,
     Component,
-    Event,
     Option,
-    Problem,
-    Staging,
+    PartEvent,
+    StagingAnswer,
+    StagingProblem,
     arrives,
     leaves,
     solve,
@@ -61,7 +61,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--plan", action="store_true", help="plan the instances as labs, from end to end")
     given = parser.parse_args()
-    solve(Problem((Component((), (Option(0),), (Option(0),)), Component((Option(0),)))))  # imports are not timed
+    solve(StagingProblem((Component((), (Option(0),), (Option(0),)), Component((Option(0),)))))  # imports are not timed
     instances = json.loads(given.instances.read_text())["instances"]
     if given.plan:
         return int(planned(instances) > 0)
@@ -213,7 +213,7 @@ def arrangement(rng: random.Random, things: Sequence[Thing], side: float) -> lis
             return found
 
 
-def random_table(rng: random.Random, kind: str, n: int, density: float) -> Problem:
+def random_table(rng: random.Random, kind: str, n: int, density: float) -> StagingProblem:
     """Return the problem of bringing `n` things from one random arrangement to another."""
     things = [random_thing(rng, kind) for _ in range(n)]
     area = sum(math.pi * f.disc**2 if f.disc else math.prod(f.box or ()) for f in (t.footprint for t in things))
@@ -221,13 +221,13 @@ def random_table(rng: random.Random, kind: str, n: int, density: float) -> Probl
     return problem(things, arrangement(rng, things, side), arrangement(rng, things, side))
 
 
-def problem(things: Sequence[Thing], starts: Sequence[Standing], goals: Sequence[Standing]) -> Problem:
+def problem(things: Sequence[Thing], starts: Sequence[Standing], goals: Sequence[Standing]) -> StagingProblem:
     """Return what must come before what: bodies always, fingers for the grasp that they belong to."""
     every = range(len(things))
     bodies = [Arc(leaves(j), arrives(i), "body") for i in every for j in every
               if i != j and conflict(goals[i].shape, starts[j].shape)]  # fmt: skip
 
-    def fingers(i: int, yaw: float, here: Standing, mine: Event) -> tuple[Arc, ...]:
+    def fingers(i: int, yaw: float, here: Standing, mine: PartEvent) -> tuple[Arc, ...]:
         zones = finger_zones(things[i].grasps[yaw], Gripper(), yaw, here.pose)
         others = [j for j in every if j != i]
         before = [Arc(leaves(j), mine, "finger") for j in others if any(conflict(z, starts[j].shape) for z in zones)]
@@ -240,7 +240,7 @@ def problem(things: Sequence[Thing], starts: Sequence[Standing], goals: Sequence
         place = [Option(yaw, fingers(i, yaw, goals[i], arrives(i))) for yaw in things[i].grasps]
         direct = [Option(a.name, a.arcs + b.arcs) for a, b in zip(pick, place, strict=True)]
         parts.append(Component(tuple(direct), tuple(pick), tuple(place)))
-    return Problem(tuple(parts), tuple(bodies))
+    return StagingProblem(tuple(parts), tuple(bodies))
 
 
 def with_fingers(tables: int, seed: int) -> None:
@@ -250,7 +250,7 @@ def with_fingers(tables: int, seed: int) -> None:
     for kind, n, density in TABLES:
         drawn = [random_table(random.Random(f"{seed} {kind} {n} {density} {k}"), kind, n, density)
                  for k in range(tables)]  # fmt: skip
-        answers: list[tuple[Staging, float]] = [timed(lambda p=p: solve(p)) for p in drawn]
+        answers: list[tuple[StagingAnswer, float]] = [timed(lambda p=p: solve(p)) for p in drawn]
         solved = [(p, a) for p, (a, _) in zip(drawn, answers, strict=True) if a.options is not None]
         seconds = [s for _, s in answers]
         print(f"{kind:>7} {n:4} {density:8} {mean(bodies_only(p) for p, _ in solved):7.2f} "
@@ -259,7 +259,7 @@ def with_fingers(tables: int, seed: int) -> None:
               f"{max(seconds):7.3f}", flush=True)  # fmt: skip
 
 
-def bodies_only(problem: Problem) -> int:
+def bodies_only(problem: StagingProblem) -> int:
     """Return how many would be staged if fingers needed no room."""
     graph: list[list[int]] = [[] for _ in problem.components]
     for arc in problem.arcs:

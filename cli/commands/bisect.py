@@ -124,7 +124,7 @@ def status(context: typer.Context) -> None:
     session = Session.of(context)
     bench = session.bench()
     search = bench.bisection()
-    session.show(view.Standing, search, search.outcome(), bench.name_of)
+    session.show(view.StandingView, search, search.outcome(), bench.name_of)
 
 
 @app.command()
@@ -165,7 +165,7 @@ def _told(
     bench = session.bench(fidelity, writing=True)
     search = bench.bisection()
     tried = search.told(verdict, bench.folder.history().resolve(commit).id if commit else None)
-    session.show(view.Tried, search, tried)
+    session.show(view.TriedView, search, tried)
     return go_on(session, bench, search, auto_approve)
 
 

@@ -40,14 +40,14 @@ def bisect_step(
         if not bisecting(session.folder):
             raise
         found = TrialStep(commit="HEAD", verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
-        session.show(view.TrialStep, found)
+        session.show(view.StepView, found)
         return CODES[found.verdict]
 
     def run(plan: Plan) -> float:
         return _run(session, bench, plan, bring(session, bench, plan))
 
     found = step(bench, expect, run)
-    session.show(view.TrialStep, found)
+    session.show(view.StepView, found)
     return CODES[found.verdict]
 
 

@@ -31,7 +31,7 @@ def go_on(session: Session, bench: Bench, search: Bisection, auto_approve: bool)
                     proposal = search.propose()
             finally:
                 for tried in search.tried[shown:]:
-                    session.show(view.Tried, search, tried)
+                    session.show(view.TriedView, search, tried)
                 shown = len(search.tried)
             if proposal is None:
                 return _over(session, bench, search)
@@ -65,7 +65,7 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
         session.say(view.judge_it(name))
         return ExitCode.DONE
     tried = search.judge(proposal, seconds)
-    session.show(view.Tried, search, tried, proposal)
+    session.show(view.TriedView, search, tried, proposal)
     return None
 
 
@@ -99,5 +99,5 @@ class Quiet(Screen):
 def _over(session: Session, bench: Bench, search: Bisection) -> int:
     outcome = search.outcome()
     entry = bench.entry(outcome.first_bad) if outcome.first_bad else None
-    session.show(view.Over, search, outcome, entry, bench.name_of)
+    session.show(view.EndView, search, outcome, entry, bench.name_of)
     return ExitCode.DONE if outcome.first_bad else ExitCode.ERROR

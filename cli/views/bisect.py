@@ -54,7 +54,7 @@ class Proposed:
         return {"schema": SCHEMA, "kind": "proposed", **own, "seconds": proposal.plan.makespan}
 
 
-class Tried:
+class TriedView:
     """One configuration that was judged."""
 
     @staticmethod
@@ -74,7 +74,7 @@ class Tried:
         return {"schema": SCHEMA, "kind": "tried", **own, **as_json(tried)}
 
 
-class Over:
+class EndView:
     """What it came to."""
 
     @staticmethod
@@ -95,12 +95,12 @@ class Over:
         return {"schema": SCHEMA, "kind": "over", **as_json(outcome), **found, "git": outcome.said}
 
 
-class Standing:
+class StandingView:
     """Where a bisection stands."""
 
     @staticmethod
     def text(search: Bisection, outcome: BisectionOutcome, name_of: Callable[[str], str]) -> str:
-        rows = [Tried.text(search, tried) for tried in search.tried]
+        rows = [TriedView.text(search, tried) for tried in search.tried]
         if outcome.first_bad:
             last = f"{name_of(outcome.first_bad)} is the first bad commit. `pico bisect reset` ends the bisection."
         else:
@@ -127,7 +127,7 @@ class Standing:
         }
 
 
-class TrialStep:
+class StepView:
     """One trial of `pico bisect-step`."""
 
     @staticmethod

@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.planning.explaining.explain import Because, Explanation, Fewer, Step, Wait, kind_of
+from pico.planning.explaining.explain import Because, ExplainedOperation, Explanation, Fewer, Wait, kind_of
 
 from . import diagnostics as diagnostics_view
 from .plan import address, header, reason, what
@@ -35,12 +35,12 @@ def data(plan: Plan, found: Explanation, **_: Any) -> dict[str, Any]:
     return {"schema": "pico.explanation/v1", **as_json(found), "diagnostics": told}
 
 
-def _title(step: Step) -> str:
+def _title(step: ExplainedOperation) -> str:
     op = step.operation
     return f"{paint('bold', op.id)}  {paint('bold', address(op))}  {what(op, step.change)}"
 
 
-def _why(step: Step) -> str:
+def _why(step: ExplainedOperation) -> str:
     op, change = step.operation, step.change
     said = reason(op.reason, change)
     if op.reason.kind == "changed" and change and change.before is not None:
@@ -78,7 +78,7 @@ def _line(key: str, words: str) -> list[str]:
     return [f"  {pad(paint('dim', key), _KEY)}{first.strip()}", *rest]
 
 
-def _full(step: Step) -> list[str]:
+def _full(step: ExplainedOperation) -> list[str]:
     op = step.operation
     lines = [_title(step), *_line("why", _why(step))]
     lines += [part for words in _waits(step.waits_for, True) for part in _line("after", words)]
@@ -90,7 +90,7 @@ def _full(step: Step) -> list[str]:
     return [*lines, *_line("when", when)]
 
 
-def _brief(step: Step) -> list[str]:
+def _brief(step: ExplainedOperation) -> list[str]:
     told = step.operation.reason.kind != "changed" and _why(step)
     lines = [_title(step), *(_line("why", _why(step)) if told else [])]
     waits = [w for w in step.waits_for if any(b.kind not in ("beam", "parked") for b in w.because)]

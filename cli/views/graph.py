@@ -7,7 +7,7 @@ from typing import Any
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.planning.explaining.graph import Edge, Node, PlanGraph
+from pico.planning.explaining.graph import Dependency, PlanGraph, ScheduledOperation
 
 from .plan import address, arms, change_of, header, what
 from .style import columns, count, paint, seconds
@@ -32,7 +32,7 @@ def text(plan: Plan, graph: PlanGraph, *, head: str = "", goal: str = "", next_s
     return "\n".join([*lines, "", f"  {ends}", *(["", next_step] if next_step else [])])
 
 
-def _table(plan: Plan, nodes: list[Node], spare: bool) -> list[str]:
+def _table(plan: Plan, nodes: list[ScheduledOperation], spare: bool) -> list[str]:
     rows, several = [], len(arms(plan)) > 1
     for n in nodes:
         op = n.operation
@@ -81,7 +81,7 @@ def dot(plan: Plan, graph: PlanGraph) -> str:
     return "\n".join([*lines, "}"])
 
 
-def _dot_style(edge: Edge) -> str:
+def _dot_style(edge: Dependency) -> str:
     style = [] if edge.after else ["style=dashed", f"label={_quoted(', '.join(edge.resources))}"]
     if edge.critical:
         style += [f'color="{_RED}"', "penwidth=2"]

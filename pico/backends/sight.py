@@ -25,7 +25,7 @@ from pico.vision.datums import ENOUGH, check, offset
 from pico.vision.localize import recognize, replace_dark
 from pico.vision.nominal import camera_models
 from pico.vision.rigid import apart
-from pico.vision.sighting import Drift, Finding, Sighting
+from pico.vision.sighting import CameraMoved, Finding, Sighting
 
 if TYPE_CHECKING:
     from pico.vision.camera import CameraModel
@@ -100,13 +100,15 @@ def seen_by(
     return replace_dark(sighting, dark), cameras
 
 
-def _drifted(setup: Setup, pictures: Sequence[Markers], basis: Calibration) -> tuple[tuple[Drift, ...], bool]:
+def _drifted(setup: Setup, pictures: Sequence[Markers], basis: Calibration) -> tuple[tuple[CameraMoved, ...], bool]:
     """The cameras that have moved since they were calibrated, and whether a datum came loose."""
     checked = [check(setup, p, basis.cameras[p.camera], basis.accuracy) for p in pictures]
     return tuple(d for d, _ in checked if d), any(f.kind == "datum" for _, found in checked for f in found)
 
 
-def _displaced(setup: Setup, pictures: Sequence[Markers], basis: Calibration, right: Calibration) -> tuple[Drift, ...]:
+def _displaced(
+    setup: Setup, pictures: Sequence[Markers], basis: Calibration, right: Calibration
+) -> tuple[CameraMoved, ...]:
     """The cameras that are farther from where the lab has them than a mount is ever off."""
     usual, found = Drifting(), []
     for picture in pictures:
@@ -118,7 +120,7 @@ def _displaced(setup: Setup, pictures: Sequence[Markers], basis: Calibration, ri
         shift, turn = apart(was.pose, right.cameras[picture.camera].pose)
         if shift > _FAR * usual.position or turn > _FAR * usual.turn:
             effect = max(offset(datum, was, marker) for datum, marker in seen)
-            found.append(Drift(camera=picture.camera, shift=shift, turn=turn, effect=effect))
+            found.append(CameraMoved(camera=picture.camera, shift=shift, turn=turn, effect=effect))
     return tuple(found)
 
 

@@ -26,7 +26,7 @@ from pico.vision.anchor import anchored
 from pico.vision.camera import CameraModel
 from pico.vision.frame import Frame
 from pico.vision.markers import CELLS, Marker, detect
-from pico.vision.poses import Estimate, View, edge, free, from_rays, on_plane
+from pico.vision.poses import Estimate, MarkerView, edge, free, from_rays, on_plane
 from pico.vision.rigid import best_motion, motion, moved, planar, rotation, rotation_vector, square, upright
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ class EyeInHand:
                 return free(view, plate.size, _facing(at, view, plate.size))
         return None
 
-    def _view(self, camera: CameraModel, at: Array, number: int, size: float) -> View | None:
+    def _view(self, camera: CameraModel, at: Array, number: int, size: float) -> MarkerView | None:
         """The marker `number` as a camera sees it around where a plate at `at` (4, 4) should be, in its parent's
         frame."""
         import numpy as np
@@ -133,7 +133,7 @@ class EyeInHand:
             return None
         frame = self._eyes.frame(camera.name, (*first.tolist(), *(last - first).tolist()))
         found = [] if frame.black else [m for m in _markers(frame, edge(corners)) if m.number == number]
-        return View(replace(camera, robot=None), found[0]) if len(found) == 1 else None
+        return MarkerView(replace(camera, robot=None), found[0]) if len(found) == 1 else None
 
     def _anchor(self) -> None:
         """Put the cameras over the table right by the datums in their pictures, once."""
@@ -184,7 +184,7 @@ def _plate_pose(plate: MarkerPlate) -> Array:
     return motion(np.eye(3), np.array(plate.at))
 
 
-def _facing(at: Array, view: View, size: float) -> Array:
+def _facing(at: Array, view: MarkerView, size: float) -> Array:
     """The pose near which a held plate is: as high as `at` in the tool's frame, level, turned as its corners say."""
     import numpy as np
 

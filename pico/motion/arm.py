@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Fingers, Robot
 from pico.motion.engine import require_mujoco
-from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM_MASS, Shape, cup, finger, palm
+from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM_MASS, LinkShape, cup, finger, palm
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 
 if TYPE_CHECKING:
@@ -168,13 +168,13 @@ def _add_finger(palm: Any, name: str, side: int, fingers: Fingers, tool: float, 
         _geom(body, shape, f"{name}_{label}", FINGER_MASS / 2)
 
 
-def _add_shapes(body: Any, shapes: tuple[Shape, ...], mass: float) -> None:
+def _add_shapes(body: Any, shapes: tuple[LinkShape, ...], mass: float) -> None:
     colliding = sum(shape.collides for shape in shapes)
     for number, shape in enumerate(shapes, 1):
         _geom(body, shape, f"{body.name}_{number}", mass / colliding if shape.collides else 0.0)
 
 
-def _geom(body: Any, shape: Shape, name: str, mass: float) -> None:
+def _geom(body: Any, shape: LinkShape, name: str, mass: float) -> None:
     import mujoco
 
     bits = ARM_BIT if shape.collides else 0

@@ -20,7 +20,7 @@ from pico.motion import gantry
 from pico.motion.reach import check_grip, check_reach, check_table, check_tether
 from pico.motion.stability import check_stability
 from pico.motion.travel import Travel
-from pico.motion.types import Blocked, Joints, MovePath, Standing
+from pico.motion.types import Blocked, Joints, MovePath, StandingObject
 
 if TYPE_CHECKING:
     from pico.motion.recheck import Recheck, Task
@@ -66,7 +66,7 @@ class ArmMotion:
         start: Pose,
         goal: Pose,
         grasp_yaw: float,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         joints: Joints | None = None,
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
@@ -85,7 +85,7 @@ class ArmMotion:
 
         near = self._near(robot, standing, geometry)
         elsewhere = self._others(robot, others)
-        scene = self._scene(robot, near | {component: Standing(start, geometry)})
+        scene = self._scene(robot, near | {component: StandingObject(start, geometry)})
         scene.place_robots(elsewhere)
         path = Move(scene, component, geometry, start, goal, grasp_yaw, near, now).find()
         return self._twice(path, Task(component, geometry, start, goal, grasp_yaw), near, elsewhere)
@@ -96,7 +96,7 @@ class ArmMotion:
         component: str,
         held: Pose,
         goal: Pose,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         joints: Joints,
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
@@ -113,7 +113,7 @@ class ArmMotion:
 
         near = {n: t for n, t in self._near(robot, standing, geometry).items() if n != component}
         elsewhere, jaws = self._others(robot, others), tool_of(arm, joints).yaw - held.yaw
-        scene = self._scene(robot, near | {component: Standing(goal, geometry)})
+        scene = self._scene(robot, near | {component: StandingObject(goal, geometry)})
         scene.place_robots(elsewhere)
         path = SetDown(scene, component, geometry, held, goal, jaws, near, joints).find()
         return self._twice(path, Task(component, geometry, held, goal, jaws), near, elsewhere)
@@ -122,7 +122,7 @@ class ArmMotion:
         self,
         robot: str,
         joints: Joints,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
         """See `Motion.park`; no `joints` at all means that the arm is parked already."""
@@ -178,7 +178,7 @@ class ArmMotion:
         return {name: tuple((others or {}).get(name) or self.park_joints(name)) for name in arms}
 
     def _twice(
-        self, path: MovePath | Blocked, task: Task, near: Mapping[str, Standing], others: Mapping[str, Joints]
+        self, path: MovePath | Blocked, task: Task, near: Mapping[str, StandingObject], others: Mapping[str, Joints]
     ) -> MovePath | Blocked:
         """Return `path` as it is where the second check agrees, else why it is refused."""
         if isinstance(path, Blocked) or not self.second_check:
@@ -189,12 +189,14 @@ class ArmMotion:
             self._rechecks[path.robot] = Recheck(self.setup, path.robot)
         return self._rechecks[path.robot].check(path, task, near, others) or path
 
-    def _near(self, robot: str, standing: Mapping[str, Standing], held: Geometry | None) -> dict[str, Standing]:
+    def _near(
+        self, robot: str, standing: Mapping[str, StandingObject], held: Geometry | None
+    ) -> dict[str, StandingObject]:
         from pico.motion.scene import within_reach
 
         return within_reach(self.setup, robot, standing, ARM_REACH + (held.footprint.radius if held else 0.0))
 
-    def _scene(self, robot: str, standing: Mapping[str, Standing]) -> Scene:
+    def _scene(self, robot: str, standing: Mapping[str, StandingObject]) -> Scene:
         """Return the robot's scene, with a place for everything in `standing`."""
         from pico.motion.scene import Scene
 
@@ -207,7 +209,7 @@ class ArmMotion:
             scene = self._scenes[robot] = Scene(self.setup, robot, pool)
         return scene
 
-    def _pool(self, standing: Mapping[str, Standing]) -> dict[Geometry, int]:
+    def _pool(self, standing: Mapping[str, StandingObject]) -> dict[Geometry, int]:
         """How many places of each geometry a new scene gets."""
         pool = Counter(thing.geometry for thing in standing.values())
         if len(self.setup.lab.inventory) <= SMALL_LAB:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.motion.types import Blocked, Joints, Motion, MovePath, Standing
+from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
 
 
 class DeferredMotion:
@@ -33,7 +33,7 @@ class DeferredMotion:
         start: Pose,
         goal: Pose,
         grasp_yaw: float,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         joints: Joints | None = None,
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
@@ -46,7 +46,7 @@ class DeferredMotion:
         component: str,
         held: Pose,
         goal: Pose,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         joints: Joints,
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
@@ -57,7 +57,7 @@ class DeferredMotion:
         self,
         robot: str,
         joints: Joints,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
         """See `Motion.park`."""

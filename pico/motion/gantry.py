@@ -14,7 +14,7 @@ from pico.model.lab import Robot
 from pico.model.pose import Pose
 from pico.motion import timing
 from pico.motion.reach import grasp_height, opening
-from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
 SPEED, ACCELERATION = 1.0, 4.0  # m/s, m/s2 at full speed; a turn of 1 rad counts as 0.3 m
 _ARM = 0.3
@@ -33,7 +33,7 @@ def move(
     start: Pose,
     goal: Pose,
     grasp_yaw: float,
-    standing: Mapping[str, Standing],
+    standing: Mapping[str, StandingObject],
     joints: Joints,
 ) -> MovePath | Blocked:
     """Return the way over the top; blocked where the footprint at `goal` overlaps another."""

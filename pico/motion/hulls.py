@@ -17,7 +17,7 @@ import numpy as np
 
 from pico.model.body import Body
 from pico.model.catalog import Geometry
-from pico.motion.shapes import Shape
+from pico.motion.shapes import LinkShape
 
 Array = Any
 """A numpy array of floats."""
@@ -147,7 +147,7 @@ def _proven(one: Placed, other: Placed) -> float | None:
     return apart - one.hull.support(mine) - other.hull.support(its)
 
 
-def of_shapes(part: str, shapes: Iterable[Shape], inset: float) -> list[Hull]:
+def of_shapes(part: str, shapes: Iterable[LinkShape], inset: float) -> list[Hull]:
     """Return hulls of the colliding `shapes` of one link, in the link's frame, each `inset` metres smaller."""
     hulls = []
     for shape in shapes:

@@ -16,7 +16,7 @@ from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.paths import Stand, distance, plumb, postures, route, stand, swing, usable
 from pico.motion.reach import grasp_height, opening
 from pico.motion.scene import Hit, Scene
-from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, StandingObject
 
 STRAIGHT_TRIES = 12
 """Pairs of postures tried with straight swings only."""
@@ -33,7 +33,7 @@ _JAW_GAP = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class Postures:
     """The postures of a move: over the pick, over the place."""
 
     pick: Column
@@ -50,7 +50,7 @@ class Move:
     start: Pose
     goal: Pose
     grasp_yaw: float
-    standing: Mapping[str, Standing]
+    standing: Mapping[str, StandingObject]
     joints: Joints
     _verticals: dict[tuple[str, float, int], tuple[SegmentName, Hit] | None] = field(default_factory=dict)
     _swings: dict[tuple[str, Joints, Joints], Hit | None] = field(default_factory=dict)
@@ -84,7 +84,7 @@ class Move:
         assert reason is not None
         return reason
 
-    def _choices(self, above: Joints) -> list[Choice]:
+    def _choices(self, above: Joints) -> list[Postures]:
         """Pairs of postures in which the part keeps its place between the jaws, by how far the joints go."""
         pairs = []
         turn = turn_between(self.scene.setup, self.component, self.start, self.goal)
@@ -98,10 +98,10 @@ class Move:
                     if turn is not None and abs(turned(pick, place) - turn) > 1.0:
                         continue  # the other way around, which would wind the part's cable by a whole turn
                     wound = abs(place.q1) + abs(place.q7)
-                    pairs.append((round(first + distance(up, down) + WOUND * wound, 9), Choice(pick, place)))
+                    pairs.append((round(first + distance(up, down) + WOUND * wound, 9), Postures(pick, place)))
         return [choice for _, choice in sorted(pairs, key=lambda pair: pair[0])]
 
-    def _attempt(self, above: Stand, choice: Choice, detours: bool) -> tuple[list[Joints], list[Joints]] | Blocked:
+    def _attempt(self, above: Stand, choice: Postures, detours: bool) -> tuple[list[Joints], list[Joints]] | Blocked:
         for kind, column in (("pick", choice.pick), ("place", choice.place)):
             failed = self._vertical(kind, column)
             if failed is not None:
@@ -148,7 +148,7 @@ class Move:
         there = self.others
         if not carrying:
             pose = self.goal if phase == "retreat" else self.start
-            there = self.others | {self.component: Standing(pose, self.geometry)}
+            there = self.others | {self.component: StandingObject(pose, self.geometry)}
         scene.arrange(there)
         scene.hold(self.geometry if carrying else None, self.grasp_yaw)
         scene.ignored = frozenset([self.component] if self.scene.robot.gripper.fingers == "none" else [])  # sucked at
@@ -156,7 +156,7 @@ class Move:
         scene.required["held"] = _TOUCHING if phase == "lift" else margins.body
         scene.required["finger"] = 0.0 if phase == "grip" else margins.fingers
 
-    def _timed(self, rise: list[Joints], approach: list[Joints], transit: list[Joints], choice: Choice) -> MovePath:
+    def _timed(self, rise: list[Joints], approach: list[Joints], transit: list[Joints], choice: Postures) -> MovePath:
         robot, low, high = self.scene.robot, self.low, self.high
         jaws = timing.jaw_seconds(self.opening, self.width) if robot.gripper.fingers != "none" else timing.JAW_SETTLE
         bottom, ground = _top(choice.pick, low), _top(choice.place, low)
@@ -179,7 +179,7 @@ def turned(pick: Column, place: Column) -> float:
     return math.degrees((place.q1 - place.q7) - (pick.q1 - pick.q7))
 
 
-def find_park(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+def find_park(scene: Scene, joints: Joints, standing: Mapping[str, StandingObject]) -> MovePath | Blocked:
     """Return the way from `joints` to the robot's park pose: straight up where the arm is low, then there."""
     robot = scene.robot
     errand = Errand(scene.name)
@@ -204,7 +204,7 @@ def parked(scene: Scene) -> Joints:
     return tuple(math.radians(q) for q in scene.robot.park)
 
 
-def ascend(scene: Scene, joints: Joints, standing: Mapping[str, Standing]) -> list[Joints] | Hit:
+def ascend(scene: Scene, joints: Joints, standing: Mapping[str, StandingObject]) -> list[Joints] | Hit:
     """Return corners of the way from `joints` straight up to the transit height (just `joints` where it is high
     enough), or what is in the way.
 

@@ -27,7 +27,7 @@ from pico.motion.reach import grasp_height
 from pico.motion.scene import Hit
 from pico.motion.shapes import LINKS, cup, finger, palm
 from pico.motion.sweep import ROUNDING, Leg, Thing, march, moving, still
-from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, StandingObject
 
 STEP = 0.005
 """Greatest step of a joint between two configurations that are looked at [rad]."""
@@ -69,7 +69,7 @@ class Recheck:
         self._pairs: dict[tuple[str, ...], tuple[Array, Array]] = {}
 
     def check(
-        self, path: MovePath, task: Task, standing: Mapping[str, Standing], others: Mapping[str, Joints]
+        self, path: MovePath, task: Task, standing: Mapping[str, StandingObject], others: Mapping[str, Joints]
     ) -> Blocked | None:
         """Return why `path` is not free after all, or None where it is.
 
@@ -99,7 +99,7 @@ class Recheck:
             hulls += [(frames.HELD, h) for h in self._hulls("held", task.geometry, inset)]
         elif task.geometry is not None and task.component is not None:
             pose = task.goal if segment.name in ("release", "retreat") else task.start
-            things.append(self._thing(task.component, Standing(pose or Pose(0, 0), task.geometry)))
+            things.append(self._thing(task.component, StandingObject(pose or Pose(0, 0), task.geometry)))
         plane = frames.in_plane(joints, hold)
         hit = self._with_itself(Leg(hulls, *plane))
         if hit is not None:
@@ -195,7 +195,7 @@ class Recheck:
             return 0.0 if segment in ("grip", "release") else margins.fingers / 2000
         return 0.0 if part == "held" and segment == "lift" else margins.body / 2000
 
-    def _thing(self, name: str, standing: Standing) -> Thing:
+    def _thing(self, name: str, standing: StandingObject) -> Thing:
         pose = standing.pose
         turn = frames.about_z(math.radians(pose.yaw))
         hulls = self._hulls("component", standing.geometry, 0.0)

@@ -23,7 +23,7 @@ from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm, build_arm
 from pico.motion.engine import require_mujoco
 from pico.motion.reach import grasp_height
 from pico.motion.solids import add_solids
-from pico.motion.types import Joints, Standing
+from pico.motion.types import Joints, StandingObject
 
 FREE = 10.0
 """How much farther off than its margin a thing is first noticed [mm]."""
@@ -66,7 +66,7 @@ class Scene:
         """Components that the fingers may touch: what they stand around when a motion begins."""
         self.required = {"held": margins.body, "finger": margins.fingers}
         self._default = margins.body
-        self._arranged: dict[str, Standing] = {}
+        self._arranged: dict[str, StandingObject] = {}
         self._held: int | None = None
 
     def _compile(self) -> None:
@@ -165,7 +165,7 @@ class Scene:
             if name in joints:
                 self._data.qpos[at : at + 7] = joints[name]
 
-    def lacks(self, standing: Iterable[Standing]) -> Counter[Geometry]:
+    def lacks(self, standing: Iterable[StandingObject]) -> Counter[Geometry]:
         """Return how many places of each geometry `standing` needs beyond those that the scene has."""
         need = Counter(self._number(s.geometry) for s in standing)
         if -1 not in need and all(count <= len(self._mocaps[n]) for n, count in need.items()):
@@ -181,7 +181,7 @@ class Scene:
             known = self._known[id(geometry)] = (geometry, self._numbers.get(geometry, -1))
         return known[1]
 
-    def arrange(self, standing: Mapping[str, Standing]) -> None:
+    def arrange(self, standing: Mapping[str, StandingObject]) -> None:
         """Put components where `standing` has them, and everything else away. Each must have a place: see `lacks`."""
         if standing == self._arranged:
             return
@@ -280,7 +280,9 @@ def _extent(zone: KeepOut) -> dict[str, list[float]]:
     }
 
 
-def within_reach(setup: Setup, robot: str, standing: Mapping[str, Standing], reach: float) -> dict[str, Standing]:
+def within_reach(
+    setup: Setup, robot: str, standing: Mapping[str, StandingObject], reach: float
+) -> dict[str, StandingObject]:
     """Return what stands so near to the robot's base that an arm `reach` mm long could touch it."""
     mount = setup.lab.robots[robot].mount
     base = Pose(mount.x, mount.y)

@@ -18,7 +18,7 @@ from pico.motion.moves import Move, ascend, legs, turned
 from pico.motion.paths import Stand, distance, postures, stand
 from pico.motion.reach import grasp_height, opening
 from pico.motion.scene import Hit
-from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
 SWING = 3.0
 """What is held swings by no more than this between the jaws [mm]."""
@@ -101,7 +101,7 @@ class SetDown(Move):
 
 def gantry_set_down(
     name: str, robot: Robot, component: str, geometry: Geometry, held: Pose, goal: Pose,
-    standing: Mapping[str, Standing], joints: Joints,
+    standing: Mapping[str, StandingObject], joints: Joints,
 ) -> MovePath | Blocked:  # fmt: skip
     """Return the way of a gantry over the top; blocked where the footprint at `goal` overlaps another."""
     shape = placed(geometry.footprint, goal)

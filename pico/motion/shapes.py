@@ -23,7 +23,7 @@ NONE: Color = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class LinkShape:
     """One shape of a link. A capsule or cylinder runs from `a` to `b` with a radius; a box or ellipsoid is centered
     at `a` with the half-lengths `b`."""
 
@@ -35,20 +35,20 @@ class Shape:
     collides: bool = False
 
 
-def _solid(kind: Literal["capsule", "cylinder", "box"], a: Point, b: Point, radius: float = 0.0) -> Shape:
-    return Shape(kind, a, b, radius, WHITE, True)
+def _solid(kind: Literal["capsule", "cylinder", "box"], a: Point, b: Point, radius: float = 0.0) -> LinkShape:
+    return LinkShape(kind, a, b, radius, WHITE, True)
 
 
-def _disc(a: Point, b: Point, radius: float, color: Color = DARK) -> Shape:
-    return Shape("cylinder", a, b, radius, color)
+def _disc(a: Point, b: Point, radius: float, color: Color = DARK) -> LinkShape:
+    return LinkShape("cylinder", a, b, radius, color)
 
 
-LINKS: tuple[tuple[Shape, ...], ...] = (
+LINKS: tuple[tuple[LinkShape, ...], ...] = (
     (  # base: a plate on the table and the housing of joint 1
         _solid("cylinder", (0, 0, 0), (0, 0, 186), 60),
         _disc((0, 0, 0), (0, 0, 12), 68, GREY),
         _disc((0, 0, 186), (0, 0, 191), 57),
-        Shape("box", (-58, 0, 45), (9, 30, 24), 0, DARK),
+        LinkShape("box", (-58, 0, 45), (9, 30, 24), 0, DARK),
     ),
     (  # shoulder: a stump under a barrel that lies across
         _solid("capsule", (0, 0, -20), (0, 0, 0), 58),
@@ -59,7 +59,7 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
     ),
     (  # upper arm: from the barrel straight up to joint 3
         _solid("capsule", (0, 0, 0), (0, -190, 0), 51),
-        Shape("ellipsoid", (0, -30, 0), (55, 62, 57), 0, WHITE),
+        LinkShape("ellipsoid", (0, -30, 0), (55, 62, 57), 0, WHITE),
         _disc((0, -228, 0), (0, -234, 0), 49),
         _disc((0, -228, 0), (0, -150, 0), 51.6, WHITE),
     ),
@@ -98,14 +98,14 @@ LINKS: tuple[tuple[Shape, ...], ...] = (
 )
 """Shapes of the base and of links 1 to 7."""
 
-PALM: tuple[Shape, ...] = (
-    Shape("cylinder", (0, 0, 0), (0, 0, 34), 34, DARK, True),
-    Shape("box", (0, 0, 64), (26, 58, 30), 0, NONE, True),
-    Shape("box", (0, 0, 64), (26, 32, 30), 0, WHITE),
-    Shape("box", (0, 0, 97), (21, 55, 4), 0, DARK),
-    Shape("cylinder", (0, -32, 34), (0, -32, 94), 26, WHITE),
-    Shape("cylinder", (0, 32, 34), (0, 32, 94), 26, WHITE),
-    Shape("box", (0, 0, 62), (26.5, 24, 11), 0, BLUE),
+PALM: tuple[LinkShape, ...] = (
+    LinkShape("cylinder", (0, 0, 0), (0, 0, 34), 34, DARK, True),
+    LinkShape("box", (0, 0, 64), (26, 58, 30), 0, NONE, True),
+    LinkShape("box", (0, 0, 64), (26, 32, 30), 0, WHITE),
+    LinkShape("box", (0, 0, 97), (21, 55, 4), 0, DARK),
+    LinkShape("cylinder", (0, -32, 34), (0, -32, 94), 26, WHITE),
+    LinkShape("cylinder", (0, 32, 34), (0, 32, 94), 26, WHITE),
+    LinkShape("box", (0, 0, 62), (26.5, 24, 11), 0, BLUE),
 )
 """Shapes of the gripper's body, z out of the flange; the fingers hang below z = 100."""
 
@@ -113,21 +113,21 @@ _EYE = 10.0  # mm, half of a small camera
 _BEHIND = 16.0  # mm, from its lens to its middle
 
 
-def palm(gripper: Gripper) -> tuple[Shape, ...]:
+def palm(gripper: Gripper) -> tuple[LinkShape, ...]:
     """Return the shapes of the gripper's body with the cameras beside it, each on an arm that keeps out of their
     sight."""
     return PALM + tuple(shape for eye in gripper.eyes for shape in _camera(eye, gripper.tool))
 
 
-def _camera(eye: Point, tool: float) -> tuple[Shape, ...]:
+def _camera(eye: Point, tool: float) -> tuple[LinkShape, ...]:
     x, y, z = eye[0], eye[1], eye[2] + tool
     out = math.hypot(x, y)
     if out < _BEHIND:  # within the gripper's body
         return ()
     far = (out + _BEHIND) / out
-    head = Shape("box", (x * far, y * far, z), (_EYE, _EYE, _EYE), 0, DARK, True)
+    head = LinkShape("box", (x * far, y * far, z), (_EYE, _EYE, _EYE), 0, DARK, True)
     top = z - _EYE - 4
-    return head, Shape("capsule", (0, 0, top), (x * far, y * far, top), 4, GREY, True)
+    return head, LinkShape("capsule", (0, 0, top), (x * far, y * far, top), 4, GREY, True)
 
 
 PALM_LENGTH = 100.0
@@ -137,13 +137,13 @@ PAD_HEIGHT = 45.0
 _RECESS = 2.0  # mm, how far the bar of a finger is set back, so that only the pad meets the part
 
 
-def finger(side: int, fingers: Fingers, tool: float) -> tuple[Shape, Shape]:
+def finger(side: int, fingers: Fingers, tool: float) -> tuple[LinkShape, LinkShape]:
     """Return the pad and the bar of a finger in the gripper's frame, the gripper shut: a bar from the palm to below the
     tool center point `tool` mm from the flange, its inner face the pad. `side` is 1 or -1; it opens along y."""
     tip = tool + fingers.tip
     pad_top = tip - PAD_HEIGHT
     pad, bar = (
-        Shape(
+        LinkShape(
             "box",
             (0.0, side * (fingers.thickness + recess) / 2, (low + high) / 2),
             (fingers.breadth / 2, (fingers.thickness - recess) / 2, (high - low) / 2),
@@ -156,9 +156,9 @@ def finger(side: int, fingers: Fingers, tool: float) -> tuple[Shape, Shape]:
     return pad, bar
 
 
-def cup(tool: float) -> Shape:
+def cup(tool: float) -> LinkShape:
     """Return the suction cup of a vacuum gripper; it ends 1 mm above what it holds."""
-    return Shape("cylinder", (0, 0, PALM_LENGTH), (0, 0, tool - 1), 14, DARK, True)
+    return LinkShape("cylinder", (0, 0, PALM_LENGTH), (0, 0, tool - 1), 14, DARK, True)
 
 
 LINK_MASSES = (2.1, 2.0, 1.9, 1.6, 1.6, 1.2, 1.1, 0.4)

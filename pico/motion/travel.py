@@ -26,7 +26,7 @@ _TURN = 2 * math.pi
 
 
 @dataclass(frozen=True, slots=True)
-class Over:
+class PostureOver:
     """A posture over a place: its column, and joints at transit height; joint 7 but for whole turns (of the jaws:
     half turns, where the hand is empty)."""
 
@@ -40,7 +40,7 @@ class Travel:
 
     setup: Setup
     name: str
-    _over: dict[tuple[float, ...], tuple[Over, ...]] = field(default_factory=dict)
+    _over: dict[tuple[float, ...], tuple[PostureOver, ...]] = field(default_factory=dict)
     _empty: dict[tuple[object, ...], float] = field(default_factory=dict)
     _loaded: dict[tuple[object, ...], float] = field(default_factory=dict)
     _plumb: dict[tuple[float, ...], float] = field(default_factory=dict)
@@ -113,13 +113,13 @@ class Travel:
         verticals = sum(self._vertical(over.column, low) for over in (pick, place))
         return timing.swing_seconds(robot, way) + 2 * verticals + 2 * jaws
 
-    def _postures(self, pose: Pose, yaw: float, low: float) -> tuple[Over, ...]:
+    def _postures(self, pose: Pose, yaw: float, low: float) -> tuple[PostureOver, ...]:
         """The postures over a place, one for all turns of joint 7."""
         key = (pose.x, pose.y, pose.yaw, yaw, low)
         known = self._over.get(key)
         if known is None:
             found = {
-                (column.q1, column.reach, column.elbow): Over(column, top)
+                (column.q1, column.reach, column.elbow): PostureOver(column, top)
                 for column, top in postures(self.robot, pose, yaw, low)
             }
             known = self._over[key] = tuple(found.values())

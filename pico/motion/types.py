@@ -16,7 +16,7 @@ SegmentName = Literal["approach", "descend", "grip", "lift", "transit", "lower",
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class StandingObject:
     """Something that stands on the table: where, and its shape."""
 
     pose: Pose
@@ -88,7 +88,7 @@ class Motion(Protocol):
         start: Pose,
         goal: Pose,
         grasp_yaw: float,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         joints: Joints | None = None,
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
@@ -103,7 +103,7 @@ class Motion(Protocol):
         component: str,
         held: Pose,
         goal: Pose,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         joints: Joints,
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
@@ -115,7 +115,7 @@ class Motion(Protocol):
         self,
         robot: str,
         joints: Joints,
-        standing: Mapping[str, Standing],
+        standing: Mapping[str, StandingObject],
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
         """Return the path from `joints` to the robot's park pose; `others` as for `move`."""

@@ -28,8 +28,8 @@ from pico.planning.values import OPERATOR_SECONDS, value_operations
 if TYPE_CHECKING:
     from pico.planning.ordering.conflicts import Conflicts
     from pico.planning.ordering.meetings import Item
-    from pico.planning.ordering.search import Step
-    from pico.planning.ordering.solve import Solution
+    from pico.planning.ordering.search import OrderedMove
+    from pico.planning.ordering.solve import OrderedMoves
 
 MOVE_SECONDS = 10.0
 """What a pick and place takes where no motion is asked for [s]."""
@@ -110,7 +110,7 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
     from pico.planning.explaining.refusal import explain, storage_note
-    from pico.planning.ordering.solve import Problem, Solution, solve
+    from pico.planning.ordering.solve import OrderedMoves, OrderingProblem, solve
 
     movers, obstacles, put_off = actors(request, situation)
     if not movers:
@@ -122,11 +122,11 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     others = () if request.alone else asides(request, situation, movers)
     if request.alone:
         movers = tuple(replace(m, stages=False) for m in movers)
-    answer = solve(Problem(
+    answer = solve(OrderingProblem(
         request.setup, request.seen, movers, tuple(obstacles), others, request.motion,
         fastest=request.prefer == "shortest-time",
     ))  # fmt: skip
-    if not isinstance(answer, Solution):
+    if not isinstance(answer, OrderedMoves):
         return Compiled(diagnostics=(*put_off, *explain(answer, request.source)))
     operations, notes = _operations(request, answer)
     count, least = answer.staged, min(answer.staged, answer.least)
@@ -136,7 +136,7 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     )
 
 
-def _operations(request: Request, answer: Solution) -> tuple[list[Operation], list[Diagnostic]]:
+def _operations(request: Request, answer: OrderedMoves) -> tuple[list[Operation], list[Diagnostic]]:
     from pico.planning.explaining.reasons import move_reasons
     from pico.planning.ordering.meetings import items
     from pico.planning.ordering.order import precedence, reduced
@@ -176,7 +176,7 @@ def _numbers(listed: Sequence[Item]) -> list[int | None]:
 
 
 def _moved(
-    request: Request, table: Conflicts, step: Step, item: Item, path: MovePath | None, reason: Reason
+    request: Request, table: Conflicts, step: OrderedMove, item: Item, path: MovePath | None, reason: Reason
 ) -> Operation:
     actor = table.movers[step.mover]
     start, goal = actor.places[step.start], actor.places[step.goal]

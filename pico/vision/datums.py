@@ -13,9 +13,9 @@ from pico.vision.calibration import Accuracy
 from pico.vision.camera import CameraModel
 from pico.vision.least_squares import Solution, solve
 from pico.vision.markers import Marker, Markers
-from pico.vision.poses import View, plane_points
+from pico.vision.poses import MarkerView, plane_points
 from pico.vision.rigid import apart, moved, square, upright
-from pico.vision.sighting import Drift, Finding
+from pico.vision.sighting import CameraMoved, Finding
 
 if TYPE_CHECKING:
     import numpy as np
@@ -46,7 +46,7 @@ def datum_corners(datum: Datum) -> Array:
 
 def check(
     setup: Setup, picture: Markers, camera: CameraModel, accuracy: Accuracy
-) -> tuple[Drift | None, list[Finding]]:
+) -> tuple[CameraMoved | None, list[Finding]]:
     """Return whether a camera has moved since it was calibrated, and which datums are not where the lab says.
 
     A motion that all datums share is the camera's; a datum that the others don't follow came loose. Parts that were
@@ -68,14 +68,14 @@ def check(
     if shared <= limit:
         return None, loose
     shift, turn = apart(camera.pose, found.pose)
-    return Drift(camera=camera.name, shift=shift, turn=turn, effect=shared), loose
+    return CameraMoved(camera=camera.name, shift=shift, turn=turn, effect=shared), loose
 
 
 def offset(datum: Datum, camera: CameraModel, marker: Marker) -> float:
     """Return how far from its place on the table a datum is seen [mm]."""
     import numpy as np
 
-    there = plane_points(View(camera, marker), 0.0)
+    there = plane_points(MarkerView(camera, marker), 0.0)
     return float(np.linalg.norm(there.mean(axis=0)[:2] - (datum.x, datum.y)))
 
 

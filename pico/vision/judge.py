@@ -11,7 +11,7 @@ from pico.model.observation import Uncertainty
 from pico.vision.calibration import Accuracy
 from pico.vision.poses import (
     Estimate,
-    View,
+    MarkerView,
     edge,
     flat_start,
     free,
@@ -40,14 +40,14 @@ class Verdict:
     text: str = ""
 
 
-def judged(views: Sequence[View], plate: MarkerPlate, accuracy: Accuracy, in_hand: bool) -> Verdict:
+def judged(views: Sequence[MarkerView], plate: MarkerPlate, accuracy: Accuracy, in_hand: bool) -> Verdict:
     """Return the pose of the marker that `views` show, if they agree that it stands upright on its type's height."""
     if len(views) > 1:
         return _by_rays(views, plate, accuracy, "in hand" if in_hand else "stereo")
     return _by_height(views[0], plate, accuracy, "in hand" if in_hand else "known height")
 
 
-def _by_rays(views: Sequence[View], plate: MarkerPlate, accuracy: Accuracy, how: How) -> Verdict:
+def _by_rays(views: Sequence[MarkerView], plate: MarkerPlate, accuracy: Accuracy, how: How) -> Verdict:
     if not meet(views):
         return Verdict(None, how, "conflict", _apart(views, plate.at[2]))
     size = edge(triangulated(views))
@@ -64,7 +64,7 @@ def _by_rays(views: Sequence[View], plate: MarkerPlate, accuracy: Accuracy, how:
     return Verdict(estimate, how)
 
 
-def _by_height(view: View, plate: MarkerPlate, accuracy: Accuracy, how: How) -> Verdict:
+def _by_height(view: MarkerView, plate: MarkerPlate, accuracy: Accuracy, how: How) -> Verdict:
     """One camera: the picture must fit a marker that stands upright at its height, and no leaning one much better."""
     estimate = on_plane([view], plate.size, plate.at[2], accuracy.height, accuracy.upright)
     loose = free(view, plate.size, estimate.pose)
@@ -91,13 +91,13 @@ def _height(estimate: Estimate, height: float, accuracy: Accuracy) -> tuple[Kind
     return "height", f"is {estimate.height:.1f} mm above the table, its type has it at {height:g} mm: the wrong plate?"
 
 
-def size_sigma(views: Sequence[View], accuracy: Accuracy) -> float:
+def size_sigma(views: Sequence[MarkerView], accuracy: Accuracy) -> float:
     """Return one standard deviation of a triangulated edge [mm]: corner noise over the pixels of an edge."""
     noise = max(view.marker.noise for view in views)
     return noise / math.sqrt(2) * max(24.0 / edge(view.marker.corners) for view in views)
 
 
-def _apart(views: Sequence[View], height: float) -> str:
+def _apart(views: Sequence[MarkerView], height: float) -> str:
     places = []
     for view in views:
         x, y = flat_start(view, 24.0, height)[:2, 3]

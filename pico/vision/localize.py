@@ -14,9 +14,9 @@ from pico.vision.calibration import Calibration
 from pico.vision.datums import check
 from pico.vision.judge import Verdict, combined, judged
 from pico.vision.markers import Markers, read_marker
-from pico.vision.poses import View, edge, flat_start, from_rays, meet, plane_points, triangulated
+from pico.vision.poses import MarkerView, edge, flat_start, from_rays, meet, plane_points, triangulated
 from pico.vision.rigid import planar
-from pico.vision.sighting import Drift, Finding, Seen, Sighting, Stranger
+from pico.vision.sighting import CameraMoved, Finding, SeenPart, Sighting, Stranger
 
 _HEIGHT, _SIZE = 140.0, 24.0  # mm, of a marker that nothing is known about
 _NEAR = 20.0  # mm: closer than this, what two cameras see is one thing
@@ -45,7 +45,7 @@ def recognize(
     views = _views(pictures, calibration)
     twice = frozenset().union(*(picture.duplicates for picture in pictures)) - datums
     findings = [_duplicate(setup, number, views[number], parts) for number in sorted(twice)]
-    components: dict[str, Seen] = {}
+    components: dict[str, SeenPart] = {}
     toppled: list[str] = []
     for number, (name, plate) in sorted(parts.items()):
         if number not in views or number in twice or name in held:
@@ -87,23 +87,23 @@ def _rides(setup: Setup, camera: str) -> bool:
     return camera in setup.lab.cameras and setup.lab.cameras[camera].robot is not None
 
 
-def _views(pictures: Iterable[Markers], calibration: Calibration) -> dict[int, list[View]]:
-    views: dict[int, list[View]] = defaultdict(list)
+def _views(pictures: Iterable[Markers], calibration: Calibration) -> dict[int, list[MarkerView]]:
+    views: dict[int, list[MarkerView]] = defaultdict(list)
     for picture in pictures:
         for marker in picture.markers:
-            views[marker.number].append(View(calibration.cameras[picture.camera], marker))
+            views[marker.number].append(MarkerView(calibration.cameras[picture.camera], marker))
     return views
 
 
-def _preferred(setup: Setup, views: Sequence[View]) -> tuple[Sequence[View], bool]:
+def _preferred(setup: Setup, views: Sequence[MarkerView]) -> tuple[Sequence[MarkerView], bool]:
     """Return the views that count, and whether they are from a hand: an eye at 20 cm sees more than one at 1 m."""
     close = [view for view in views if _rides(setup, view.marker.camera)]
     return (close, True) if close else (views, False)
 
 
-def _seen(verdict: Verdict, plate: MarkerPlate, views: Sequence[View], calibration: Calibration) -> Seen:
+def _seen(verdict: Verdict, plate: MarkerPlate, views: Sequence[MarkerView], calibration: Calibration) -> SeenPart:
     assert verdict.estimate is not None
-    return Seen(
+    return SeenPart(
         pose=component_pose(planar(verdict.estimate.pose), plate),
         uncertainty=combined(verdict.estimate, calibration.accuracy),
         how=verdict.how,
@@ -117,12 +117,12 @@ def component_pose(marker: Pose, plate: MarkerPlate) -> Pose:
     return marker.compose(Pose(plate.at[0], plate.at[1]).inverse())
 
 
-def _place(view: View, size: float, height: float) -> tuple[float, float]:
+def _place(view: MarkerView, size: float, height: float) -> tuple[float, float]:
     x, y = flat_start(view, size, height)[:2, 3]
     return round(float(x), 1), round(float(y), 1)
 
 
-def _finding(name: str, number: int, views: Sequence[View], plate: MarkerPlate, verdict: Verdict) -> Finding:
+def _finding(name: str, number: int, views: Sequence[MarkerView], plate: MarkerPlate, verdict: Verdict) -> Finding:
     at = tuple(_place(view, plate.size, plate.at[2]) for view in views)
     text = f"{name}: its marker {number} {verdict.text}"
     assert verdict.kind is not None
@@ -130,10 +130,10 @@ def _finding(name: str, number: int, views: Sequence[View], plate: MarkerPlate, 
 
 
 def _duplicate(
-    setup: Setup, number: int, views: Sequence[View], parts: Mapping[int, tuple[str, MarkerPlate]]
+    setup: Setup, number: int, views: Sequence[MarkerView], parts: Mapping[int, tuple[str, MarkerPlate]]
 ) -> Finding:
     name, plate = parts.get(number, (None, MarkerPlate(at=(0.0, 0.0, _HEIGHT), size=_SIZE)))
-    by_camera: dict[str, list[View]] = defaultdict(list)
+    by_camera: dict[str, list[MarkerView]] = defaultdict(list)
     for view in views:
         by_camera[view.marker.camera].append(view)
     most = max(by_camera.values(), key=len)
@@ -144,7 +144,7 @@ def _duplicate(
 
 
 def _strangers(
-    setup: Setup, views: Mapping[int, Sequence[View]], known: Collection[int], calibration: Calibration
+    setup: Setup, views: Mapping[int, Sequence[MarkerView]], known: Collection[int], calibration: Calibration
 ) -> dict[str, Stranger]:
     return {
         f"unknown/{number}": _measured(number, _preferred(setup, seen)[0], calibration)
@@ -153,7 +153,7 @@ def _strangers(
     }
 
 
-def _measured(number: int, views: Sequence[View], calibration: Calibration) -> Stranger:
+def _measured(number: int, views: Sequence[MarkerView], calibration: Calibration) -> Stranger:
     """Return a marker of which neither size nor height are known; from one camera, or where two do not see the same
     thing, both are taken to be usual."""
     if len(views) > 1 and meet(views):
@@ -177,7 +177,7 @@ def _half_seen(
     setup: Setup,
     pictures: Sequence[Markers],
     calibration: Calibration,
-    components: Mapping[str, Seen],
+    components: Mapping[str, SeenPart],
     strangers: Mapping[str, Stranger],
 ) -> list[Finding]:
     """Return what looks like a marker on a part and can't be read, where no camera reads one."""
@@ -187,7 +187,7 @@ def _half_seen(
     found: list[Finding] = []
     for picture in pictures:
         for fragment in picture.fragments:
-            view = View(calibration.cameras[picture.camera], read_marker(-1, fragment.corners, picture.camera))
+            view = MarkerView(calibration.cameras[picture.camera], read_marker(-1, fragment.corners, picture.camera))
             size = edge(plane_points(view, _HEIGHT))
             at = _place(view, _SIZE, _HEIGHT)
             if not 0.6 < size / _SIZE < 1.6 or any(_close(at, place) for place in known):
@@ -216,7 +216,7 @@ def _hidden(
 
 def _drift(
     setup: Setup, pictures: Sequence[Markers], calibration: Calibration
-) -> tuple[tuple[Drift, ...], tuple[str, ...], list[Finding]]:
+) -> tuple[tuple[CameraMoved, ...], tuple[str, ...], list[Finding]]:
     drift, checked, findings = [], [], []
     for picture in pictures:
         if _rides(setup, picture.camera):

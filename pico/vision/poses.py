@@ -23,7 +23,7 @@ _STEPS = (1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5)  # mm and rad, for derivatives
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class MarkerView:
     """A marker as one camera saw it; the camera stands in the table's frame."""
 
     camera: CameraModel
@@ -72,7 +72,7 @@ class Estimate:
         return Uncertainty(position=position, yaw=math.degrees(math.sqrt(max(0.0, float(self.covariance[5, 5])))))
 
 
-def triangulated(views: Sequence[View]) -> Array:
+def triangulated(views: Sequence[MarkerView]) -> Array:
     """Return the points (4, 3) that are nearest to the rays behind the corners, seen by two cameras or more."""
     import numpy as np
 
@@ -85,7 +85,7 @@ def triangulated(views: Sequence[View]) -> Array:
     return points
 
 
-def meet(views: Sequence[View]) -> bool:
+def meet(views: Sequence[MarkerView]) -> bool:
     """Return whether the rays behind the corners come nearest to one another in front of every camera."""
     import numpy as np
 
@@ -100,7 +100,7 @@ def edge(corners: Array) -> float:
     return float(np.mean(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)))
 
 
-def from_rays(views: Sequence[View], size: float) -> Estimate:
+def from_rays(views: Sequence[MarkerView], size: float) -> Estimate:
     """Return the pose of a marker with edges of `size` [mm] that two cameras or more saw.
 
     The corners are triangulated and the square laid into them (Kabsch); then the pose is moved to where the corners
@@ -109,7 +109,9 @@ def from_rays(views: Sequence[View], size: float) -> Estimate:
     return _fitted(views, size, best_motion(square(size), triangulated(views)))
 
 
-def on_plane(views: Sequence[View], size: float, height: float, height_sigma: float, tilt_sigma: float) -> Estimate:
+def on_plane(
+    views: Sequence[MarkerView], size: float, height: float, height_sigma: float, tilt_sigma: float
+) -> Estimate:
     """Return the pose of a marker that stands upright, its center `height` above the table [mm].
 
     One camera is enough. `height_sigma` [mm] and `tilt_sigma` [deg]: how well it is known that it does.
@@ -121,7 +123,7 @@ def on_plane(views: Sequence[View], size: float, height: float, height_sigma: fl
     return _fitted(views, size, start, (start, sigma))
 
 
-def flat_start(view: View, size: float, height: float) -> Array:
+def flat_start(view: MarkerView, size: float, height: float) -> Array:
     """Return the upright pose (4, 4) at `height` [mm] whose square is nearest to where the corners' rays end there."""
     import numpy as np
 
@@ -132,19 +134,19 @@ def flat_start(view: View, size: float, height: float) -> Array:
     return motion(np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]]), np.append(seen[:, :2].mean(axis=0), height))
 
 
-def plane_points(view: View, height: float) -> Array:
+def plane_points(view: MarkerView, height: float) -> Array:
     """Return where the rays behind the corners meet the plane `height` above the table (4, 3) [mm]."""
     origin, along = view.camera.rays(view.marker.corners)
     points: Array = origin + along * ((height - origin[2]) / along[:, 2])[:, None]
     return points
 
 
-def free(view: View, size: float, start: Array) -> Estimate:
+def free(view: MarkerView, size: float, start: Array) -> Estimate:
     """Return the pose that fits one picture best with nothing known but the `size` [mm], near `start` (4, 4)."""
     return _fitted([view], size, start)
 
 
-def straightened(view: View, size: float, pose: Array) -> View:
+def straightened(view: MarkerView, size: float, pose: Array) -> MarkerView:
     """Return a view with its corners where the lens shows them.
 
     They were found by laying a plane's picture (a homography) through the whole marker. A lens bends that picture, so
@@ -167,7 +169,9 @@ def straightened(view: View, size: float, pose: Array) -> View:
     return replace(view, marker=replace(view.marker, corners=view.marker.corners - (fitted - corners)))
 
 
-def _fitted(views: Sequence[View], size: float, start: Array, known: tuple[Array, Array] | None = None) -> Estimate:
+def _fitted(
+    views: Sequence[MarkerView], size: float, start: Array, known: tuple[Array, Array] | None = None
+) -> Estimate:
     """Return the pose near `start` that fits all pictures; `known`: a pose whose height and tilt hold within sigmas."""
     import numpy as np
 

@@ -34,7 +34,7 @@ _WRONG: frozenset[Kind] = frozenset(("duplicate", "conflict", "tilted", "height"
 
 
 @record
-class Seen:
+class SeenPart:
     """A component as it was seen: its pose with one standard deviation, and how.
 
     `height` of the marker [mm], as measured or, at known height, as its type has it; `cameras` that saw it.
@@ -75,7 +75,7 @@ class Finding:
 
 
 @record
-class Drift:
+class CameraMoved:
     """A camera that is not where it was when it was calibrated: by how much [mm, deg], and what that does to a
     position on the table [mm]."""
 
@@ -104,11 +104,11 @@ class Sighting:
     `dark`: cameras whose pictures were black.
     """
 
-    components: Mapping[str, Seen] = field(default_factory=dict)
+    components: Mapping[str, SeenPart] = field(default_factory=dict)
     unknown: Mapping[str, Stranger] = field(default_factory=dict)
     toppled: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
-    drift: tuple[Drift, ...] = ()
+    drift: tuple[CameraMoved, ...] = ()
     checked: tuple[str, ...] = ()
     dark: tuple[str, ...] = ()
 

@@ -15,7 +15,7 @@ from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.paths import between
 from pico.motion.solids import add_solids
-from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
 PART = Geometry(
     footprint=Footprint(box=(60, 60)),
@@ -53,8 +53,8 @@ def bench(
     return Setup(lab=lab, catalog={n: ComponentType(name=n, title=n, geometry=g) for n, g in TYPES.items()})
 
 
-def stands(*, at: Mapping[str, tuple[Geometry, Pose]]) -> dict[str, Standing]:
-    return {name: Standing(pose, geometry) for name, (geometry, pose) in at.items()}
+def stands(*, at: Mapping[str, tuple[Geometry, Pose]]) -> dict[str, StandingObject]:
+    return {name: StandingObject(pose, geometry) for name, (geometry, pose) in at.items()}
 
 
 def moved(answer: MovePath | Blocked) -> MovePath:
@@ -69,7 +69,7 @@ def refused(answer: MovePath | Blocked | None) -> Blocked:
 
 def collisions(
     motion: ArmMotion, path: MovePath, geometry: Geometry, start: Pose, goal: Pose, yaw: float,
-    standing: Mapping[str, Standing], step: float = 0.005,
+    standing: Mapping[str, StandingObject], step: float = 0.005,
 ) -> list[str]:  # fmt: skip
     """Return what a path hits, looked at every `step` rad: each leg in a model of its own with static bodies.
 
@@ -83,14 +83,14 @@ def collisions(
         there = dict(others)
         if not carried:
             pose = goal if segment.name in ("release", "retreat") else start
-            there["its own part"] = Standing(pose, geometry)
+            there["its own part"] = StandingObject(pose, geometry)
         found += _leg(motion, path.robot, segment, geometry if carried else None, yaw, there, step)
     return found
 
 
 def _leg(
     motion: ArmMotion, name: str, segment: Segment, held: Geometry | None, yaw: float,
-    standing: Mapping[str, Standing], step: float,
+    standing: Mapping[str, StandingObject], step: float,
 ) -> Iterator[str]:  # fmt: skip
     import mujoco
 
@@ -114,7 +114,7 @@ def _leg(
 
 
 def depth_of(
-    setup: Setup, held: Geometry | None, yaw: float, standing: Mapping[str, Standing]
+    setup: Setup, held: Geometry | None, yaw: float, standing: Mapping[str, StandingObject]
 ) -> Callable[[Joints], float]:
     """Return what says how deep anything overlaps at given joints [mm], the pads 50 mm apart."""
     import mujoco
@@ -146,7 +146,7 @@ def _allowed(names: list[str], robot: str) -> bool:
     return f"{robot}/base" in names and "table" in names
 
 
-def _model(setup: Setup, name: str, held: Geometry | None, standing: Mapping[str, Standing]) -> Any:
+def _model(setup: Setup, name: str, held: Geometry | None, standing: Mapping[str, StandingObject]) -> Any:
     import mujoco
 
     spec = mujoco.MjSpec()

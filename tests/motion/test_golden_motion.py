@@ -28,7 +28,7 @@ from pico.motion.hulls import of_geometry, of_shapes
 from pico.motion.recheck import Recheck, Task
 from pico.motion.scene import Scene
 from pico.motion.shapes import LINKS, finger
-from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 from pico.motion.zones import enters, outermost, shared_zones, within
 
 START, GOAL = Pose(290, 300, 10), Pose(620, 420, 40)
@@ -53,7 +53,7 @@ def shown(answer: MovePath | Blocked | None) -> Iterator[str]:
         yield f"  {answer.kind} {answer.segment} {answer.obstacle} {by}: {answer.text} | {answer.help}"
 
 
-def around(*places: tuple[str, float, float]) -> dict[str, Standing]:
+def around(*places: tuple[str, float, float]) -> dict[str, StandingObject]:
     kinds = {"part": PART, "disc": DISC, "wide": WIDE, "tall": TALL, "triangle": TRIANGLE}
     return stands(at={f"{kind}{n}": (kinds[kind], Pose(x, y, 20.0 * n)) for n, (kind, x, y) in enumerate(places)})
 
@@ -252,7 +252,7 @@ def test_what_is_too_near_is_what_was_too_near() -> None:
         recheck = Recheck(scene.setup, "arm1")
         path = MovePath("arm1", None, (Segment("retreat", (0.0, 0.0), (joints, joints), 40.0),))
         again = recheck.check(
-            path, Task(), {"t": Standing(Pose(560, 420), TALL)}, {"arm2": ik(FAR, 500, 320, 200, 0)[0]}
+            path, Task(), {"t": StandingObject(Pose(560, 420), TALL)}, {"arm2": ik(FAR, 500, 320, 200, 0)[0]}
         )
         lines.append(
             "  " + (f"{again.obstacle} {again.by:.2f}: {again.text}" if again and again.by is not None else "free")

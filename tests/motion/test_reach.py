@@ -16,7 +16,7 @@ from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot, Slot
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
 from pico.motion.arms import ArmMotion
-from pico.motion.types import MovePath, Standing
+from pico.motion.types import MovePath, StandingObject
 
 ROOT = Path(__file__).parents[2]
 MOTION = ArmMotion(bench())
@@ -124,7 +124,7 @@ def test_asking_for_reach_does_not_load_the_simulator():
 
 SHEL = load_folder(ROOT / "labs" / "shel").require()[0]
 SHEL_MOTION = ArmMotion(SHEL)
-HOME = {n: Standing(place_of(SHEL, home_state(SHEL), n)[1], SHEL.type_of(n).geometry) for n in SHEL.lab.inventory}
+HOME = {n: StandingObject(place_of(SHEL, home_state(SHEL), n)[1], SHEL.type_of(n).geometry) for n in SHEL.lab.inventory}
 BEAM_LINE = [Pose(x, 420) for x in range(290, 721, 43)]
 
 

@@ -14,7 +14,7 @@ from benches import shel
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
 from pico.motion.setdown import tool_of
-from pico.motion.types import Blocked, MovePath, Standing
+from pico.motion.types import Blocked, MovePath, StandingObject
 
 SETUP, STATE = shel()
 GEOMETRY = SETUP.type_of("p1").geometry
@@ -26,7 +26,7 @@ def motion() -> ArmMotion:
     return ArmMotion(SETUP)
 
 
-def moved(motion: ArmMotion, standing: dict[str, Standing]) -> MovePath:
+def moved(motion: ArmMotion, standing: dict[str, StandingObject]) -> MovePath:
     path = motion.move("arm1", "p1", START, GOAL, 90.0, standing)
     assert isinstance(path, MovePath)
     return path
@@ -55,14 +55,14 @@ def test_from_anywhere_on_its_way_a_part_can_be_brought_down(motion: ArmMotion, 
 def test_a_place_that_is_taken_is_refused_by_name(motion: ArmMotion) -> None:
     path = moved(motion, {})
     joints = next(s for s in path.segments if s.name == "transit").joints[0]
-    standing = {"p2": Standing(GOAL, GEOMETRY)}
+    standing = {"p2": StandingObject(GOAL, GEOMETRY)}
     found = motion.set_down("arm1", "p1", START, GOAL, standing, joints)
     assert isinstance(found, Blocked)
     assert found.obstacle == "p2"
 
 
 def test_an_arm_that_was_stopped_at_speed_among_neighbours_sets_down(motion: ArmMotion) -> None:
-    neighbour = {"ly_150": Standing(Pose(110, 310, 0), SETUP.type_of("ly_150").geometry)}
+    neighbour = {"ly_150": StandingObject(Pose(110, 310, 0), SETUP.type_of("ly_150").geometry)}
     lift = next(s for s in moved(motion, neighbour).segments if s.name == "lift")
     q = lift.joints[1]
     askew = (q[0], q[1] + 0.0015, 2e-6, q[3], 5e-6, q[5], q[6])

@@ -2,8 +2,8 @@
 
     python tests/oracles/proven.py < work.json
 
-Reads a `Work` as JSON; writes `makespan` and `lower_bound` [s], whether it is `proven`, and the `order`. For moves that
-are few: up to about twelve.
+Reads an `ArmWork` as JSON; writes `makespan` and `lower_bound` [s], whether it is `proven`, and the `order`. For few
+moves: up to about twelve.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from pico.diagnostics import PicoError, error
 from pico.model.record import as_json, record
-from pico.planning.ordering.arm_times import Work, timed
+from pico.planning.ordering.arm_times import ArmWork, timed
 
 TICK = 1e-3
 """The unit of time of the model [s]; what takes part of one is rounded down, so that the bound holds."""
@@ -39,7 +39,7 @@ class Proof:
     order: tuple[int, ...]
 
 
-def prove(work: Work, python: str = sys.executable) -> Proof:
+def prove(work: ArmWork, python: str = sys.executable) -> Proof:
     """Return the order that ends soonest, from a process of `python`. Raises PicoError where OR-Tools is not there."""
     given = json.dumps(as_json(work))
     done = subprocess.run([python, __file__], input=given, capture_output=True, text=True, check=False)
@@ -49,7 +49,7 @@ def prove(work: Work, python: str = sys.executable) -> Proof:
     return Proof(**found | {"order": tuple(found["order"])})
 
 
-def solved(work: Work, cp: Any, effort: float = EFFORT) -> Proof:
+def solved(work: ArmWork, cp: Any, effort: float = EFFORT) -> Proof:
     """Return the order that ends soonest, as far as it is found; `cp`: the module of CP-SAT."""
     model = cp.CpModel()
     solver = cp.CpSolver()
@@ -66,7 +66,7 @@ def solved(work: Work, cp: Any, effort: float = EFFORT) -> Proof:
     )  # fmt: skip
 
 
-def _modelled(work: Work, model: Any) -> list[Any]:
+def _modelled(work: ArmWork, model: Any) -> list[Any]:
     """Put `timed` into a model, with the order free; return the moments at which the moves begin [ticks]."""
     moves = range(len(work.arm))
     longest = [max(work.start[j], work.again[j], *work.between[j]) + work.loaded[j] + work.end[j] for j in moves]
@@ -102,7 +102,7 @@ def _modelled(work: Work, model: Any) -> list[Any]:
 
 
 def _arcs(
-    work: Work, model: Any, own: Sequence[int], begin: Sequence[Any], end: Sequence[Any], parks: Sequence[Any],
+    work: ArmWork, model: Any, own: Sequence[int], begin: Sequence[Any], end: Sequence[Any], parks: Sequence[Any],
     out: Sequence[Any],
 ) -> Iterator[tuple[int, int, Any]]:  # fmt: skip
     """Yield the arcs of one arm's round through its moves, and let each take its time."""
@@ -131,8 +131,8 @@ def _ticks(seconds: float) -> int:
     return int(seconds / TICK)
 
 
-def read_work(text: str) -> Work:
-    """Return the `Work` of its JSON."""
+def read_work(text: str) -> ArmWork:
+    """Return the `ArmWork` of its JSON."""
     raw = json.loads(text)
     for name in ("arm", "loaded", "start", "again", "end"):
         raw[name] = tuple(raw[name])
@@ -140,7 +140,7 @@ def read_work(text: str) -> Work:
         raw[name] = tuple(frozenset(some) for some in raw[name])
     for name in ("between", "zones"):
         raw[name] = tuple(tuple(row) for row in raw[name])
-    return Work(**raw)
+    return ArmWork(**raw)
 
 
 def main() -> int:

@@ -11,12 +11,12 @@ from oracles.proven import prove, read_work
 
 from pico.diagnostics import PicoError
 from pico.model.record import as_json
-from pico.planning.ordering.arm_times import Work, least, soonest, timed
+from pico.planning.ordering.arm_times import ArmWork, least, soonest, timed
 
 SEEDS = range(12)
 
 
-def some_work(seed: int, count: int = 6) -> Work:
+def some_work(seed: int, count: int = 6) -> ArmWork:
     """Two arms beside a strip in the middle that both reach; straight ways, times in s."""
     rnd = random.Random(seed)
     arm = tuple(rnd.randrange(2) for _ in range(count))
@@ -33,7 +33,7 @@ def some_work(seed: int, count: int = 6) -> Work:
         return frozenset({0} if 1.3 < place[0] < 2.7 else ())
 
     begin = tuple(way(rests[a], p) for a, p in zip(arm, picks, strict=True))
-    return Work(
+    return ArmWork(
         arms=2, arm=arm, loaded=tuple(round(rnd.uniform(3, 6), 3) for _ in arm), start=begin, again=begin,
         between=tuple(tuple(way(q, p) if a == b else 0.0 for p, b in zip(picks, arm, strict=True))
                       for q, a in zip(places, arm, strict=True)),
@@ -43,12 +43,12 @@ def some_work(seed: int, count: int = 6) -> Work:
     )  # fmt: skip
 
 
-def orders(work: Work) -> list[tuple[int, ...]]:
+def orders(work: ArmWork) -> list[tuple[int, ...]]:
     moves = range(len(work.arm))
     return [p for p in permutations(moves) if all(p.index(e) < p.index(j) for j in moves for e in work.before[j])]
 
 
-def tours(work: Work) -> list[float]:
+def tours(work: ArmWork) -> list[float]:
     """What each arm needs at least for its moves alone, by trying all orders."""
     return [
         min(timed(alone(work, order), range(len(order)))[0] for order in permutations(work.of(arm)))
@@ -56,10 +56,10 @@ def tours(work: Work) -> list[float]:
     ]
 
 
-def alone(work: Work, order: tuple[int, ...]) -> Work:
+def alone(work: ArmWork, order: tuple[int, ...]) -> ArmWork:
     """These moves, in this order, with nothing to wait for and nobody to meet."""
     none = (frozenset[int](),) * len(order)
-    return Work(
+    return ArmWork(
         arms=2, arm=tuple(work.arm[j] for j in order), loaded=tuple(work.loaded[j] for j in order),
         start=tuple(work.start[j] for j in order), again=tuple(work.again[j] for j in order),
         between=tuple(tuple(work.between[i][j] for j in order) for i in order),
@@ -88,7 +88,7 @@ def test_the_order_found_is_always_the_same_and_keeps_what_comes_before(seed: in
 def test_an_arm_that_stands_in_a_zone_parks_before_the_other_comes_in() -> None:
     """Way 1 s, work 4 s, park 2 s; then the other one: way 1 s, work 4 s, park 3 s."""
     inside = frozenset({0})
-    work = Work(
+    work = ArmWork(
         arms=2, arm=(0, 1), loaded=(4.0, 4.0), start=(1.0, 1.0), again=(1.0, 1.0), between=((0.0, 0.0), (0.0, 0.0)),
         end=(2.0, 3.0), before=(frozenset(), frozenset()), enters=(inside, inside), stays=(inside, inside),
         zones=((0, 1),),

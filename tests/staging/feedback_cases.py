@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from itertools import combinations, product
 
-from pico.staging.feedback import Arc, Choice, Component, Cycle, Event, Option, Problem, arrives, leaves
+from pico.staging.feedback import Arc, Choice, Component, Cycle, Option, PartEvent, StagingProblem, arrives, leaves
 
 
 def acyclic(vertices: Iterable[object], arcs: Iterable[tuple[object, object]]) -> bool:
@@ -51,7 +51,7 @@ def least_feedback(successors: list[list[int]], weights: dict[int, float], forbi
 
 def all_to_move(
     successors: Sequence[Collection[int]], weights: Mapping[int, float] | None = None, forbidden: Collection[int] = ()
-) -> Problem:
+) -> StagingProblem:
     """Return the problem of components that each leave before their successors arrive; the `forbidden` are never
     staged, what succeeds itself never moves directly. To stage the cheapest is to meet every cycle of the digraph.
     """
@@ -59,10 +59,12 @@ def all_to_move(
     for i, following in enumerate(successors):
         staged = () if i in forbidden else one
         parts.append(Component(() if i in following else one, staged, staged, cost.get(i, 1.0)))
-    return Problem(tuple(parts), tuple(Arc(leaves(u), arrives(v)) for u, vs in enumerate(successors) for v in vs))
+    return StagingProblem(
+        tuple(parts), tuple(Arc(leaves(u), arrives(v)) for u, vs in enumerate(successors) for v in vs)
+    )
 
 
-def random_problem(rng: random.Random) -> Problem:
+def random_problem(rng: random.Random) -> StagingProblem:
     """Return two to four components with a few options each; some never staged, some never direct, some with two
     goals; weights one, whole or broken."""
     n = rng.randint(2, 4)
@@ -71,7 +73,7 @@ def random_problem(rng: random.Random) -> Problem:
     fill = rng.choice((0.1, 0.2, 0.35))
     parts = [_component(rng, i, goals, rng.choice(weights), fill) for i in range(n)]
     arcs = [a for i in range(n) for a in _arcs(rng, i, goals, fill / 2, ("body",))]
-    return Problem(tuple(parts), tuple(arcs))
+    return StagingProblem(tuple(parts), tuple(arcs))
 
 
 def _component(rng: random.Random, i: int, goals: list[int], weight: float, fill: float) -> Component:
@@ -106,11 +108,11 @@ def choices(component: Component) -> list[Choice]:
     return direct + [Choice(pick=p, place=q) for p in picks for q in places]
 
 
-def all_choices(problem: Problem) -> Iterator[tuple[Choice, ...]]:
+def all_choices(problem: StagingProblem) -> Iterator[tuple[Choice, ...]]:
     return product(*(choices(c) for c in problem.components))
 
 
-def holding(problem: Problem, made: tuple[Choice, ...]) -> list[Arc]:
+def holding(problem: StagingProblem, made: tuple[Choice, ...]) -> list[Arc]:
     """Return the arcs that hold under a choice for each component."""
     arcs, ends = list(problem.arcs), []
     for component, choice in zip(problem.components, made, strict=True):
@@ -121,10 +123,10 @@ def holding(problem: Problem, made: tuple[Choice, ...]) -> list[Arc]:
     return [a for a in arcs if all(ends[j] == goal for j, goal in a.goals)]
 
 
-def possible(problem: Problem, made: tuple[Choice, ...]) -> bool:
+def possible(problem: StagingProblem, made: tuple[Choice, ...]) -> bool:
     """Whether all events have an order under a choice; a direct move is one event."""
 
-    def node(event: Event) -> object:
+    def node(event: PartEvent) -> object:
         return event if made[event.component].staged else event.component
 
     arcs = [(node(a.before), node(a.after)) for a in holding(problem, made)]
@@ -132,11 +134,11 @@ def possible(problem: Problem, made: tuple[Choice, ...]) -> bool:
     return acyclic([], arcs)
 
 
-def weight_of(problem: Problem, made: tuple[Choice, ...]) -> float:
+def weight_of(problem: StagingProblem, made: tuple[Choice, ...]) -> float:
     return sum(p.weight for p, c in zip(problem.components, made, strict=True) if c.staged)
 
 
-def least_staging(problem: Problem) -> float | None:
+def least_staging(problem: StagingProblem) -> float | None:
     """Return the least weight of what is staged, None where no choice leaves an order."""
     weights = sorted({weight_of(problem, made): None for made in all_choices(problem)})
     for weight in weights:
@@ -145,7 +147,7 @@ def least_staging(problem: Problem) -> float | None:
     return None
 
 
-def closes(problem: Problem, made: tuple[Choice, ...], cycle: Cycle) -> bool:
+def closes(problem: StagingProblem, made: tuple[Choice, ...], cycle: Cycle) -> bool:
     """Whether every link of a cycle holds under a choice, and each ends where the next begins."""
     present = {(a.before.component, a.before.what, a.after.component, a.after.what, a.kind) for a in
                holding(problem, made)}  # fmt: skip

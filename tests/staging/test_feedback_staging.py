@@ -14,8 +14,8 @@ from pico.staging.feedback import (
     Component,
     Limit,
     Option,
-    Problem,
-    Staging,
+    StagingAnswer,
+    StagingProblem,
     arrives,
     leaves,
     solve,
@@ -39,7 +39,7 @@ def check(seed: int) -> bool:
     return True
 
 
-def check_order(problem: Problem, answer: Staging) -> None:
+def check_order(problem: StagingProblem, answer: StagingAnswer) -> None:
     assert answer.options is not None
     place = {event: n for n, event in enumerate(answer.order)}
     assert len(place) == len(answer.order) == 2 * len(problem.components)
@@ -49,7 +49,7 @@ def check_order(problem: Problem, answer: Staging) -> None:
     assert all(place[a.before] < place[a.after] for a in holding(problem, answer.options))
 
 
-def check_certificate(problem: Problem, answer: Staging) -> None:
+def check_certificate(problem: StagingProblem, answer: StagingAnswer) -> None:
     """Every choice closes one of the cycles, and each of them is needed for that."""
     assert answer.options is None
     closed = [tuple(closes(problem, m, cycle) for cycle in answer.cycles) for m in all_choices(problem)]
@@ -74,12 +74,12 @@ def test_more_random_problems_agree_with_trying_every_choice(first: int) -> None
         check(seed)
 
 
-def swap(*, yaws: int = 1, staged: bool = True) -> Problem:
+def swap(*, yaws: int = 1, staged: bool = True) -> StagingProblem:
     """Two components that stand on one another's goals."""
     options = tuple(Option(k) for k in range(yaws))
     half = options if staged else ()
     parts = tuple(Component(options, half, half) for _ in range(2))
-    return Problem(parts, (Arc(leaves(0), arrives(1), "body"), Arc(leaves(1), arrives(0), "body")))
+    return StagingProblem(parts, (Arc(leaves(0), arrives(1), "body"), Arc(leaves(1), arrives(0), "body")))
 
 
 def test_a_swap_stages_one() -> None:
@@ -98,45 +98,45 @@ def test_another_yaw_replaces_a_staging() -> None:
     turned = (Option(0, (Arc(leaves(1), leaves(0), "finger"),)), Option(90))
     first = Component(turned, turned, (Option(0),))
     second = Component((Option(0, (Arc(leaves(0), arrives(1), "body"),)),), (Option(0),), (Option(0),))
-    answer = solve(Problem((first, second)))
+    answer = solve(StagingProblem((first, second)))
     assert answer.count == 0 and answer.options is not None and answer.options[0].direct == 1
 
 
 def test_what_has_no_direct_option_is_staged() -> None:
-    answer = solve(Problem((Component((), (Option(0),), (Option(90),), weight=2.5),)))
+    answer = solve(StagingProblem((Component((), (Option(0),), (Option(90),), weight=2.5),)))
     assert (answer.staged, answer.weight, answer.lower_bound) == ((0,), 2.5, 2.5)
 
 
 def test_what_has_no_option_at_all_is_named() -> None:
-    answer = solve(Problem((Component((Option(0),)), Component(()))))
+    answer = solve(StagingProblem((Component((Option(0),)), Component(()))))
     assert answer.proven and answer.cycle == ((1, "arrives", 1, "leaves", "no way"),)
 
 
 def test_an_arc_may_count_at_one_goal_only() -> None:
     goals = (Option("a", goal=0), Option("b", goal=1))
     blocked = Option(0, (Arc(arrives(1), arrives(0), "finger", ((0, 0),)), Arc(arrives(0), leaves(1), "finger")))
-    answer = solve(Problem((Component(goals), Component((blocked,)))))
+    answer = solve(StagingProblem((Component(goals), Component((blocked,)))))
     assert answer.count == 0 and answer.options is not None and answer.options[0].direct == 1
 
 
 def test_nothing_to_move_is_solved() -> None:
-    assert solve(Problem(())) == Staging((), (), (), 0.0, 0.0, True)
+    assert solve(StagingProblem(())) == StagingAnswer((), (), (), 0.0, 0.0, True)
 
 
 def test_an_arc_to_nobody_is_refused() -> None:
     with pytest.raises(ValueError, match="not among the 1"):
-        solve(Problem((Component((Option(0),)),), (Arc(leaves(0), arrives(3)),)))
+        solve(StagingProblem((Component((Option(0),)),), (Arc(leaves(0), arrives(3)),)))
 
 
 def test_what_needs_no_program_loads_no_solver() -> None:
     code = (
         "import sys; from pico.staging.feedback import *;"
-        "solve(Problem((Component((Option(0),)),))); print(*sorted({'highspy', 'numpy'} & set(sys.modules)))"
+        "solve(StagingProblem((Component((Option(0),)),))); print(*sorted({'highspy', 'numpy'} & set(sys.modules)))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "\n"
 
 
-def crowd(seed: int, n: int) -> Problem:
+def crowd(seed: int, n: int) -> StagingProblem:
     """Components in a row with three options each, of which each has an arc to some component nearby."""
     rng = random.Random(seed)
 
@@ -151,7 +151,7 @@ def crowd(seed: int, n: int) -> Problem:
         direct = tuple(Option(k, a.arcs + b.arcs) for k, (a, b) in enumerate(zip(pick, place, strict=True)))
         parts.append(Component(direct, pick, place))
     bodies = tuple(Arc(leaves(i), arrives(i + d), "body") for i in range(n) for d in (-1, 1) if 0 <= i + d < n)
-    return Problem(tuple(parts), bodies)
+    return StagingProblem(tuple(parts), bodies)
 
 
 def test_without_work_nothing_is_claimed_that_is_not_so() -> None:

@@ -18,7 +18,7 @@ from pico.vision.camera import CameraModel
 from pico.vision.judge import combined, judged
 from pico.vision.markers import read_marker
 from pico.vision.poses import (
-    View,
+    MarkerView,
     edge,
     flat_start,
     free,
@@ -43,10 +43,10 @@ def view(camera: CameraModel, pose: np.ndarray, size: float = SIZE, noise: float
     grid = np.array([(x, y, 0.0) for y in lines[::-1] for x in lines])
     laid, _ = cv2.findHomography(grid[:, :2], camera.project(grid @ pose[:3, :3].T + pose[:3, 3]))
     corners = cv2.perspectiveTransform(square(size)[:, None, :2], laid)[:, 0]
-    return View(camera, read_marker(7, corners + off, camera.name, noise))
+    return MarkerView(camera, read_marker(7, corners + off, camera.name, noise))
 
 
-def views(lens: str, pose: np.ndarray, **rest: float) -> list[View]:
+def views(lens: str, pose: np.ndarray, **rest: float) -> list[MarkerView]:
     return [view(camera, pose, **rest) for camera in LENSES[lens].values()]
 
 

@@ -15,7 +15,7 @@ from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.setpoint import refusal
-from pico.motion.types import Blocked, Standing
+from pico.motion.types import Blocked, StandingObject
 
 _PRESENCE = {"missing": "is not on the table", "held": "is in the gripper", "toppled": "lies on its side"}
 _AGAIN = "plan again: it starts from what stands on the table now"
@@ -83,15 +83,15 @@ def standing_pose(world: World, name: str) -> Pose:
     return body.pose
 
 
-def standing(setup: Setup, world: World) -> dict[str, Standing]:
+def standing(setup: Setup, world: World) -> dict[str, StandingObject]:
     """Return everything that stands on the table with its shape; a toppled part as if it stood there."""
     found = {
-        name: Standing(body.pose, setup.type_of(name).geometry)
+        name: StandingObject(body.pose, setup.type_of(name).geometry)
         for name, body in world.components.items()
         if body.pose is not None and body.presence in ("seen", "toppled")
     }
     for name, thing in world.unknown.items():
-        found[name] = Standing(thing.pose, Geometry(footprint=thing.footprint, height=thing.height, mass=0.0))
+        found[name] = StandingObject(thing.pose, Geometry(footprint=thing.footprint, height=thing.height, mass=0.0))
     return found
 
 

@@ -13,7 +13,7 @@ from pico.model.plan import Plan, Staging
 from pico.model.record import record
 from pico.planning.checks.contacts import Contact, Spot, bases, fingers, mouth, spot_of
 from pico.planning.explaining.blocking import Block, Clash, blocks_of, moved_by, ring_through, rings_of, why_impossible
-from pico.planning.explaining.graph import Edge, Node, PlanGraph, graph_of
+from pico.planning.explaining.graph import Dependency, PlanGraph, ScheduledOperation, graph_of
 
 
 @record
@@ -42,7 +42,7 @@ class Wait:
 
 
 @record
-class Step:
+class ExplainedOperation:
     """One operation: what waits for what, and how it lies in time; times in s."""
 
     operation: Operation
@@ -78,7 +78,7 @@ class Explanation:
     makespan: float = 0.0
     bound: float | None = None
     changes: tuple[Change, ...] = ()
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ExplainedOperation, ...] = ()
     fewer: Fewer = Fewer()
     clashes: tuple[Clash, ...] = ()
     blocks: tuple[Block, ...] = ()
@@ -114,22 +114,22 @@ def _require(setup: Setup, plan: Plan, component: str) -> None:
         raise PicoError(error("unknown-component", f"the lab has no component `{component}`", hint=hint))
 
 
-def _step(setup: Setup, plan: Plan, graph: PlanGraph, node: Node) -> Step:
+def _step(setup: Setup, plan: Plan, graph: PlanGraph, node: ScheduledOperation) -> ExplainedOperation:
     operation = node.operation
     by_id = {o.id: o for o in plan.operations}
     waits = [_wait(setup, by_id[e.source], operation, by_id[e.source], e) for e in graph.edges if _into(e, operation)]
     holds = [_wait(setup, operation, by_id[e.target], by_id[e.target], e) for e in graph.edges if _from(e, operation)]
-    return Step(
+    return ExplainedOperation(
         operation=operation, change=_change_of(plan, operation), waits_for=tuple(waits), holds_up=tuple(holds),
         critical=node.critical, spare=node.spare,
     )  # fmt: skip
 
 
-def _into(edge: Edge, operation: Operation) -> bool:
+def _into(edge: Dependency, operation: Operation) -> bool:
     return edge.target == operation.id and (edge.after or not edge.implied)
 
 
-def _from(edge: Edge, operation: Operation) -> bool:
+def _from(edge: Dependency, operation: Operation) -> bool:
     return edge.source == operation.id and (edge.after or not edge.implied)
 
 
@@ -140,7 +140,7 @@ def _change_of(plan: Plan, operation: Operation) -> Change | None:
     return next((c for c in plan.changes if (c.component, c.tunable) == key), None)
 
 
-def _wait(setup: Setup, first: Operation, then: Operation, other: Operation, edge: Edge) -> Wait:
+def _wait(setup: Setup, first: Operation, then: Operation, other: Operation, edge: Dependency) -> Wait:
     because = tuple(why_after(setup, first, then)) if edge.after else ()
     resource = None if edge.after else ", ".join(edge.resources)
     return Wait(

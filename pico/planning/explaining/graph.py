@@ -14,7 +14,7 @@ _NEAR = 1e-3
 
 
 @record
-class Edge:
+class Dependency:
     """`target` starts when `source` is done: because the plan says so (`after`), because both need the `resources`
     named, or both. `critical`: both lie on the critical path, one after the other. `implied`: other edges lead there
     as well, so that a drawing can do without it."""
@@ -28,7 +28,7 @@ class Edge:
 
 
 @record
-class Node:
+class ScheduledOperation:
     """One operation. `earliest`: when it can start at all [s]; `spare`: by how much it may start later than that
     without the plan ending later [s]. `critical`: it lies on the critical path."""
 
@@ -50,8 +50,8 @@ class PlanGraph:
     makespan: float = 0.0
     length: float = 0.0
     path: tuple[str, ...] = ()
-    nodes: tuple[Node, ...] = ()
-    edges: tuple[Edge, ...] = ()
+    nodes: tuple[ScheduledOperation, ...] = ()
+    edges: tuple[Dependency, ...] = ()
 
 
 def graph_of(plan: Plan) -> PlanGraph:
@@ -74,13 +74,13 @@ def graph_of(plan: Plan) -> PlanGraph:
     return PlanGraph(
         plan=plan.digest, makespan=plan.makespan, length=round(length, 6), path=path,
         nodes=tuple(
-            Node(operation=o, earliest=round(earliest[i], 6), spare=_spare(length - earliest[i] - rest[i]),
-                 critical=i in path)
+            ScheduledOperation(operation=o, earliest=round(earliest[i], 6), critical=i in path,
+                 spare=_spare(length - earliest[i] - rest[i]))
             for i, o in operations.items()
         ),
         edges=tuple(
-            Edge(source=a, target=b, after=a in operations[b].after, resources=resources, critical=(a, b) in steps,
-                 implied=(a, b) not in direct)
+            Dependency(source=a, target=b, after=a in operations[b].after, resources=resources,
+                 critical=(a, b) in steps, implied=(a, b) not in direct)
             for (a, b), resources in links.items()
         ),
     )  # fmt: skip

@@ -10,18 +10,18 @@ from pico.model.operation import Reason
 from pico.model.state import LabState
 from pico.planning.ordering.conflicts import Conflicts, Spot
 from pico.planning.ordering.order import Closure
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 
 
 def move_reasons(
-    setup: Setup, wanted: LabState, table: Conflicts, steps: Sequence[Step], closure: Closure
+    setup: Setup, wanted: LabState, table: Conflicts, steps: Sequence[OrderedMove], closure: Closure
 ) -> tuple[Reason, ...]:
     """Return the reason of each step."""
     return tuple(_reason(setup, wanted, table, steps, closure, k) for k in range(len(steps)))
 
 
 def _reason(
-    setup: Setup, wanted: LabState, table: Conflicts, steps: Sequence[Step], closure: Closure, k: int
+    setup: Setup, wanted: LabState, table: Conflicts, steps: Sequence[OrderedMove], closure: Closure, k: int
 ) -> Reason:
     step = steps[k]
     mover = table.movers[step.mover]
@@ -41,7 +41,7 @@ def _reason(
 
 
 def _waiting(
-    table: Conflicts, steps: Sequence[Step], closure: Closure, k: int
+    table: Conflicts, steps: Sequence[OrderedMove], closure: Closure, k: int
 ) -> tuple[tuple[str, ...], float | None, str]:
     """Return the components that a step waits for, by how much the nearest would overlap, and that in words."""
     step, names, best, text = steps[k], [], 0.0, ""
@@ -75,7 +75,7 @@ def body_overlap(table: Conflicts, a: Spot, b: Spot) -> float:
     return -separation(table.shape(*a), table.shape(*b))
 
 
-def _making_room(table: Conflicts, steps: Sequence[Step], k: int) -> tuple[tuple[str, ...], float | None, str]:
+def _making_room(table: Conflicts, steps: Sequence[OrderedMove], k: int) -> tuple[tuple[str, ...], float | None, str]:
     """Return whom a component makes room for when it is put down in storage, and that in words."""
     step = steps[k]
     bit, back = table.bit(step.mover, step.start), _next_of(steps, k)
@@ -97,6 +97,6 @@ def _making_room(table: Conflicts, steps: Sequence[Step], k: int) -> tuple[tuple
     return tuple(dict.fromkeys(of)), round(best, 3) if best > 0 else None, text
 
 
-def _next_of(steps: Sequence[Step], k: int) -> int:
+def _next_of(steps: Sequence[OrderedMove], k: int) -> int:
     """Return the index of the next step of the same mover, or the end."""
     return next((n for n in range(k + 1, len(steps)) if steps[n].mover == steps[k].mover), len(steps))

@@ -11,7 +11,7 @@ from pico.planning.checks.target import Source, located
 from pico.planning.explaining.reasons import body_overlap
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
-from pico.planning.ordering.solve import Refusal, Solution
+from pico.planning.ordering.solve import OrderedMoves, Refusal
 from pico.planning.parts.movers import Hold, Mover
 from pico.planning.parts.phrases import listed
 from pico.staging.feedback.digraph import some_cycle
@@ -30,7 +30,7 @@ def explain(refused: Refusal, source: Source) -> list[Diagnostic]:
     return [_ring(table, stuck, refused, source)]
 
 
-def storage_note(answer: Solution) -> list[Diagnostic]:
+def storage_note(answer: OrderedMoves) -> list[Diagnostic]:
     """Return a note where storage has too little room for as few stagings as there might be."""
     if answer.staged <= answer.least or not answer.slots:
         return []

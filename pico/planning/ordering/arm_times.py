@@ -19,7 +19,7 @@ Table = tuple[tuple[float, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Work:
+class ArmWork:
     """The moves to be done by so many `arms`, all times in seconds, indices from 0.
 
     `arm[j]` makes move j: it comes from where it is at first (`start[j]`), from its park pose (`again[j]`), or from
@@ -49,7 +49,7 @@ class Work:
         return min(self.start[j], self.again[j], *(self.between[i][j] for i in self.of(self.arm[j]) if i != j))
 
 
-def timed(work: Work, order: Sequence[int]) -> tuple[float, float]:
+def timed(work: ArmWork, order: Sequence[int]) -> tuple[float, float]:
     """Return when all is done and the arms are parked [s], and the sum of when each move is done [s].
 
     Each arm takes its moves in `order`, which keeps `before`; zones are entered in that order, too.
@@ -78,7 +78,7 @@ def timed(work: Work, order: Sequence[int]) -> tuple[float, float]:
     return max(over, default=0.0), sum(ends)
 
 
-def soonest(work: Work, order: Sequence[int], tried: int = TRIED, seed: int = 0) -> tuple[int, ...]:
+def soonest(work: ArmWork, order: Sequence[int], tried: int = TRIED, seed: int = 0) -> tuple[int, ...]:
     """Return an order that keeps `before` and ends as soon as one that is found from `order`, which keeps it as well:
     local search that shifts single moves, from there and again and again from some moves shifted at random."""
     rnd, left = random.Random(seed), [tried * len(order)]
@@ -94,7 +94,7 @@ def soonest(work: Work, order: Sequence[int], tried: int = TRIED, seed: int = 0)
     return best
 
 
-def _descended(work: Work, order: tuple[int, ...], left: list[int]) -> tuple[tuple[int, ...], tuple[float, float]]:
+def _descended(work: ArmWork, order: tuple[int, ...], left: list[int]) -> tuple[tuple[int, ...], tuple[float, float]]:
     """Return the order after all shifts that make it better, and its times; `left`: moves that may still be timed."""
     cost, k, since = timed(work, order), 0, 0
     while since < len(order) and left[0] > 0:
@@ -108,7 +108,7 @@ def _descended(work: Work, order: tuple[int, ...], left: list[int]) -> tuple[tup
     return order, cost
 
 
-def _shifts(work: Work, order: tuple[int, ...], k: int) -> Iterator[tuple[int, ...]]:
+def _shifts(work: ArmWork, order: tuple[int, ...], k: int) -> Iterator[tuple[int, ...]]:
     """Yield the orders in which the k-th move comes earlier or later, as far as `before` allows."""
     j, rest = order[k], (*order[:k], *order[k + 1 :])
     for n in range(k - 1, -1, -1):
@@ -125,7 +125,7 @@ def _less(a: tuple[float, float], b: tuple[float, float]) -> bool:
     return a[0] < b[0] - _EQUAL or (a[0] < b[0] + _EQUAL and a[1] < b[1] - _EQUAL)
 
 
-def least(work: Work, tours: Sequence[float], free: Mapping[int, float]) -> float:
+def least(work: ArmWork, tours: Sequence[float], free: Mapping[int, float]) -> float:
     """Return a time before which no order and schedule of these moves ends [s], the arms parked; the longest of:
 
     what one arm needs for its moves (`tours`: a bound for each, travel included), what all arms need shared equally,
@@ -147,7 +147,7 @@ def least(work: Work, tours: Sequence[float], free: Mapping[int, float]) -> floa
     return max(bounds, default=0.0)
 
 
-def _handover(work: Work, first: int, then: int, free: Mapping[int, float]) -> float:
+def _handover(work: ArmWork, first: int, then: int, free: Mapping[int, float]) -> float:
     """Return how long the arm of one move takes at least to leave the zones that another arm needs for a later one."""
     if first in free or then in free or work.arm[first] == work.arm[then] or not work.stays[first] & work.enters[then]:
         return 0.0

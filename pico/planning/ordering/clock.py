@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pico.model.observation import Observation
 from pico.motion.types import Joints, Motion
 from pico.planning.ordering.conflicts import Conflicts
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 from pico.planning.parts.movers import Place
 
 SPEED = 300.0
@@ -35,7 +35,7 @@ class Clock:
         """Whether the arm says how long it takes."""
         return hasattr(self.motion, "travel") and hasattr(self.motion, "carry")
 
-    def loaded(self, step: Step) -> float:
+    def loaded(self, step: OrderedMove) -> float:
         """Return the least time of a move from above its start until the hand is empty above its goal."""
         a, b = self._places(step)
         if step.hold.robot is None:
@@ -46,7 +46,7 @@ class Clock:
         seconds = self.motion.carry(step.hold.robot, name, a.pose, b.pose, step.hold.yaw)
         return seconds if math.isfinite(seconds) else 0.0
 
-    def start(self, step: Step) -> float:
+    def start(self, step: OrderedMove) -> float:
         """Return the way from where the arm is to where a step begins."""
         robot = step.hold.robot or ""
         joints = self.seen.robots[robot].joints if robot in self.seen.robots else None
@@ -56,11 +56,11 @@ class Clock:
         mount = self.table.setup.lab.robots[robot].mount
         return math.hypot(place.pose.x - mount.x, place.pose.y - mount.y) / SPEED
 
-    def again(self, step: Step) -> float:
+    def again(self, step: OrderedMove) -> float:
         """Return the way from the park pose to where a step begins."""
         return self._travel(step.hold.robot or "", None, self._places(step)[0], 0.0, step.hold.yaw)
 
-    def between(self, first: Step, then: Step) -> float:
+    def between(self, first: OrderedMove, then: OrderedMove) -> float:
         """Return the way from where a step ends to where another begins."""
         a, b = self._places(first)[1], self._places(then)[0]
         if self.told:
@@ -68,7 +68,7 @@ class Clock:
         turned = abs(math.remainder(a.pose.yaw + first.hold.yaw - b.pose.yaw - then.hold.yaw, 180.0))
         return max(a.pose.distance(b.pose) / SPEED, turned / TURN)
 
-    def end(self, step: Step) -> float:
+    def end(self, step: OrderedMove) -> float:
         """Return the way from where a step ends to the park pose."""
         place = self._places(step)[1]
         if self.told:
@@ -76,13 +76,13 @@ class Clock:
         mount = self.table.setup.lab.robots[step.hold.robot or ""].mount
         return math.hypot(place.pose.x - mount.x, place.pose.y - mount.y) / SPEED
 
-    def around(self, steps: Sequence[Step], k: int) -> float:
+    def around(self, steps: Sequence[OrderedMove], k: int) -> float:
         """Return what step `k` costs with the ways to it and from it."""
         way = self.start(steps[k]) if k == 0 else self.between(steps[k - 1], steps[k])
         on = self.end(steps[k]) if k + 1 == len(steps) else self.between(steps[k], steps[k + 1])
         return way + self.loaded(steps[k]) + on
 
-    def _places(self, step: Step) -> tuple[Place, Place]:
+    def _places(self, step: OrderedMove) -> tuple[Place, Place]:
         places = self.table.movers[step.mover].places
         return places[step.start], places[step.goal]
 

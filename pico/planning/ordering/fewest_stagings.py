@@ -10,8 +10,8 @@ from itertools import combinations
 from pico.planning.ordering.conflicts import FEW, Conflicts, sum_of
 from pico.planning.ordering.realize import realized, slots_needed
 from pico.planning.ordering.relaxed import relaxation, staging_cost
-from pico.planning.ordering.search import Configuration, Effort, Found, Step, search
-from pico.staging.feedback import Limit, Staging
+from pico.planning.ordering.search import Configuration, Found, OrderedMove, SearchEffort, search
+from pico.staging.feedback import Limit, StagingAnswer
 from pico.staging.feedback import solve as fewest_staged
 
 COMPLETE = FEW
@@ -22,13 +22,13 @@ BOUND = Limit(solves=60, nodes=5000)
 OTHERS = 4
 """How many other sets of components to stage are tried where storage has no room for the first."""
 EFFORTS = (
-    Effort(weight=1.0, limit=300, commit=True, slots=3),
-    Effort(weight=2.0, limit=600, commit=True, slots=3),
-    Effort(weight=3.0, limit=1500, slots=6),
+    SearchEffort(weight=1.0, limit=300, commit=True, slots=3),
+    SearchEffort(weight=2.0, limit=600, commit=True, slots=3),
+    SearchEffort(weight=3.0, limit=1500, slots=6),
 )
-EVERYTHING = Effort(weight=2.0, limit=200_000, everyone=True)
-FEWEST = Effort(weight=1.0, limit=4000, everyone=True)
-PROOF = Effort(weight=2.0, limit=3000, everyone=True)
+EVERYTHING = SearchEffort(weight=2.0, limit=200_000, everyone=True)
+FEWEST = SearchEffort(weight=1.0, limit=4000, everyone=True)
+PROOF = SearchEffort(weight=2.0, limit=3000, everyone=True)
 PROOF_WORK = 30_000
 """Expansions spent in all on proving that a few movers are enough to make a problem impossible."""
 
@@ -40,16 +40,16 @@ class Hunted:
     `proven` that there is no order. `slots`: where storage has no room for the fewest stagings, how many free slots
     would do; 0 where it has, or where that is not known. `others`: more answers, which may stage more."""
 
-    steps: tuple[Step, ...] | None
+    steps: tuple[OrderedMove, ...] | None
     least: int = 0
     core: tuple[int, ...] = ()
     closest: Configuration = ()
     proven: bool = False
     slots: int = 0
-    others: tuple[tuple[Step, ...], ...] = ()
+    others: tuple[tuple[OrderedMove, ...], ...] = ()
 
 
-def stagings(steps: Sequence[Step]) -> int:
+def stagings(steps: Sequence[OrderedMove]) -> int:
     """Return how many moves put a component down on its way: those besides the last of each."""
     return len(steps) - len({s.mover for s in steps})
 
@@ -80,14 +80,14 @@ def hunt(table: Conflicts, *, several: bool = False) -> Hunted:
     return Hunted(found.steps, least, core, found.closest, bool(core) or found.exhausted, slots)
 
 
-def _least(table: Conflicts, relaxed: Staging) -> int:
+def _least(table: Conflicts, relaxed: StagingAnswer) -> int:
     """Return the fewest stagings, whatever they cost."""
     if relaxed.count and any(staging_cost(m) > 1 for m in table.movers):
         relaxed = fewest_staged(relaxation(table, (1.0,) * len(table.movers)), BOUND)
     return math.ceil(relaxed.lower_bound - 1e-6) if math.isfinite(relaxed.lower_bound) else 0
 
 
-def _with_room(table: Conflicts, relaxed: Staging) -> Iterator[tuple[Step, ...]]:
+def _with_room(table: Conflicts, relaxed: StagingAnswer) -> Iterator[tuple[OrderedMove, ...]]:
     """Yield moves that stage no more than the relaxed answer, with a slot for each."""
     costs = [staging_cost(m) for m in table.movers]
     weights, answer = list(costs), relaxed
@@ -97,7 +97,7 @@ def _with_room(table: Conflicts, relaxed: Staging) -> Iterator[tuple[Step, ...]]
         problem = relaxation(table, tuple(weights))
         if steps := realized(table, problem, answer):
             yield steps
-        only = Effort(weight=2.0, limit=200, commit=True, slots=6, only=frozenset(answer.staged))
+        only = SearchEffort(weight=2.0, limit=200, commit=True, slots=6, only=frozenset(answer.staged))
         if found := search(table, only).steps:
             yield found
         for i in answer.staged:
@@ -105,7 +105,7 @@ def _with_room(table: Conflicts, relaxed: Staging) -> Iterator[tuple[Step, ...]]
         answer = fewest_staged(relaxation(table, tuple(weights)), BOUND)
 
 
-def _others(table: Conflicts, answers: Iterator[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
+def _others(table: Conflicts, answers: Iterator[tuple[OrderedMove, ...]]) -> Iterator[tuple[OrderedMove, ...]]:
     yield from answers
     for effort in EFFORTS[:2]:
         if found := search(table, effort).steps:
@@ -120,7 +120,7 @@ def _searched(table: Conflicts) -> Found:
     return found
 
 
-def _compared(table: Conflicts, steps: tuple[Step, ...], least: int, slots: int) -> Hunted:
+def _compared(table: Conflicts, steps: tuple[OrderedMove, ...], least: int, slots: int) -> Hunted:
     """Return the moves, or fewer where a complete search of a small table finds them, which proves their number."""
     if stagings(steps) == least:
         return Hunted(steps, least)

@@ -10,7 +10,7 @@ from pico.motion.types import Blocked, MovePath
 from pico.motion.zones import MARGIN, Zone, enters, shared_zones
 from pico.planning.ordering.order import turns
 from pico.planning.ordering.paths import Park, Paths
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Item:
     waits: tuple[int, ...] = ()
 
 
-def items(setup: Setup, steps: Sequence[Step], paths: Paths | None) -> tuple[Item, ...]:
+def items(setup: Setup, steps: Sequence[OrderedMove], paths: Paths | None) -> tuple[Item, ...]:
     """Return steps and parks in an order that works, each with the zones where it keeps others out.
 
     An arm that keeps out of a zone can't touch the other, wherever that is. One that comes into it leaves it with a
@@ -48,14 +48,14 @@ def items(setup: Setup, steps: Sequence[Step], paths: Paths | None) -> tuple[Ite
     return tuple(found)
 
 
-def _listed(steps: Sequence[Step], parks: Sequence[Park]) -> Iterator[Item]:
+def _listed(steps: Sequence[OrderedMove], parks: Sequence[Park]) -> Iterator[Item]:
     for k, step in enumerate(steps):
         yield from (Item(p.robot, park=p) for p in parks if p.before == k)
         yield Item(step.hold.robot, step=k)
     yield from (Item(p.robot, park=p) for p in parks if p.before is None)
 
 
-def _turns(steps: Sequence[Step]) -> tuple[Park, ...]:
+def _turns(steps: Sequence[OrderedMove]) -> tuple[Park, ...]:
     """Return the parks where each arm parks before another has its turn."""
     order = turns(steps)
     following = [*(turn.steps[0] for turn in order[1:]), None]

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 from pico.model.lab import Setup
 from pico.planning.ordering.conflicts import Conflicts
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 
 Closure = tuple[frozenset[int], ...]
 """For each step the indices of all steps that must come before it, directly or not."""
 
 
-def precedence(table: Conflicts, steps: Sequence[Step], extra: Mapping[int, int]) -> Closure:
+def precedence(table: Conflicts, steps: Sequence[OrderedMove], extra: Mapping[int, int]) -> Closure:
     """Return which of the steps, given in an order that works, must come before which in every order.
 
     Of two moves the first must stay first where the second needs the spot that it leaves, or takes the spot that it
@@ -42,7 +42,7 @@ def reduced(closure: Closure) -> tuple[tuple[int, ...], ...]:
     )
 
 
-def arranged(setup: Setup, table: Conflicts, steps: Sequence[Step], closure: Closure) -> tuple[Step, ...]:
+def arranged(setup: Setup, table: Conflicts, steps: Sequence[OrderedMove], closure: Closure) -> tuple[OrderedMove, ...]:
     """Return the steps in an order that keeps `closure`, each time the one whose pick is nearest to where its robot
     is; a robot goes on as long as it can before another has its turn."""
     at = {name: (r.mount.x, r.mount.y) for name, r in setup.lab.robots.items()}
@@ -72,22 +72,22 @@ def arranged(setup: Setup, table: Conflicts, steps: Sequence[Step], closure: Clo
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
+class ArmTurn:
     """Consecutive steps of one robot; it parks after them, so that the next robot finds the table free of it."""
 
     robot: str
     steps: tuple[int, ...]
 
 
-def turns(steps: Sequence[Step]) -> tuple[Turn, ...]:
+def turns(steps: Sequence[OrderedMove]) -> tuple[ArmTurn, ...]:
     """Return the turns in which the robots take the steps; those of people belong to none."""
-    found: list[Turn] = []
+    found: list[ArmTurn] = []
     for k, step in enumerate(steps):
         robot = step.hold.robot
         if robot is None:
             continue
         if found and found[-1].robot == robot:
-            found[-1] = Turn(robot, (*found[-1].steps, k))
+            found[-1] = ArmTurn(robot, (*found[-1].steps, k))
         else:
-            found.append(Turn(robot, (k,)))
+            found.append(ArmTurn(robot, (k,)))
     return tuple(found)

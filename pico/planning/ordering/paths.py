@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.observation import Observation
-from pico.motion.types import Blocked, Joints, Motion, MovePath, Standing
+from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
 from pico.motion.zones import MARGIN, enters, shared_zones, within
 from pico.planning.ordering.conflicts import Conflicts, Spot
 from pico.planning.ordering.order import Closure, precedence
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 from pico.planning.parts.setdown import PARKED
 
 
@@ -40,12 +40,12 @@ class Paths:
 class NoPath:
     """A step without a path: what blocks it, and the spot of the component that does, if it is one that moves."""
 
-    step: Step
+    step: OrderedMove
     blocked: Blocked
     spot: Spot | None
 
 
-def find_paths(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: Motion) -> Paths | NoPath:
+def find_paths(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, motion: Motion) -> Paths | NoPath:
     """Return the paths of `steps` one after the other, or the first step that has none.
 
     A path is asked for among everything that may stand there at that step in any order that keeps the precedence, so
@@ -72,7 +72,7 @@ def find_paths(table: Conflicts, steps: Sequence[Step], seen: Observation, motio
 class Arms:
     """Where the arms stand while paths are found, and the parks that this takes."""
 
-    def __init__(self, table: Conflicts, steps: Sequence[Step], seen: Observation, motion: Motion) -> None:
+    def __init__(self, table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, motion: Motion) -> None:
         self.parks: list[Park] = []
         self.joints: dict[str, Joints | None] = {name: robot.joints for name, robot in seen.robots.items()}
         self._table, self._steps, self._motion = table, steps, motion
@@ -117,7 +117,7 @@ class Arms:
 
 
 def _path(
-    table: Conflicts, steps: Sequence[Step], k: int, extra: dict[int, int], joints: Joints | None, motion: Motion
+    table: Conflicts, steps: Sequence[OrderedMove], k: int, extra: dict[int, int], joints: Joints | None, motion: Motion
 ) -> MovePath | NoPath:
     step = steps[k]
     mover = table.movers[step.mover]
@@ -138,7 +138,7 @@ def _path(
         extra[k] = extra.get(k, 0) | table.bit(*spot)
 
 
-def places_before(table: Conflicts, steps: Sequence[Step], k: int) -> list[int]:
+def places_before(table: Conflicts, steps: Sequence[OrderedMove], k: int) -> list[int]:
     """Return where each mover is just before step `k`."""
     places = [0] * len(table.movers)
     for step in steps[:k]:
@@ -146,7 +146,7 @@ def places_before(table: Conflicts, steps: Sequence[Step], k: int) -> list[int]:
     return places
 
 
-def possible(table: Conflicts, steps: Sequence[Step], closure: Closure, k: int) -> list[Spot]:
+def possible(table: Conflicts, steps: Sequence[OrderedMove], closure: Closure, k: int) -> list[Spot]:
     """Return the spots of other movers that may be taken while step `k` runs, in some order that keeps `closure`."""
     spots: list[Spot] = []
     for j in range(len(table.movers)):
@@ -168,13 +168,13 @@ def _name(table: Conflicts, spot: Spot, now: Sequence[int]) -> str:
     return name if now[spot[0]] == spot[1] else f"{name}@{spot[1]}"
 
 
-def _standing(table: Conflicts, spot: Spot) -> Standing:
+def _standing(table: Conflicts, spot: Spot) -> StandingObject:
     mover = table.movers[spot[0]]
-    return Standing(mover.places[spot[1]].pose, mover.geometry)
+    return StandingObject(mover.places[spot[1]].pose, mover.geometry)
 
 
 def _park(
-    table: Conflicts, done: Sequence[Step], robot: str, joints: Mapping[str, Joints | None], motion: Motion
+    table: Conflicts, done: Sequence[OrderedMove], robot: str, joints: Mapping[str, Joints | None], motion: Motion
 ) -> MovePath | Blocked:
     places = places_before(table, done, len(done))
     standing = {name: o.standing for name, o in table.obstacles.items()} | {

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from pico.planning.ordering.conflicts import Conflicts
-from pico.planning.ordering.search import Step, ranked_storage
-from pico.staging.feedback import Choice, Event, Problem, Staging
+from pico.planning.ordering.search import OrderedMove, ranked_storage
+from pico.staging.feedback import Choice, PartEvent, StagingAnswer, StagingProblem
 
 TRIES = 2000
 """Moves tried in all to find slots for one order."""
@@ -20,7 +20,7 @@ Act = tuple[int, str]
 """A mover, and which of its moves: `direct`, `leaves` for storage, or `arrives` from there."""
 
 
-def realized(table: Conflicts, problem: Problem, answer: Staging) -> tuple[Step, ...] | None:
+def realized(table: Conflicts, problem: StagingProblem, answer: StagingAnswer) -> tuple[OrderedMove, ...] | None:
     """Return moves that stage exactly what `answer` stages, or None where no slots for them are found."""
     assert answer.options is not None
     stays = {i for i, c in enumerate(answer.options) if c.direct is not None and _stays(problem, i, c.direct)}
@@ -32,23 +32,23 @@ def realized(table: Conflicts, problem: Problem, answer: Staging) -> tuple[Step,
     return None
 
 
-def slots_needed(problem: Problem, answer: Staging) -> int:
+def slots_needed(problem: StagingProblem, answer: StagingAnswer) -> int:
     """Return how many components must be in storage at one time where those of `answer` are staged as it says: the
     least number in any order, where they are few."""
     assert answer.options is not None
     return _peak(_roomiest(_before(problem, answer.options)))
 
 
-def _stays(problem: Problem, i: int, direct: int) -> bool:
+def _stays(problem: StagingProblem, i: int, direct: int) -> bool:
     return problem.components[i].direct[direct].name is None
 
 
-def _act(event: Event, choices: Sequence[Choice]) -> Act:
+def _act(event: PartEvent, choices: Sequence[Choice]) -> Act:
     i = event.component
     return (i, event.what if choices[i].staged else "direct")
 
 
-def _before(problem: Problem, choices: Sequence[Choice]) -> dict[Act, set[Act]]:
+def _before(problem: StagingProblem, choices: Sequence[Choice]) -> dict[Act, set[Act]]:
     """Return for each move those that must come before it."""
     before: dict[Act, set[Act]] = {}
     arcs = list(problem.arcs)
@@ -158,13 +158,13 @@ class _Replay:
     table: Conflicts
     order: Sequence[Act]
     tries: int
-    steps: list[Step] = field(default_factory=list)
+    steps: list[OrderedMove] = field(default_factory=list)
     _storage: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
     def run(self) -> bool:
         """Make the moves; False where no slots for them are found."""
         places = [0] * len(self.table.movers)
-        trail: list[Iterator[Step]] = []
+        trail: list[Iterator[OrderedMove]] = []
         while len(self.steps) < len(self.order):
             if len(trail) == len(self.steps):
                 trail.append(self._ways(self.order[len(trail)], places))
@@ -181,7 +181,7 @@ class _Replay:
             places[undone.mover] = undone.start
         return True
 
-    def _ways(self, act: Act, places: list[int]) -> Iterator[Step]:
+    def _ways(self, act: Act, places: list[int]) -> Iterator[OrderedMove]:
         i, what = act
         taken = 0
         for j, place in enumerate(places):
@@ -189,7 +189,7 @@ class _Replay:
         for goal in self._between(i) if what == "leaves" else self._ends(i, places[i]):
             way = self.table.way(i, places[i], goal, taken)
             if way:
-                yield Step(i, places[i], goal, way.hold, way.mask)
+                yield OrderedMove(i, places[i], goal, way.hold, way.mask)
 
     def _ends(self, i: int, now: int) -> list[int]:
         return sorted(self.table.movers[i].finished - {now})

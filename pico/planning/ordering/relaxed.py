@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.parts.movers import Hold, Mover
-from pico.staging.feedback import Arc, Component, Event, Option, Problem, arrives, leaves
+from pico.staging.feedback import Arc, Component, Option, PartEvent, StagingProblem, arrives, leaves
 
 
-def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Problem:
+def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> StagingProblem:
     """Return the problem of staging as few as possible (weighted by what the movers cost to stage, or by `weights`),
     in which a staged component stands in nobody's way, though somebody may stand in its own.
 
@@ -24,7 +24,7 @@ def relaxation(table: Conflicts, weights: tuple[float, ...] | None = None) -> Pr
         shared = _shared(own)
         common += shared
         components.append(_without(own, frozenset(shared)))
-    return Problem(tuple(components), tuple(common))
+    return StagingProblem(tuple(components), tuple(common))
 
 
 def staging_cost(mover: Mover) -> float:
@@ -101,7 +101,7 @@ def _undominated(options: list[tuple[int, Hold]]) -> list[tuple[int, Hold]]:
     return kept
 
 
-def _arcs(table: Conflicts, event: Event, mask: int, body: int) -> tuple[Arc, ...]:
+def _arcs(table: Conflicts, event: PartEvent, mask: int, body: int) -> tuple[Arc, ...]:
     """Return what must come before and after an event that needs the spots of `mask` empty, those of `body` for the
     body's sake. Storage is left out of account."""
     found = []

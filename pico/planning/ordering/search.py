@@ -18,7 +18,7 @@ Configuration = tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class OrderedMove:
     """One move of the answer; `mask`: the bits of the spots that must be empty."""
 
     mover: int
@@ -29,7 +29,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Effort:
+class SearchEffort:
     """How hard to search. `commit`: make a move at once that hinders nobody's direct move. `slots`: how many storage
     places to try for each component (None: all). `everyone`: stage any component, not only those in the way; `only`:
     stage none but these (None: all)."""
@@ -47,14 +47,14 @@ class Found:
     """What a search came to: the steps, or None and whether every configuration was seen (`exhausted`); `closest` is
     the configuration with the fewest components out of place."""
 
-    steps: tuple[Step, ...] | None
+    steps: tuple[OrderedMove, ...] | None
     exhausted: bool
     closest: Configuration
     expanded: int
 
 
 @dataclass(slots=True)
-class Work:
+class Expansions:
     """A limit on expansions that several searches share."""
 
     left: int
@@ -64,7 +64,7 @@ class Work:
 class _Search:
     table: Conflicts
     who: tuple[int, ...]
-    effort: Effort
+    effort: SearchEffort
     finished: tuple[frozenset[int], ...]
     _storage: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
@@ -87,13 +87,13 @@ class _Search:
                     if not self.effort.everyone:
                         return
 
-    def moves(self, places: Configuration, taken: int) -> Iterator[tuple[Step, float]]:
+    def moves(self, places: Configuration, taken: int) -> Iterator[tuple[OrderedMove, float]]:
         """Yield the moves from a configuration that are worth trying, with their costs."""
         pending, stuck = self.pending(places), []
-        homing: list[Step] = []
+        homing: list[OrderedMove] = []
         for i in pending:
             before = len(homing)
-            homing += [Step(i, places[i], g, w.hold, w.mask) for g, w in self.direct(i, places, taken)]
+            homing += [OrderedMove(i, places[i], g, w.hold, w.mask) for g, w in self.direct(i, places, taken)]
             if len(homing) == before:
                 stuck.append(i)
         if self.effort.commit:
@@ -106,7 +106,7 @@ class _Search:
             if self.effort.only is None or i in self.effort.only:
                 yield from self._stagings(i, places, taken)
 
-    def _harmless(self, step: Step, pending: Sequence[int], places: Configuration) -> bool:
+    def _harmless(self, step: OrderedMove, pending: Sequence[int], places: Configuration) -> bool:
         """Whether a component at its goal hinders no direct move of those still to go."""
         bit = self.table.bit(step.mover, step.goal)
         return not any(
@@ -140,7 +140,7 @@ class _Search:
             for j, _ in self.table.at(union & taken & ~self.table.bit(i, places[i])):
                 yield j
 
-    def _stagings(self, i: int, places: Configuration, taken: int) -> Iterator[tuple[Step, float]]:
+    def _stagings(self, i: int, places: Configuration, taken: int) -> Iterator[tuple[OrderedMove, float]]:
         mover, tried = self.table.movers[i], 0
         for place in self.storage(i):
             if place == places[i] or (not self.effort.everyone and self._same_slot(i, place, places[i])):
@@ -148,7 +148,7 @@ class _Search:
             way = self.table.way(i, places[i], place, taken)
             if way is None:
                 continue
-            yield Step(i, places[i], place, way.hold, way.mask), 1.0 + mover.penalty
+            yield OrderedMove(i, places[i], place, way.hold, way.mask), 1.0 + mover.penalty
             tried += 1
             if self.effort.slots is not None and tried >= self.effort.slots:
                 return
@@ -182,16 +182,18 @@ def ranked_storage(table: Conflicts, i: int, who: Sequence[int]) -> tuple[int, .
     return tuple(sorted((p for p in mover.staging if table.arrive(i, p) is not None), key=rank))
 
 
-def search(table: Conflicts, effort: Effort, who: Sequence[int] | None = None, work: Work | None = None) -> Found:
+def search(
+    table: Conflicts, effort: SearchEffort, who: Sequence[int] | None = None, work: Expansions | None = None
+) -> Found:
     """Return the steps that bring the movers `who` (all where None; the others are left out of the world) to their
     goals, or None. `work` takes the place of the effort's own limit."""
     names = tuple(range(len(table.movers))) if who is None else tuple(who)
     hunt = _Search(table, names, effort, tuple(m.finished for m in table.movers))
-    work = work or Work(effort.limit)
+    work = work or Expansions(effort.limit)
     start: Configuration = (0,) * len(table.movers)
     closest, fewest = start, len(hunt.pending(start))
     costs: dict[Configuration, float] = {start: 0.0}
-    parents: dict[Configuration, tuple[Configuration, Step]] = {}
+    parents: dict[Configuration, tuple[Configuration, OrderedMove]] = {}
     heap: list[tuple[float, int, int, Configuration, float]] = [(effort.weight * fewest, fewest, 0, start, 0.0)]
     expanded = pushed = 0
     while heap:
@@ -220,7 +222,9 @@ def search(table: Conflicts, effort: Effort, who: Sequence[int] | None = None, w
     return Found(None, True, closest, expanded)
 
 
-def _trace(parents: dict[Configuration, tuple[Configuration, Step]], places: Configuration) -> tuple[Step, ...]:
+def _trace(
+    parents: dict[Configuration, tuple[Configuration, OrderedMove]], places: Configuration
+) -> tuple[OrderedMove, ...]:
     steps = []
     while places in parents:
         places, step = parents[places]

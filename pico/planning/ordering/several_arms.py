@@ -7,17 +7,17 @@ from dataclasses import replace
 
 from pico.geometry import disc, polygon, separation
 from pico.motion.zones import ARM_RADIUS, HAND, Zone, shared_zones
-from pico.planning.ordering.arm_times import Work, soonest, timed
+from pico.planning.ordering.arm_times import ArmWork, soonest, timed
 from pico.planning.ordering.clock import Clock
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.order import precedence
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 
 PASSES = 2
 """How often each move that two arms can make is given to the other, to see whether all is then done sooner."""
 
 
-def shared_out(clock: Clock, steps: Sequence[Step]) -> tuple[Step, ...]:
+def shared_out(clock: Clock, steps: Sequence[OrderedMove]) -> tuple[OrderedMove, ...]:
     """Return the steps in the order, and each by the arm, in which they are done soonest, as far as it is found."""
     best, seconds = _soonest(clock, tuple(steps))
     for _ in range(PASSES):
@@ -33,13 +33,13 @@ def shared_out(clock: Clock, steps: Sequence[Step]) -> tuple[Step, ...]:
     return best
 
 
-def _soonest(clock: Clock, steps: tuple[Step, ...]) -> tuple[tuple[Step, ...], float]:
+def _soonest(clock: Clock, steps: tuple[OrderedMove, ...]) -> tuple[tuple[OrderedMove, ...], float]:
     work = work_of(clock, steps)
     order = soonest(work, range(len(steps)))
     return tuple(steps[k] for k in order), timed(work, order)[0]
 
 
-def handed(clock: Clock, step: Step) -> Iterator[Step]:
+def handed(clock: Clock, step: OrderedMove) -> Iterator[OrderedMove]:
     """Yield the same move by each other arm that can make it wherever the arm that now does can."""
     table, seen = clock.table, {step.hold.robot}
     for hold in table.movers[step.mover].holds:
@@ -49,7 +49,7 @@ def handed(clock: Clock, step: Step) -> Iterator[Step]:
             yield replace(step, hold=hold, mask=mask)
 
 
-def work_of(clock: Clock, steps: Sequence[Step]) -> Work:
+def work_of(clock: Clock, steps: Sequence[OrderedMove]) -> ArmWork:
     """Return what the arms of a bench have to do: times as they tell, zones by where they pick and place."""
     table, setup, count = clock.table, clock.table.setup, range(len(steps))
     robots, zones = sorted(setup.lab.robots), shared_zones(setup)
@@ -58,7 +58,7 @@ def work_of(clock: Clock, steps: Sequence[Step]) -> Work:
         [frozenset(z for z, zone in enumerate(zones) if _near(table, zone, s, p)) for p in (s.start, s.goal)]
         for s in steps
     ]
-    return Work(
+    return ArmWork(
         arms=len(robots), arm=arm, loaded=tuple(clock.loaded(s) for s in steps),
         start=tuple(clock.start(s) for s in steps), again=tuple(clock.again(s) for s in steps),
         between=tuple(
@@ -71,7 +71,7 @@ def work_of(clock: Clock, steps: Sequence[Step]) -> Work:
     )  # fmt: skip
 
 
-def _near(table: Conflicts, zone: Zone, step: Step, at: int) -> bool:
+def _near(table: Conflicts, zone: Zone, step: OrderedMove, at: int) -> bool:
     """Whether an arm that picks or places at one of a mover's places is in a zone, taken as straight from its base."""
     robot, pose = step.hold.robot or "", table.movers[step.mover].places[at].pose
     if robot not in zone.robots:

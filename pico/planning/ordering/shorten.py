@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from pico.planning.ordering.conflicts import Conflicts
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 
 
-def shortened(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...]:
+def shortened(table: Conflicts, steps: Sequence[OrderedMove]) -> tuple[OrderedMove, ...]:
     """Return the steps without those that can be merged with the next of the same component, or left out where they
     bring it back to where it was, or from right to right, as long as every remaining move stays possible."""
     best = tuple(steps)
@@ -19,7 +19,7 @@ def shortened(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...]:
         best = better
 
 
-def _shorter(table: Conflicts, steps: tuple[Step, ...]) -> Iterator[tuple[Step, ...]]:
+def _shorter(table: Conflicts, steps: tuple[OrderedMove, ...]) -> Iterator[tuple[OrderedMove, ...]]:
     """Yield the steps with two consecutive moves of one component replaced by one, early or late, or by none."""
     for first, step in enumerate(steps):
         later = next((k for k in range(first + 1, len(steps)) if steps[k].mover == step.mover), None)
@@ -33,12 +33,12 @@ def _shorter(table: Conflicts, steps: tuple[Step, ...]) -> Iterator[tuple[Step, 
         if end == step.start or (mover.right and step.start == 0 and end in mover.goals):
             yield (*before, *between, *after)
         if end != step.start:
-            merged = Step(step.mover, step.start, end, step.hold, 0)
+            merged = OrderedMove(step.mover, step.start, end, step.hold, 0)
             yield (*before, merged, *between, *after)
             yield (*before, *between, merged, *after)
 
 
-def valid(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...] | None:
+def valid(table: Conflicts, steps: Sequence[OrderedMove]) -> tuple[OrderedMove, ...] | None:
     """Return the steps with holds and masks that are possible one after the other, or None where one is not."""
     places = [0] * len(table.movers)
     out = []
@@ -49,6 +49,6 @@ def valid(table: Conflicts, steps: Sequence[Step]) -> tuple[Step, ...] | None:
         way = table.way(step.mover, places[step.mover], step.goal, taken)
         if way is None or places[step.mover] != step.start:
             return None
-        out.append(Step(step.mover, step.start, step.goal, way.hold, way.mask))
+        out.append(OrderedMove(step.mover, step.start, step.goal, way.hold, way.mask))
         places[step.mover] = step.goal
     return tuple(out)

@@ -11,9 +11,9 @@ from pico.motion.types import Motion
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.fewest_stagings import COMPLETE, hunt, stagings
 from pico.planning.ordering.paths import NoPath, Paths, find_paths
-from pico.planning.ordering.search import Configuration, Step
+from pico.planning.ordering.search import Configuration, OrderedMove
 from pico.planning.ordering.shorten import shortened
-from pico.planning.ordering.travel import Tour, toured
+from pico.planning.ordering.travel import ArmTour, toured
 from pico.planning.parts.movers import Mover, Obstacle
 
 PATH_ROUNDS = 200
@@ -21,19 +21,19 @@ PATH_ROUNDS = 200
 
 
 @dataclass(frozen=True, slots=True)
-class Solution:
+class OrderedMoves:
     """The moves in order, with the tables that they were found in, their paths (None without motion), and a number of
     stagings below which no plan can go that moves the same components. `slots`: how many free slots would do for as few
     as storage with room for all would need, where there are not so many."""
 
     table: Conflicts
-    tour: Tour
+    tour: ArmTour
     paths: Paths | None
     least: int = 0
     slots: int = 0
 
     @property
-    def steps(self) -> tuple[Step, ...]:
+    def steps(self) -> tuple[OrderedMove, ...]:
         """The moves in order."""
         return self.tour.steps
 
@@ -58,7 +58,7 @@ class Refusal:
 
 
 @dataclass(slots=True)
-class Problem:
+class OrderingProblem:
     """One planning problem. `asides`: components that are right but may be moved to make room, as movers; `direct`:
     only moves straight to the goal, of nobody else. `on_table`: parts may be put down in staging regions, too.
     `fastest`: of several answers take that which takes least time, though it stage more."""
@@ -72,32 +72,32 @@ class Problem:
     on_table: bool = False
     fastest: bool = False
 
-    def widened(self, names: frozenset[str]) -> Problem:
+    def widened(self, names: frozenset[str]) -> OrderingProblem:
         """Return the problem in which these components may be moved aside."""
         movers = (*self.movers, *(m for m in self.asides if m.name in names))
         rest = tuple(o for o in self.obstacles if o.name not in names)
-        return Problem(self.setup, self.seen, movers, rest, (), self.motion, self.on_table, self.fastest)
+        return OrderingProblem(self.setup, self.seen, movers, rest, (), self.motion, self.on_table, self.fastest)
 
 
-def solve(problem: Problem) -> Solution | Refusal:
+def solve(problem: OrderingProblem) -> OrderedMoves | Refusal:
     """Return an order of moves, or why there is none. Parts are put down on the free table only where slots do not
     suffice, and what is right is moved only where there is no other way."""
     first = attempt(problem)
-    if isinstance(first, Solution):
+    if isinstance(first, OrderedMoves):
         return first
     if any(region.staging for region in problem.setup.lab.regions.values()):
         problem = replace(problem, on_table=True)
         second = attempt(problem)
-        if isinstance(second, Solution):
+        if isinstance(second, OrderedMoves):
             return second
     for names in _asides(problem, first):
         answer = attempt(problem.widened(names))
-        if isinstance(answer, Solution):
+        if isinstance(answer, OrderedMoves):
             return answer
     return first
 
 
-def attempt(problem: Problem) -> Solution | Refusal:
+def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
     """Return an order for exactly these movers, every path of it checked, or why there is none."""
     table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
     blocked: list[NoPath] = []
@@ -109,17 +109,17 @@ def attempt(problem: Problem) -> Solution | Refusal:
         tours = (toured(table, steps, problem.seen, problem.motion) for steps in answers)
         tour = min(tours, key=lambda t: (round(t.seconds, 3), len(t.steps)))
         if problem.motion is None:
-            return Solution(table, tour, None, found.least, found.slots)
+            return OrderedMoves(table, tour, None, found.least, found.slots)
         paths = find_paths(table, tour.steps, problem.seen, problem.motion)
         if isinstance(paths, Paths):
-            return Solution(table, tour, paths, found.least, found.slots)
+            return OrderedMoves(table, tour, paths, found.least, found.slots)
         blocked.append(paths)
         if len(blocked) > PATH_ROUNDS:
             return Refusal(table, (), found.closest, False, tuple(blocked))
         table.forbid(paths.step.mover, paths.step.start, paths.step.goal, paths.step.hold, paths.spot)
 
 
-def _asides(problem: Problem, refused: Refusal) -> Iterator[frozenset[str]]:
+def _asides(problem: OrderingProblem, refused: Refusal) -> Iterator[frozenset[str]]:
     """Yield growing sets of components that might make room: those that hinder a mover, those that hinder these, and
     for a small table all of them."""
     by_name = {m.name: m for m in problem.asides}

@@ -11,7 +11,7 @@ from pico.planning.ordering.arm_times import least, timed
 from pico.planning.ordering.clock import Clock
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.order import arranged, precedence
-from pico.planning.ordering.search import Step
+from pico.planning.ordering.search import OrderedMove
 from pico.planning.ordering.several_arms import handed, shared_out, work_of
 from pico.planning.ordering.shorten import valid
 from pico.staging.sequencing import Effort, best_order
@@ -23,16 +23,16 @@ MANY = Effort(moves=150_000, steps=20_000_000, rounds=3)
 
 
 @dataclass(frozen=True, slots=True)
-class Tour:
+class ArmTour:
     """Steps in order, how long they take about [s], and the least time in which the arms can take them in any order
     [s]; None where no arm told."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[OrderedMove, ...]
     seconds: float
     bound: float | None = None
 
 
-def toured(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: Motion | None) -> Tour:
+def toured(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, motion: Motion | None) -> ArmTour:
     """Return the steps in the order that takes least time, as far as it is found, staged where that is near. Several
     arms work at the same time. Where people take turns with them, or nobody tells how long an arm takes, each goes on
     as long as it can, to the nearest."""
@@ -43,27 +43,27 @@ def toured(table: Conflicts, steps: Sequence[Step], seen: Observation, motion: M
         steps = shared_out(clock, arranged(table.setup, table, steps, precedence(table, steps, {})))
         robots = {s.hold.robot for s in steps}
     if several and len(robots) > 1:
-        return Tour(tuple(steps), timed(work_of(clock, steps), range(len(steps)))[0], _least(clock, steps))
+        return ArmTour(tuple(steps), timed(work_of(clock, steps), range(len(steps)))[0], _least(clock, steps))
     if len(robots) > 1 or None in robots or not steps:
         order = arranged(table.setup, table, steps, precedence(table, steps, {}))
         loaded = {r: sum(clock.loaded(s) for s in order if s.hold.robot == r) for r in robots}
-        return Tour(order, sum(loaded.values()), max(loaded.values(), default=0.0) if clock.told else None)
+        return ArmTour(order, sum(loaded.values()), max(loaded.values(), default=0.0) if clock.told else None)
     first = _sequenced(clock, steps)
     moved = nearer(clock, first.steps)
     best = _sequenced(clock, moved) if moved != first.steps else first
     return replace(best, bound=_least(clock, best.steps)) if several else best
 
 
-def _sequenced(clock: Clock, steps: Sequence[Step]) -> Tour:
+def _sequenced(clock: Clock, steps: Sequence[OrderedMove]) -> ArmTour:
     between = [[clock.between(a, b) if a is not b else 0.0 for b in steps] for a in steps]
     start, end = [clock.start(s) for s in steps], [clock.end(s) for s in steps]
     best = best_order(start, between, end, precedence(clock.table, steps, {}), limit=MANY)
     loaded = sum(clock.loaded(s) for s in steps)
     bound = loaded + best.lower_bound if clock.told else None
-    return Tour(tuple(steps[k] for k in best.order), loaded + best.cost, bound)
+    return ArmTour(tuple(steps[k] for k in best.order), loaded + best.cost, bound)
 
 
-def _least(clock: Clock, steps: Sequence[Step]) -> float:
+def _least(clock: Clock, steps: Sequence[OrderedMove]) -> float:
     """Return a time before which several arms can't be done, whichever of them makes each move, in any order [s]."""
     work = work_of(clock, steps)
     free = {
@@ -80,7 +80,7 @@ def _least(clock: Clock, steps: Sequence[Step]) -> float:
     return least(work, tours, free)
 
 
-def nearer(clock: Clock, steps: tuple[Step, ...]) -> tuple[Step, ...]:
+def nearer(clock: Clock, steps: tuple[OrderedMove, ...]) -> tuple[OrderedMove, ...]:
     """Return the steps with each staging where it costs the arm least; the others and the order stay."""
     for k, step in enumerate(steps):
         back = next((n for n in range(k + 1, len(steps)) if steps[n].mover == step.mover), None)
@@ -96,7 +96,7 @@ def nearer(clock: Clock, steps: tuple[Step, ...]) -> tuple[Step, ...]:
     return steps
 
 
-def _close(table: Conflicts, there: Step, back: Step) -> list[int]:
+def _close(table: Conflicts, there: OrderedMove, back: OrderedMove) -> list[int]:
     """Return the storage places of a component that lie least off its way."""
     places = table.movers[there.mover].places
     a, b = places[there.start].pose, places[back.goal].pose

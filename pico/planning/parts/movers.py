@@ -13,7 +13,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.pose import Pose, wrap
 from pico.model.state import LabState, place_of
-from pico.motion.types import Standing
+from pico.motion.types import StandingObject
 
 AVOID_PENALTY = 2.0
 """What staging a part with `stage: avoid` costs beyond the move itself, in moves."""
@@ -79,7 +79,7 @@ class Obstacle:
     name: str
     shape: Shape
     height: float
-    standing: Standing
+    standing: StandingObject
 
 
 def turned(setup: Setup, slot: str, footprint: Footprint) -> list[Place]:
@@ -140,7 +140,7 @@ def obstacle(setup: Setup, name: str, part: ObservedComponent) -> Obstacle | Non
     if part.presence == "toppled":
         return _lying(name, part.pose, geometry)
     shape = placed(geometry.footprint, part.pose)
-    return Obstacle(name, shape, geometry.height, Standing(part.pose, geometry))
+    return Obstacle(name, shape, geometry.height, StandingObject(part.pose, geometry))
 
 
 def _lying(name: str, pose: Pose, geometry: Geometry) -> Obstacle:
@@ -148,7 +148,7 @@ def _lying(name: str, pose: Pose, geometry: Geometry) -> Obstacle:
     radius = geometry.height + geometry.footprint.radius
     height = max(geometry.height, 2 * geometry.footprint.radius)
     lying = Geometry(footprint=Footprint(disc=radius), height=height, mass=geometry.mass)
-    return Obstacle(name, disc(pose.x, pose.y, radius), height, Standing(pose, lying))
+    return Obstacle(name, disc(pose.x, pose.y, radius), height, StandingObject(pose, lying))
 
 
 def strangers(seen: Observation) -> list[Obstacle]:
@@ -157,7 +157,7 @@ def strangers(seen: Observation) -> list[Obstacle]:
     for name, thing in sorted(seen.unknown.items()):
         geometry = Geometry(footprint=thing.footprint, height=thing.height, mass=0.0)
         shape = placed(thing.footprint, thing.pose)
-        found.append(Obstacle(name, shape, thing.height, Standing(thing.pose, geometry)))
+        found.append(Obstacle(name, shape, thing.height, StandingObject(thing.pose, geometry)))
     return found
 
 

@@ -14,7 +14,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
-from pico.motion.types import Blocked, Motion, MovePath, Standing
+from pico.motion.types import Blocked, Motion, MovePath, StandingObject
 from pico.planning.parts.movers import Obstacle, Place, standing_obstacles, turned
 
 SET_DOWN_SECONDS = 6.0
@@ -28,7 +28,7 @@ TRIES = 12
 
 
 @dataclass(frozen=True, slots=True)
-class Settled:
+class EmptiedHands:
     """The bench as it will be once every hand is empty: what leads there, and what can't be set down."""
 
     seen: Observation
@@ -36,19 +36,21 @@ class Settled:
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def set_downs(setup: Setup, seen: Observation, motion: Motion | None) -> Settled:
+def set_downs(setup: Setup, seen: Observation, motion: Motion | None) -> EmptiedHands:
     """Return the operations that empty the hands, one after the other, and the bench as it then is.
 
     `after` holds indices as text. A part for which there is no place stays in the hand, with a warning that says why.
     """
-    settled = Settled(seen)
+    settled = EmptiedHands(seen)
     for robot, state in sorted(seen.robots.items()):
         if state.holding is not None and robot in setup.lab.robots:
             settled = _emptied(setup, settled, robot, state, motion)
     return settled
 
 
-def _emptied(setup: Setup, settled: Settled, robot: str, hand: ObservedRobot, motion: Motion | None) -> Settled:
+def _emptied(
+    setup: Setup, settled: EmptiedHands, robot: str, hand: ObservedRobot, motion: Motion | None
+) -> EmptiedHands:
     seen, name = settled.seen, hand.holding or ""
     part = seen.components.get(name)
     if part is None or part.pose is None or name not in setup.lab.inventory:
@@ -111,7 +113,7 @@ def _path(
 ) -> MovePath | Blocked | None:  # fmt: skip
     if motion is None:
         return None
-    standing: dict[str, Standing] = {o.name: o.standing for o in obstacles}
+    standing: dict[str, StandingObject] = {o.name: o.standing for o in obstacles}
     others = {n: r.joints for n, r in seen.robots.items() if n != robot}
     held, joints = seen.components[name].pose, seen.robots[robot].joints
     assert held is not None  # `_emptied` looked
@@ -126,7 +128,7 @@ def _stuck(robot: str, name: str, why: str) -> Diagnostic:
 
 
 def after_set_downs(
-    setup: Setup, settled: Settled, rest: Sequence[Operation], motion: Motion | None
+    setup: Setup, settled: EmptiedHands, rest: Sequence[Operation], motion: Motion | None
 ) -> list[Operation]:
     """Return the operations with the set-downs before all others, and with a park of each robot that does nothing
     else; `after` holds indices as text."""
@@ -159,7 +161,7 @@ def left_standing(setup: Setup, seen: Observation, operations: Sequence[Operatio
 def _park(setup: Setup, seen: Observation, robot: str, after: str, motion: Motion | None) -> Operation:
     obstacles = standing_obstacles(setup, seen, {})
     others = {n: r.joints for n, r in seen.robots.items() if n != robot}
-    standing: dict[str, Standing] = {o.name: o.standing for o in obstacles}
+    standing: dict[str, StandingObject] = {o.name: o.standing for o in obstacles}
     path = motion.park(robot, seen.robots[robot].joints, standing, others) if motion else None
     return Operation(
         id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=(after,),

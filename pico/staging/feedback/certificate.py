@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from pico.staging.feedback.lazy import cover_of
-from pico.staging.feedback.limit import Limit, Work
-from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.limit import Limit, WorkLeft
+from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
 from pico.staging.feedback.problem import Cycle, Link
 from pico.staging.feedback.walk import Pool, left_cycles
 
 
 def certificate(
-    edges: Sequence[Edge], links: Sequence[Link], table: Literals, hints: Iterable[Clause], limit: Limit
+    edges: Sequence[LiteralArc], links: Sequence[Link], table: Literals, hints: Iterable[Clause], limit: Limit
 ) -> tuple[Cycle, ...]:
     """Return the cycles that make a problem impossible, shortest first. `hints`: cycles to begin with.
 
@@ -37,7 +37,7 @@ def _smallest(clauses: Sequence[Clause]) -> list[Clause]:
     return sorted((c for c in clauses if not c.escapes), key=_rank)[:1]
 
 
-def _escapes(edges: Sequence[Edge], links: Sequence[Link], table: Literals) -> dict[int, int]:
+def _escapes(edges: Sequence[LiteralArc], links: Sequence[Link], table: Literals) -> dict[int, int]:
     """Return what escapes each original arc: leaving and arriving at once, any pick of the component."""
     own = {e.trail[0]: e.escapes for e in edges if len(e.trail) == 1}
     return {n: table.parts[link[0]]["pick"] for n, link in enumerate(links)} | own
@@ -65,7 +65,9 @@ def _simple(trail: Sequence[int], links: Sequence[Link], escapes: dict[int, int]
     return Clause(mask, tuple(walk[turn:] + walk[:turn]))
 
 
-def _enough(edges: Sequence[Edge], links: Sequence[Link], table: Literals, pool: Pool, work: Work) -> list[Clause]:
+def _enough(
+    edges: Sequence[LiteralArc], links: Sequence[Link], table: Literals, pool: Pool, work: WorkLeft
+) -> list[Clause]:
     """Add cycles to the pool until no choice breaks them all; returns these, none where the work does not suffice."""
     escapes = _escapes(edges, links, table)
     members = [i for i in range(len(table.parts)) if table.of(i)]
@@ -87,7 +89,7 @@ def _enough(edges: Sequence[Edge], links: Sequence[Link], table: Literals, pool:
     return []
 
 
-def _needed(clauses: Sequence[Clause], table: Literals, work: Work) -> list[Clause]:
+def _needed(clauses: Sequence[Clause], table: Literals, work: WorkLeft) -> list[Clause]:
     """Return clauses none of which the others can do without, short ones preferred: QuickXplain (Junker, 2004)."""
 
     def among(given: list[Clause], fresh: bool, left: list[Clause]) -> list[Clause]:
@@ -102,7 +104,7 @@ def _needed(clauses: Sequence[Clause], table: Literals, work: Work) -> list[Clau
     return among([], False, sorted(clauses, key=_rank))
 
 
-def _contradict(clauses: Sequence[Clause], table: Literals, work: Work) -> bool:
+def _contradict(clauses: Sequence[Clause], table: Literals, work: WorkLeft) -> bool:
     """Whether no choice meets the clauses; not, where that is not known within the work left."""
     if work.spent:
         return False

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pico.staging.feedback.limit import Work
+from pico.staging.feedback.limit import WorkLeft
 
 CLOSE = 1e-5
 """Broken costs that differ by less than this, relatively, are alike: so far the solver's tolerances reach."""
@@ -19,7 +19,7 @@ def reached(cost: float, bound: float) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class CoverAnswer:
     """An answer of a `Cover`: the variables chosen (None where no choice was found), a proven lower bound on the cost,
     and whether it is proven that no choice meets the clauses."""
 
@@ -65,7 +65,7 @@ class Cover:
         columns = np.array(sorted(variables), dtype=np.int32)
         self._highs.addRow(low, high, len(columns), columns, np.ones(len(columns)))
 
-    def solve(self, work: Work, start: frozenset[int] | None = None) -> Choice:
+    def solve(self, work: WorkLeft, start: frozenset[int] | None = None) -> CoverAnswer:
         """Return the cheapest choice, or the best found until `work` is spent; `start` is a choice to begin with."""
         import highspy
         import numpy as np
@@ -80,8 +80,8 @@ class Cover:
         info = highs.getInfo()
         work.nodes -= max(0, info.mip_node_count)
         if highs.getModelStatus() == highspy.HighsModelStatus.kInfeasible:
-            return Choice(None, math.inf, True)
-        return Choice(self._chosen(info), self.rounded(info.mip_dual_bound))
+            return CoverAnswer(None, math.inf, True)
+        return CoverAnswer(self._chosen(info), self.rounded(info.mip_dual_bound))
 
     def _chosen(self, info: Any) -> frozenset[int] | None:
         if not math.isfinite(info.objective_function_value) or info.primal_solution_status != 2:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from pico.staging.feedback.clauses import Cover, reached
 from pico.staging.feedback.digraph import strong_components
-from pico.staging.feedback.limit import Work
-from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.limit import WorkLeft
+from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
 from pico.staging.feedback.shrink import minimal, successors
 from pico.staging.feedback.walk import Pool, cost, first_choice, left_cycles, walk
 
@@ -17,11 +17,11 @@ THREES = 20_000
 
 
 @dataclass(frozen=True, slots=True)
-class Region:
+class CoupledComponents:
     """Components whose choices bear on one another, and what is between them."""
 
     members: tuple[int, ...]
-    edges: tuple[Edge, ...]
+    edges: tuple[LiteralArc, ...]
     clauses: tuple[Clause, ...]
 
 
@@ -34,7 +34,7 @@ class Outcome:
     infeasible: bool = False
 
 
-def regions(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals) -> list[Region]:
+def regions(edges: Sequence[LiteralArc], clauses: Sequence[Clause], table: Literals) -> list[CoupledComponents]:
     """Return the parts that a shrunk problem falls into, small ones first."""
     ring = {v: n for n, part in enumerate(strong_components(successors(edges))) for v in part}
     inside: dict[int, int] = {}
@@ -46,7 +46,7 @@ def regions(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals) -
         group |= dict.fromkeys(together, together)
     found = {min(members): members for members in group.values()}
     return [
-        Region(
+        CoupledComponents(
             tuple(sorted(members)),
             tuple(e for e in edges if table.components(inside[ring[e.tail]]) & members),
             tuple(c for c in clauses if table.components(c.escapes) & members),
@@ -55,7 +55,7 @@ def regions(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals) -
     ]
 
 
-def solve_region(region: Region, table: Literals, work: Work, steps: int) -> Outcome:
+def solve_region(region: CoupledComponents, table: Literals, work: WorkLeft, steps: int) -> Outcome:
     """Return the cheapest choice for the components of a region; `steps` of local search before each program."""
     pool = Pool()
     pool.add(minimal([*region.clauses, *short_cycles(region.edges, table)]))
@@ -79,7 +79,9 @@ def solve_region(region: Region, table: Literals, work: Work, steps: int) -> Out
     return Outcome(best, bound if best is None else min(bound, cost(table, best)))
 
 
-def _better(region: Region, pool: Pool, table: Literals, chosen: int, best: int | None, steps: int) -> int | None:
+def _better(
+    region: CoupledComponents, pool: Pool, table: Literals, chosen: int, best: int | None, steps: int
+) -> int | None:
     """Return the better of `best` and what comes of the choice of a program; the cycles it leaves go to the pool."""
     ceiling = float("inf") if best is None else cost(table, best)
     found = left_cycles(region.edges, chosen)
@@ -100,9 +102,9 @@ def cover_of(literals: Sequence[int], members: Sequence[int], table: Literals) -
     return cover
 
 
-def short_cycles(edges: Sequence[Edge], table: Literals) -> list[Clause]:
+def short_cycles(edges: Sequence[LiteralArc], table: Literals) -> list[Clause]:
     """Return the cycles of two edges, and those of three unless there are very many."""
-    out: dict[int, dict[int, list[Edge]]] = {}
+    out: dict[int, dict[int, list[LiteralArc]]] = {}
     for edge in edges:
         out.setdefault(edge.tail, {}).setdefault(edge.head, []).append(edge)
     twos = list(_twos(out, table))
@@ -110,22 +112,22 @@ def short_cycles(edges: Sequence[Edge], table: Literals) -> list[Clause]:
     return [*twos, *threes]
 
 
-def _twos(out: dict[int, dict[int, list[Edge]]], table: Literals) -> Iterator[Clause]:
+def _twos(out: dict[int, dict[int, list[LiteralArc]]], table: Literals) -> Iterator[Clause]:
     for u, heads in out.items():
         for v in heads:
             if u < v:
                 yield from _closed(heads[v], out.get(v, {}).get(u, ()), table)
 
 
-def _threes(out: dict[int, dict[int, list[Edge]]], table: Literals) -> Iterator[Clause]:
+def _threes(out: dict[int, dict[int, list[LiteralArc]]], table: Literals) -> Iterator[Clause]:
     for u, heads in out.items():
         for v in (v for v in heads if v > u):
             for w in (w for w in out.get(v, {}) if w > u and w != v and u in out.get(w, {})):
-                paths = [Edge(u, w, c.escapes, c.trail) for c in _closed(heads[v], out[v][w], table)]
+                paths = [LiteralArc(u, w, c.escapes, c.trail) for c in _closed(heads[v], out[v][w], table)]
                 yield from _closed(paths, out[w][u], table)
 
 
-def _closed(first: Sequence[Edge], second: Sequence[Edge], table: Literals) -> Iterator[Clause]:
+def _closed(first: Sequence[LiteralArc], second: Sequence[LiteralArc], table: Literals) -> Iterator[Clause]:
     """Yield the pairs of which both may hold at once."""
     for a in first:
         for b in second:

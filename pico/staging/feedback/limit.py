@@ -13,13 +13,13 @@ class Limit:
     solves: int = 200
     nodes: int = 1_000
 
-    def work(self) -> Work:
+    def work(self) -> WorkLeft:
         """Return a fresh account of the programs and nodes allowed."""
-        return Work(self.solves, self.nodes)
+        return WorkLeft(self.solves, self.nodes)
 
 
 @dataclass(slots=True)
-class Work:
+class WorkLeft:
     """What is left of the work allowed: programs solved and branch-and-bound nodes, never seconds, so that the same
     problem always gets the same answer."""
 

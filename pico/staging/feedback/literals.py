@@ -9,13 +9,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from pico.staging.feedback.problem import Arc, Choice, Component, Event, Link, Option, Part, Problem, arrives, leaves
+from pico.staging.feedback.problem import (
+    Arc,
+    Choice,
+    Component,
+    Link,
+    Option,
+    Part,
+    PartEvent,
+    StagingProblem,
+    arrives,
+    leaves,
+)
 
 PARTS: tuple[Part, ...] = ("direct", "pick", "place")
 
 
 @dataclass(frozen=True, slots=True)
-class Edge:
+class LiteralArc:
     """An arc between events by number. `trail`: the numbers of the original arcs that it stands for, in order."""
 
     tail: int
@@ -78,15 +89,15 @@ def bits(mask: int) -> Iterator[int]:
         mask ^= low
 
 
-def number(event: Event) -> int:
+def number(event: PartEvent) -> int:
     return 2 * event.component + (event.what == "arrives")
 
 
-def event(number: int) -> Event:
+def event(number: int) -> PartEvent:
     return arrives(number // 2) if number % 2 else leaves(number // 2)
 
 
-def literals_of(problem: Problem) -> Literals:
+def literals_of(problem: StagingProblem) -> Literals:
     """Return the literals of a problem; a component that is never staged has none for picking and placing."""
     table = Literals()
     for i, component in enumerate(problem.components):
@@ -109,31 +120,31 @@ def options_for(component: Component, part: Part) -> tuple[Option, ...]:
     return (component.pick if part == "pick" else component.place) if component.may_be_staged else ()
 
 
-def edges_of(problem: Problem, table: Literals) -> tuple[list[Edge], list[Link]]:
+def edges_of(problem: StagingProblem, table: Literals) -> tuple[list[LiteralArc], list[Link]]:
     """Return the edges of a problem and what each original arc is called.
 
     A direct move leaves and arrives at once: what must come before it arrives must come before it leaves. So each edge
     to an arrival has a twin to the leaving, escaped by staging too. (One edge from arrival to leaving would do, but it
     would close a ring with the one back that means nothing.)
     """
-    edges: list[Edge] = []
+    edges: list[LiteralArc] = []
     links: list[Link] = []
     at_once: dict[int, int] = {}
     for i, part in enumerate(table.parts):
         links.append((i, "arrives", i, "leaves", "same move" if part["direct"] else "no way"))
         at_once[i] = len(links) - 1
         if not table.of(i):
-            edges.append(Edge(2 * i, 2 * i, 0, (at_once[i],)))
+            edges.append(LiteralArc(2 * i, 2 * i, 0, (at_once[i],)))
     for arc, escapes in _arcs(problem, table):
         tail, head, i = number(arc.before), number(arc.after), arc.after.component
         links.append((arc.before.component, arc.before.what, i, arc.after.what, arc.kind))
-        edges.append(Edge(tail, head, escapes, (len(links) - 1,)))
+        edges.append(LiteralArc(tail, head, escapes, (len(links) - 1,)))
         if arc.after.what == "arrives" and tail != 2 * i and table.parts[i]["direct"]:
-            edges.append(Edge(tail, 2 * i, escapes | table.parts[i]["pick"], (len(links) - 1, at_once[i])))
+            edges.append(LiteralArc(tail, 2 * i, escapes | table.parts[i]["pick"], (len(links) - 1, at_once[i])))
     return edges, links
 
 
-def _arcs(problem: Problem, table: Literals) -> Iterator[tuple[Arc, int]]:
+def _arcs(problem: StagingProblem, table: Literals) -> Iterator[tuple[Arc, int]]:
     """Yield every arc with the literals that escape it."""
     for i in range(len(problem.components)):
         yield Arc(leaves(i), arrives(i), "same part"), 0
@@ -144,7 +155,7 @@ def _arcs(problem: Problem, table: Literals) -> Iterator[tuple[Arc, int]]:
             yield arc, escapes | _other_goals(problem, table, arc)
 
 
-def _conditional(problem: Problem, table: Literals, i: int) -> Iterator[tuple[Arc, int]]:
+def _conditional(problem: StagingProblem, table: Literals, i: int) -> Iterator[tuple[Arc, int]]:
     """Yield the arcs of the options of a component with the literals that escape them. An arc of a pick and of a place
     alike counts twice, since either brings it."""
     component, part = problem.components[i], table.parts[i]
@@ -161,7 +172,7 @@ def _conditional(problem: Problem, table: Literals, i: int) -> Iterator[tuple[Ar
                 yield arc, (part["direct"] & ~by["direct"]) | (part[half] & ~by[half])
 
 
-def _other_goals(problem: Problem, table: Literals, arc: Arc) -> int:
+def _other_goals(problem: StagingProblem, table: Literals, arc: Arc) -> int:
     """Return the literals by which a component ends at another goal than the arc asks for."""
     escapes = 0
     for j, goal in arc.goals:

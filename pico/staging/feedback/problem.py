@@ -12,19 +12,19 @@ Part = Literal["direct", "pick", "place"]
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
+class PartEvent:
     """A component, by index, leaves where it stands or arrives where it belongs."""
 
     component: int
     what: What
 
 
-def leaves(component: int) -> Event:
-    return Event(component, "leaves")
+def leaves(component: int) -> PartEvent:
+    return PartEvent(component, "leaves")
 
 
-def arrives(component: int) -> Event:
-    return Event(component, "arrives")
+def arrives(component: int) -> PartEvent:
+    return PartEvent(component, "arrives")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +32,8 @@ class Arc:
     """`before` must happen before `after`. `goals`: only if each of these components (index) ends at this one of its
     goals, where a component has several. `kind` is handed back in certificates."""
 
-    before: Event
-    after: Event
+    before: PartEvent
+    after: PartEvent
     kind: str = ""
     goals: tuple[tuple[int, int], ...] = ()
 
@@ -65,7 +65,7 @@ class Component:
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class StagingProblem:
     """Components, and arcs that hold however these are moved."""
 
     components: tuple[Component, ...]
@@ -92,7 +92,7 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Staging:
+class StagingAnswer:
     """The answer: which components are staged, how each is moved, an order of the events, and what no answer can go
     below.
 
@@ -103,7 +103,7 @@ class Staging:
 
     staged: tuple[int, ...]
     options: tuple[Choice, ...] | None
-    order: tuple[Event, ...]
+    order: tuple[PartEvent, ...]
     weight: float
     lower_bound: float
     proven: bool

@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from pico.staging.feedback.digraph import some_cycle, strong_components
-from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
 from pico.staging.feedback.problem import Part
 
 FILL = 2
 """How many more edges than it takes away leading past an event may bring."""
 
 
-def shrink(edges: Sequence[Edge], table: Literals) -> tuple[list[Edge], list[Clause]]:
+def shrink(edges: Sequence[LiteralArc], table: Literals) -> tuple[list[LiteralArc], list[Clause]]:
     """Return the edges and clauses that are left; literals that need not be chosen die in `table`.
 
     A clause without literals: there is no answer.
@@ -35,13 +35,13 @@ def shrink(edges: Sequence[Edge], table: Literals) -> tuple[list[Edge], list[Cla
             return left, clauses
 
 
-def living(edges: Iterable[Edge], table: Literals) -> list[Edge]:
+def living(edges: Iterable[LiteralArc], table: Literals) -> list[LiteralArc]:
     """Return the edges that may hold, escaped by living literals only."""
     found = []
     for edge in edges:
         escapes = edge.escapes & table.alive
         if not table.always_escaped(escapes):
-            found.append(edge if escapes == edge.escapes else Edge(edge.tail, edge.head, escapes, edge.trail))
+            found.append(edge if escapes == edge.escapes else LiteralArc(edge.tail, edge.head, escapes, edge.trail))
     return found
 
 
@@ -51,9 +51,9 @@ def living_clauses(clauses: Iterable[Clause], table: Literals) -> list[Clause]:
     return [c for c in found if not table.always_escaped(c.escapes)]
 
 
-def strongest(edges: Iterable[Edge]) -> list[Edge]:
+def strongest(edges: Iterable[LiteralArc]) -> list[LiteralArc]:
     """Return the edges without those that hold only where another between the same events holds."""
-    kept: dict[tuple[int, int], list[Edge]] = {}
+    kept: dict[tuple[int, int], list[LiteralArc]] = {}
     for edge in sorted(edges, key=lambda e: (e.escapes.bit_count(), len(e.trail), e.trail)):
         rivals = kept.setdefault((edge.tail, edge.head), [])
         if not any(r.escapes & ~edge.escapes == 0 for r in rivals):
@@ -70,7 +70,7 @@ def minimal(clauses: Iterable[Clause]) -> list[Clause]:
     return kept
 
 
-def successors(edges: Iterable[Edge]) -> dict[int, set[int]]:
+def successors(edges: Iterable[LiteralArc]) -> dict[int, set[int]]:
     """Return the out-neighbors of each event that has an edge."""
     succ: dict[int, set[int]] = {}
     for edge in edges:
@@ -79,13 +79,13 @@ def successors(edges: Iterable[Edge]) -> dict[int, set[int]]:
     return succ
 
 
-def on_cycles(edges: Sequence[Edge]) -> list[Edge]:
+def on_cycles(edges: Sequence[LiteralArc]) -> list[LiteralArc]:
     """Return the edges within strong components."""
     part = {v: n for n, component in enumerate(strong_components(successors(edges))) for v in component}
     return [e for e in edges if part[e.tail] == part[e.head]]
 
 
-def certain_cycle(edges: Iterable[Edge]) -> list[Clause]:
+def certain_cycle(edges: Iterable[LiteralArc]) -> list[Clause]:
     """Return a cycle of edges that hold whatever is chosen, if there is one."""
     fixed = {(e.tail, e.head): e for e in edges if not e.escapes}
     cycle = some_cycle(successors(fixed.values())) or []
@@ -93,10 +93,10 @@ def certain_cycle(edges: Iterable[Edge]) -> list[Clause]:
     return [Clause(0, tuple(trail))] if cycle else []
 
 
-def led_past(edges: Sequence[Edge], table: Literals) -> tuple[list[Edge], list[Clause]]:
+def led_past(edges: Sequence[LiteralArc], table: Literals) -> tuple[list[LiteralArc], list[Clause]]:
     """Remove events one after the other, leading every path through them past, while that brings few new edges."""
-    before: dict[int, list[Edge]] = {}
-    after: dict[int, list[Edge]] = {}
+    before: dict[int, list[LiteralArc]] = {}
+    after: dict[int, list[LiteralArc]] = {}
     for edge in edges:
         after.setdefault(edge.tail, []).append(edge)
         before.setdefault(edge.head, []).append(edge)
@@ -124,19 +124,23 @@ def led_past(edges: Sequence[Edge], table: Literals) -> tuple[list[Edge], list[C
     return [e for v in sorted(after) for e in after[v]], found
 
 
-def _joined(into: Iterable[Edge], out: Sequence[Edge], table: Literals) -> list[Edge]:
+def _joined(into: Iterable[LiteralArc], out: Sequence[LiteralArc], table: Literals) -> list[LiteralArc]:
     """Return the paths of two edges, without those of which the two exclude one another."""
     paths = []
     for a in into:
         for b in out:
             escapes = a.escapes | b.escapes
             if not table.always_escaped(escapes):
-                paths.append(Edge(a.tail, b.head, escapes, a.trail + b.trail))
+                paths.append(LiteralArc(a.tail, b.head, escapes, a.trail + b.trail))
     return paths
 
 
 def _take_away(
-    v: int, into: list[Edge], out: list[Edge], before: dict[int, list[Edge]], after: dict[int, list[Edge]]
+    v: int,
+    into: list[LiteralArc],
+    out: list[LiteralArc],
+    before: dict[int, list[LiteralArc]],
+    after: dict[int, list[LiteralArc]],
 ) -> None:
     for edge in into:
         after[edge.tail].remove(edge)
@@ -146,7 +150,7 @@ def _take_away(
     after.pop(v, None)
 
 
-def _put(path: Edge, before: dict[int, list[Edge]], after: dict[int, list[Edge]]) -> None:
+def _put(path: LiteralArc, before: dict[int, list[LiteralArc]], after: dict[int, list[LiteralArc]]) -> None:
     """Add an edge; those that hold only where it holds go."""
     for edge in [e for e in after[path.tail] if e.head == path.head and path.escapes & ~e.escapes == 0]:
         after[path.tail].remove(edge)
@@ -155,7 +159,7 @@ def _put(path: Edge, before: dict[int, list[Edge]], after: dict[int, list[Edge]]
     before[path.head].append(path)
 
 
-def never_better(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals) -> int:
+def never_better(edges: Sequence[LiteralArc], clauses: Sequence[Clause], table: Literals) -> int:
     """Return literals that can be given up: another of the same part escapes whatever they escape, or one direct option
     whatever any staged move escapes."""
     escaped: dict[int, int] = {}
@@ -189,7 +193,7 @@ def _dominated(literals: Sequence[int], escaped: dict[int, int]) -> int:
     return dead
 
 
-def impossible(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals) -> int:
+def impossible(edges: Sequence[LiteralArc], clauses: Sequence[Clause], table: Literals) -> int:
     """Return literals that can't be chosen: the edges that then hold for certain close a cycle, or a clause stays
     without escape. None where a part would be left without any: then a clause must say so."""
     dead = 0
@@ -216,7 +220,7 @@ def _then(table: Literals, part: dict[Part, int], n: int) -> int:
     return (1 << n) | (other & table.alive)
 
 
-def _closes(near: Sequence[Edge], possible: int, mine: int, fixed: dict[int, set[int]]) -> bool:
+def _closes(near: Sequence[LiteralArc], possible: int, mine: int, fixed: dict[int, set[int]]) -> bool:
     """Whether edges that hold for certain, if of `mine` only the `possible` are left, form a cycle with the fixed."""
     certain = [e for e in near if not e.escapes & ~mine and not e.escapes & possible]
     if not certain:

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from pico.staging.feedback.certificate import certificate
 from pico.staging.feedback.clauses import reached
 from pico.staging.feedback.lazy import Outcome, regions, solve_region
-from pico.staging.feedback.limit import Limit, Work
-from pico.staging.feedback.literals import Clause, Edge, Literals, edges_of, event, literals_of
-from pico.staging.feedback.problem import Choice, Event, Problem, Staging
+from pico.staging.feedback.limit import Limit, WorkLeft
+from pico.staging.feedback.literals import Clause, LiteralArc, Literals, edges_of, event, literals_of
+from pico.staging.feedback.problem import Choice, PartEvent, StagingAnswer, StagingProblem
 from pico.staging.feedback.shrink import shrink
 from pico.staging.feedback.walk import cost, first_choice
 
@@ -17,7 +17,7 @@ STEPS = 60
 """Steps of local search before each program."""
 
 
-def solve(problem: Problem, limit: Limit | None = None) -> Staging:
+def solve(problem: StagingProblem, limit: Limit | None = None) -> StagingAnswer:
     """Return the cheapest set of components to stage, with the options of all, so that no event waits for itself.
 
     Exact: `proven` says that no other choice is cheaper, or (`options` None) that there is none, for which `cycles`
@@ -34,13 +34,13 @@ def solve(problem: Problem, limit: Limit | None = None) -> Staging:
     table.alive = everything
     if outcome.infeasible:
         cycles = certificate(edges, links, table, clauses, limit)
-        return Staging((), None, (), float("inf"), float("inf"), True, cycles)
+        return StagingAnswer((), None, (), float("inf"), float("inf"), True, cycles)
     if outcome.chosen is None:
-        return Staging((), None, (), float("inf"), outcome.bound, False)
+        return StagingAnswer((), None, (), float("inf"), outcome.bound, False)
     return _answer(problem, table, edges, outcome.chosen, outcome.bound)
 
 
-def _check(problem: Problem) -> None:
+def _check(problem: StagingProblem) -> None:
     count = len(problem.components)
     if any(not c.weight > 0 for c in problem.components):
         raise ValueError("weights must be above 0")
@@ -50,7 +50,7 @@ def _check(problem: Problem) -> None:
         raise ValueError(f"an arc names a component that is not among the {count}")
 
 
-def _solve_all(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals, work: Work) -> Outcome:
+def _solve_all(edges: Sequence[LiteralArc], clauses: Sequence[Clause], table: Literals, work: WorkLeft) -> Outcome:
     """Solve region by region; components in none take the first option that is left."""
     if any(not c.escapes for c in clauses):
         return Outcome(None, float("inf"), True)
@@ -68,16 +68,18 @@ def _solve_all(edges: Sequence[Edge], clauses: Sequence[Clause], table: Literals
     return Outcome(chosen, bound)
 
 
-def _answer(problem: Problem, table: Literals, edges: Sequence[Edge], chosen: int, bound: float) -> Staging:
+def _answer(
+    problem: StagingProblem, table: Literals, edges: Sequence[LiteralArc], chosen: int, bound: float
+) -> StagingAnswer:
     choices = tuple(table.choice(chosen, i) for i in range(len(problem.components)))
     staged = tuple(i for i, c in enumerate(choices) if c.staged)
     weight = sum(problem.components[i].weight for i in staged)
     order = _order(choices, [e for e in edges if not e.escapes & chosen])
     proven = reached(weight, bound)
-    return Staging(staged, choices, order, weight, weight if proven else bound, proven)
+    return StagingAnswer(staged, choices, order, weight, weight if proven else bound, proven)
 
 
-def _order(choices: Sequence[Choice], edges: Sequence[Edge]) -> tuple[Event, ...]:
+def _order(choices: Sequence[Choice], edges: Sequence[LiteralArc]) -> tuple[PartEvent, ...]:
     """Return the events in an order along all edges; a direct move is one, of two events."""
     import networkx as nx
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from pico.staging.feedback.digraph import cyclic_components, shortest_cycle
-from pico.staging.feedback.literals import Clause, Edge, Literals, bits
+from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
 from pico.staging.feedback.shrink import successors
 
 
@@ -29,9 +29,9 @@ class Pool:
                 self.clauses.append(clause)
 
 
-def left_cycles(edges: Sequence[Edge], chosen: int) -> list[Clause]:
+def left_cycles(edges: Sequence[LiteralArc], chosen: int) -> list[Clause]:
     """Return short cycles that a choice leaves: through each event, then through the rest without the worst event."""
-    holding: dict[tuple[int, int], Edge] = {}
+    holding: dict[tuple[int, int], LiteralArc] = {}
     for edge in edges:
         if not edge.escapes & chosen:
             rival = holding.get((edge.tail, edge.head))
@@ -53,7 +53,7 @@ def left_cycles(edges: Sequence[Edge], chosen: int) -> list[Clause]:
     return list(found.values())
 
 
-def _clause(cycle: Sequence[Edge]) -> Clause:
+def _clause(cycle: Sequence[LiteralArc]) -> Clause:
     escapes, trail = 0, tuple[int, ...]()
     for edge in cycle:
         escapes |= edge.escapes
@@ -61,7 +61,7 @@ def _clause(cycle: Sequence[Edge]) -> Clause:
     return Clause(escapes, trail)
 
 
-def walk(edges: Sequence[Edge], pool: Pool, table: Literals, start: int, steps: int, below: float) -> int | None:
+def walk(edges: Sequence[LiteralArc], pool: Pool, table: Literals, start: int, steps: int, below: float) -> int | None:
     """Return a choice without cycles that costs less than `below`, found from `start` in so many steps, or None.
     Cycles met on the way go to the `pool`."""
     rng = random.Random(0)
@@ -108,7 +108,7 @@ def turned(table: Literals, chosen: int, literal: int) -> list[int]:
     return [rest | one | kept] if kept else [rest | one | 1 << n for n in bits(other)]
 
 
-def unstaged(edges: Sequence[Edge], pool: Pool, table: Literals, chosen: int) -> int:
+def unstaged(edges: Sequence[LiteralArc], pool: Pool, table: Literals, chosen: int) -> int:
     """Return a choice without cycles in which no component is staged that one other option could spare."""
     for n in sorted(bits(chosen & table.paid), key=lambda n: (-table.weights[n], n)):
         i = table.meaning[n][0]

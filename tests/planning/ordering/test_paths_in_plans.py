@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 from planning_benches import bench, moves, part, planned, see, want
 
 from pico.model.pose import Pose
-from pico.motion.types import Blocked, Joints, MovePath, Segment, Standing
+from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
-Question = tuple[str, Pose, Pose, float, Mapping[str, Standing]]
+Question = tuple[str, Pose, Pose, float, Mapping[str, StandingObject]]
 
 
 class Arm:
@@ -17,7 +17,7 @@ class Arm:
 
     def __init__(
         self,
-        blocks: Callable[[str, Pose, float, Mapping[str, Standing]], Blocked | None] = lambda *_: None,
+        blocks: Callable[[str, Pose, float, Mapping[str, StandingObject]], Blocked | None] = lambda *_: None,
         reach: Callable[[Pose, float], Blocked | None] = lambda *_: None,
     ) -> None:
         self.blocks, self.can_reach = blocks, reach
@@ -28,14 +28,14 @@ class Arm:
 
     def move(
         self, robot: str, component: str, start: Pose, goal: Pose, grasp_yaw: float,
-        standing: Mapping[str, Standing], joints: Joints | None = None,
+        standing: Mapping[str, StandingObject], joints: Joints | None = None,
     ) -> MovePath | Blocked:  # fmt: skip
         self.asked.append((component, joints, frozenset(standing)))
         end = (goal.x,)
         path = MovePath(robot, component, (Segment("transit", (0.0, 4.0), (joints or (0.0,), end), 50.0),))
         return self.blocks(component, goal, grasp_yaw, standing) or path
 
-    def park(self, robot: str, joints: Joints, standing: Mapping[str, Standing]) -> MovePath | Blocked:
+    def park(self, robot: str, joints: Joints, standing: Mapping[str, StandingObject]) -> MovePath | Blocked:
         return MovePath(robot, None, (Segment("park", (0.0, 1.0), (joints, (0.0,)), 50.0),))
 
 
@@ -66,7 +66,7 @@ def test_a_goal_out_of_reach_is_refused_in_the_arms_words() -> None:
 
 
 def test_a_path_that_a_part_blocks_waits_until_it_has_left() -> None:
-    def near_b(component: str, goal: Pose, yaw: float, standing: Mapping[str, Standing]) -> Blocked | None:
+    def near_b(component: str, goal: Pose, yaw: float, standing: Mapping[str, StandingObject]) -> Blocked | None:
         blocking = [n for n, s in standing.items() if n.startswith("b") and s.pose.x == 500 and component == "a"]
         return Blocked("collision", "it would hit b", "transit", blocking[0], 12.0) if blocking else None
 
@@ -80,7 +80,7 @@ def test_a_path_that_a_part_blocks_waits_until_it_has_left() -> None:
 def test_an_order_is_fixed_where_only_another_order_would_be_blocked() -> None:
     # bodies and fingers are far apart, and in the order planned (b first, it is nearer) nothing is in the way: but the
     # path of a would hit b where b came from
-    def near_b(component: str, goal: Pose, yaw: float, standing: Mapping[str, Standing]) -> Blocked | None:
+    def near_b(component: str, goal: Pose, yaw: float, standing: Mapping[str, StandingObject]) -> Blocked | None:
         blocking = [n for n, s in standing.items() if n.startswith("b") and s.pose.y == 400 and component == "a"]
         return Blocked("collision", "it would hit b", "transit", blocking[0], 12.0) if blocking else None
 
@@ -92,7 +92,7 @@ def test_an_order_is_fixed_where_only_another_order_would_be_blocked() -> None:
 
 
 def test_a_path_that_what_stays_blocks_is_refused_and_names_it() -> None:
-    def wall(component: str, goal: Pose, yaw: float, standing: Mapping[str, Standing]) -> Blocked | None:
+    def wall(component: str, goal: Pose, yaw: float, standing: Mapping[str, StandingObject]) -> Blocked | None:
         return Blocked("collision", "link 4 of arm1 would hit wall by 12.0 mm", "transit", "wall", 12.0)
 
     setup = bench({"a": "block", "wall": part(seating="bolted")})
