@@ -71,7 +71,7 @@ def operations(plan: Plan) -> list[str]:
     return whole
 
 
-def symbol(op: Operation) -> str:
+def symbol(op: Operation, change: Change | None = None) -> str:
     """Return + placed from storage, - stowed, ~ changed where it is, ↷ makes room, ! a person must act."""
     if op.primitive == "operator":
         return paint("red", "!")
@@ -82,9 +82,16 @@ def symbol(op: Operation) -> str:
     if op.primitive in ("move", "stow"):
         if _slot(op.arguments.get("to")):
             return paint("yellow", "-")
-        if _slot(op.arguments.get("from")):
+        if _slot(_start(op, change)):
             return paint("green", "+")
     return paint("yellow", "~")
+
+
+def _start(op: Operation, change: Change | None) -> Any:
+    """Return where an operation begins: a pose where the part stays in the slot that it is in."""
+    start = op.arguments.get("from")
+    stays = change and isinstance(start, dict) and change.before == start.get("pose")
+    return change.before if change and stays else start
 
 
 def _slot(where: Any) -> str | None:
@@ -97,7 +104,7 @@ def address(op: Operation) -> str:
     return f"{op.component}.{tunable}" if tunable else op.component
 
 
-def step(op: Operation) -> str:
+def step(op: Operation, change: Change | None = None) -> str:
     """Return what an operation does: `storage/a3 → (395, 420, 0°)`, `90 → 1`, `home`."""
     if op.primitive == "operator":
         return "by hand" if "to" not in op.arguments else f"by hand to {place(op.arguments['to'])}"
@@ -105,7 +112,7 @@ def step(op: Operation) -> str:
         return op.primitive
     if "to" not in op.arguments:
         return op.primitive
-    before = op.arguments.get("from")
+    before = _start(op, change)
     goal = place(op.arguments["to"])
     return f"{place(before)} → {goal}" if before is not None else f"→ {goal}"
 
@@ -120,14 +127,14 @@ def change_of(plan: Plan, op: Operation) -> Change | None:
 
 def what(op: Operation, change: Change | None) -> str:
     """Return what an operation does, values with their unit: `90 → 1 deg`."""
-    return change.text if change and op.primitive == "set" else step(op)
+    return change.text if change and op.primitive == "set" else step(op, change)
 
 
 def _cells(op: Operation, change: Change | None, several: bool) -> list[str]:
     took = seconds(op.seconds) if op.seconds >= 0.05 else ""
     robot = "" if op.primitive == "park" else op.robot or ""
     when = [robot, f"at {seconds(op.start):>6}"] if several else []
-    return [f"{symbol(op)} {address(op)}", what(op, change), *when, f"{took:>6}"]
+    return [f"{symbol(op, change)} {address(op)}", what(op, change), *when, f"{took:>6}"]
 
 
 def arms(plan: Plan) -> tuple[str, ...]:

@@ -49,7 +49,8 @@ def _cells(row: StatusRow) -> list[str]:
     elif row.live is None:
         live = "unknown"
     elif row.off:
-        live = paint("yellow" if row.edited else "red", f"{place(row.live)}{unit} !")
+        aside = f", {row.aside}" * bool(row.aside)
+        live = paint("yellow" if row.edited else "red", f"{place(row.live)}{aside}{unit} !")
     else:
         live = "=" if row.exact else f"= {row.near}"
     return [row.address, committed, desired, live]

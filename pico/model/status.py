@@ -7,10 +7,10 @@ from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.diff import Change, diff_observed, diff_states, place_json, show_value
+from pico.model.diff import Change, deviation, diff_observed, diff_states, place_json, show_value, slot_left
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
-from pico.model.pose import Pose, angle_between
+from pico.model.observation import Observation, ObservedComponent, doubtful
+from pico.model.pose import Pose, angle_between, short
 from pico.model.record import record
 from pico.model.state import LabState, place_of
 
@@ -21,8 +21,8 @@ class StatusRow:
 
     `edited`: desired differs from committed. `off`: live differs from desired by more than the tolerance. `drifted`:
     it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
-    deviation; `near` says what a tolerated deviation is. `unit`: of the values. `note`: missing, held, toppled or
-    uncertain.
+    deviation; `near` says what a tolerated deviation is, `aside` how far off the centre of a slot it stands. `unit`: of
+    the values. `note`: missing, held, toppled or uncertain.
     """
 
     component: str
@@ -35,6 +35,7 @@ class StatusRow:
     drifted: bool = False
     exact: bool = False
     near: str = ""
+    aside: str = ""
     unit: str = ""
     note: str = ""
 
@@ -104,7 +105,7 @@ def _pose_row(
     part = seen.components.get(name)
     note = _note(setup, name, part)
     live = part.pose if part and not note else None
-    in_slot = slot_at(setup, live) if live and setup.movable(name) else None
+    in_slot = slot_left(setup, name, live, goal) if live else None
     return StatusRow(
         component=name,
         tunable="pose",
@@ -114,6 +115,7 @@ def _pose_row(
         edited=committed is not None and before != after,
         note=note,
         near=_deviation(goal, live) if live else "",
+        aside=_aside(setup, name, in_slot, live) if in_slot and live else "",
         **_verdict((name, "pose"), off, moved),
     )
 
@@ -168,6 +170,15 @@ def _note(setup: Setup, name: str, part: ObservedComponent | None) -> str:
 def _deviation(goal: Pose, live: Pose) -> str:
     turned = angle_between(goal.yaw, live.yaw)
     return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
+
+
+def _aside(setup: Setup, name: str, slot: str, live: Pose) -> str:
+    centre = setup.lab.slots[slot].pose
+    if deviation(setup, name, live, None, centre) != "off":
+        return ""
+    off = (short(live.distance(centre)), "mm"), (short(abs(angle_between(centre.yaw, live.yaw))), "°")
+    words = [f"{number} {unit}".replace(" °", "°") for number, unit in off if number != "0"]
+    return f"{' and '.join(words)} off its centre"
 
 
 def refuse_unapplied(

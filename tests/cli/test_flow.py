@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -251,3 +252,15 @@ def test_apply_as_json_is_the_plan_the_events_and_the_report(shel: Path, pico: P
     asked = pico("apply", "C1", "--json")
     assert asked.code == 1
     assert "auto-approve" in asked.data["diagnostics"][0]["hint"]
+
+
+def test_how_far_a_part_stands_off_the_centre_of_a_slot_is_said_and_what_stays_in_one_does_not_leave_it(
+    shel: Path, pico: Pico
+) -> None:
+    assert pico("sim", "nudge", "p1", "--dx", "9", "--dyaw", "45").code == 0
+    (row,) = (line for line in pico("status").out.splitlines() if line.startswith("p1 "))
+    assert row.endswith("storage/b1, 9 mm and 45° off its centre !")
+    assert pico("capture", "p1").code == pico("sim", "nudge", "p1", "--dx", "-5").code == 0
+    (row,) = (line for line in pico("status").out.splitlines() if line.startswith("p1 "))
+    assert row.endswith("(114, 220, 45°) !")
+    assert re.search(r"~ p1 +\(114, 220, 45°\) → \(119, 220, 45°\) .* moved 5 mm", pico("plan").out)
