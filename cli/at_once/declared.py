@@ -35,8 +35,10 @@ def _taken(function: ast.FunctionDef, named: dict[str, Any]) -> Declared:
     options: dict[str, str] = {}
     arguments: list[str] = []
     for argument in function.args.args[1:]:
-        annotation: Any = argument.annotation
-        kind, call = named.get(getattr(annotation, "id", ""), annotation).slice.elts
+        annotation: Any = named.get(getattr(argument.annotation, "id", ""), argument.annotation)
+        if ast.unparse(annotation).partition("[")[0] != "Annotated":
+            continue  # typer makes something of it, but nothing says what Tab could offer
+        kind, call = annotation.slice.elts
         metavar = next((k.value.value for k in call.keywords if k.arg == "metavar"), "VALUE")
         if call.func.attr == "Argument":
             arguments.append(metavar)

@@ -9,7 +9,9 @@ import typer
 from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Fidelity, LockTimeout
+from ..runs.trying import bring
 from ..session import Session
+from ..views import bisect as view
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -30,9 +32,6 @@ def bisect_step(
     """
     from pico.bench.bisecting.step import TrialStep, bisecting, step
 
-    from ..runs.trying import bring
-    from ..views import bisect as view
-
     session = Session.of(context)
     try:
         bench = session.bench(fidelity, writing=True)
@@ -40,19 +39,15 @@ def bisect_step(
         if not bisecting(session.folder):
             raise
         found = TrialStep(commit="HEAD", verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
-        session.show(view.StepView, found)
-        return CODES[found.verdict]
-
-    def run(plan: Plan) -> float:
-        return _run(session, bench, plan, bring(session, bench, plan))
-
-    found = step(bench, expect, run)
+    else:
+        found = step(bench, expect, lambda plan: _seconds(session, bench, plan))
     session.show(view.StepView, found)
     return CODES[found.verdict]
 
 
-def _run(session: Session, bench: Bench, plan: Plan, ended: tuple[float, int]) -> float:
-    seconds, code = ended
+def _seconds(session: Session, bench: Bench, plan: Plan) -> float:
+    """Run a plan, and return how long the bench took [s]; raises PicoError where it did not get there."""
+    seconds, code = bring(session, bench, plan)
     if code:
         text = f"the bench did not get to {bench.goal_name(plan)}"
         hint = "`pico status` shows how it stands; `git bisect run` again goes on"

@@ -34,7 +34,9 @@ How = Annotated[str, typer.Option("--how", metavar="slowly|fast", help="At what 
 Where = Annotated[Path | None, typer.Option(metavar="FILE", help="Where it is told.")]
 
 
-def blink_twice(context: typer.Context, part: Component, how: How = "fast", told_where: Where = None) -> int:
+def blink_twice(
+    context: typer.Context, part: Component, how: How = "fast", told_where: Where = None, times: int = 2
+) -> int:
     """Blink with a component, twice."""
     session = Session.of(context)
     if part == "nothing":
