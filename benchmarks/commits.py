@@ -40,7 +40,7 @@ from pico.bench import commits as committing  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
 from pico.history.git import command as git  # noqa: E402
 from pico.history.lab import files as write_files  # noqa: E402
-from pico.history.writing import index_lock, under  # noqa: E402
+from pico.history.writing import index_lock, locked_git  # noqa: E402
 from pico.model.observation import ObservedValue  # noqa: E402
 from pico.model.state import place_of  # noqa: E402
 
@@ -262,8 +262,9 @@ def commit_killed(folder: Path, words: list[str], rng: random.Random, span: floa
         os.chdir(folder)
         if way == "step":
             steps = Steps(rng.randint(1, 34), rng.random() < 0.5)
-            for owner, name in ((git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (under, "copy_index"),
-                                (write_files, "write_file"), (index_lock, "_claimed")):  # fmt: skip
+            for owner, name in ((git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"),
+                                (locked_git, "copy_index"), (write_files, "write_file"),
+                                (index_lock, "_claimed")):  # fmt: skip
                 steps.watch(owner, name)
         return command(words)
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from pico.backends.memory import LastSeen
+from pico.backends.last_seen import LastSeen
 from pico.backends.occlusion import Occluders
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
@@ -133,13 +133,13 @@ def _observation(
     calibrated: bool,
 ) -> Observation:
     places = {name: seen.pose for name, seen in sighting.components.items()}
-    cover = Occluders(setup, places, {n: r.joints for n, r in known.robots.items()}, cameras.cameras, sighting.dark)
+    occluders = Occluders(setup, places, {n: r.joints for n, r in known.robots.items()}, cameras.cameras, sighting.dark)
     components: dict[str, ObservedComponent] = {}
     problems = [d.diagnostic() for d in sighting.drift]
     problems += [_finding(f) for f in sighting.findings if f.kind not in ("hidden", "datums")]
     problems += [_unwatched(f, calibrated) for f in sighting.of("datums")]
     for name in setup.lab.inventory:
-        part, problem = _component(setup, name, sighting, known, last.get(name), cover)
+        part, problem = _component(setup, name, sighting, known, last.get(name), occluders)
         values = known.components[name].values if name in known.components else {}
         components[name] = replace(part, values=values)
         problems += [problem] if problem else []
@@ -159,7 +159,7 @@ def _unwatched(finding: Finding, calibrated: bool) -> Diagnostic:
 
 
 def _component(
-    setup: Setup, name: str, sighting: Sighting, known: Observation, last: LastSeen | None, cover: Occluders
+    setup: Setup, name: str, sighting: Sighting, known: Observation, last: LastSeen | None, occluders: Occluders
 ) -> tuple[ObservedComponent, Diagnostic | None]:
     part, plate = setup.lab.inventory[name], setup.type_of(name).geometry.marker
     holder = next((key for key, robot in known.robots.items() if robot.holding == name), None)
@@ -181,11 +181,11 @@ def _component(
         sigma = Sigma(position=setup.type_of(name).geometry.height, yaw=180.0)
         lying = ObservedComponent(presence="toppled", pose=pose, uncertainty=sigma)
         return (lying if lies else ObservedComponent(presence="missing")), None
-    return _hidden(setup, name, known.time, last, cover)
+    return _hidden(setup, name, known.time, last, occluders)
 
 
 def _hidden(
-    setup: Setup, name: str, now: float, last: LastSeen | None, cover: Occluders
+    setup: Setup, name: str, now: float, last: LastSeen | None, occluders: Occluders
 ) -> tuple[ObservedComponent, Diagnostic | None]:
     """A part whose marker nobody sees: still where it was, if something hides that place; else it is gone."""
     fixed, marker = setup.lab.inventory[name].pose, setup.lab.inventory[name].marker
@@ -196,7 +196,7 @@ def _hidden(
         return ObservedComponent(presence="missing"), warning("marker-hidden", unseen, hint=hint, address=name)
     age = max(0.0, now - last.time) if last else 0.0
     when = f"it was last at {pose}, {duration(age)} ago" if last else f"the lab has it fixed at {pose}"
-    behind = cover.hides(name, pose)
+    behind = occluders.hides(name, pose)
     if behind is None:
         hint = "put it back where a camera sees it"
         text = f"{unseen}, and its place is in plain view: {when}"

@@ -18,7 +18,7 @@ from pico.history.lab.contents import commit as committed
 from pico.history.lab.folder import LabFolder
 from pico.history.messages.default import default_message
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
-from pico.history.writing.underway import message_of, require_resolved
+from pico.history.writing.in_progress import message_of, require_resolved
 from pico.model.address import Named, read_addresses
 from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state

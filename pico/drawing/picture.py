@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from pico.drawing.conflict_marks import Mark
     from pico.drawing.dimensions import Dimension
-    from pico.drawing.marks import Mark
     from pico.drawing.perspective import Beam
     from pico.drawing.steps import DrawnStep
     from pico.drawing.viewpoint import Viewpoint

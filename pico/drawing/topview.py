@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from pico.drawing.beams import Place, beam_paths, flat
 from pico.drawing.canvas import Canvas, Point
+from pico.drawing.conflict_marks import LEGEND, Mark, draw_marks
 from pico.drawing.dimensions import Dimension, draw_dimensions, legend
-from pico.drawing.marks import LEGEND, Mark, draw_marks
 from pico.drawing.names import Named, write_names
 from pico.drawing.outlines import circle, outline
 from pico.drawing.steps import MOVE, DrawnStep, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list

@@ -42,7 +42,7 @@ def _documents(content: str, documents: list[Document]) -> str:
     blocks: list[str] = []
     for i, document in enumerate(documents):
         state = kind_of(document)[0] == "LabState"
-        head, entries = layout.entries(document, spread=frozenset({"components"} if state else ()))
+        head, entries = layout.entries(document, block_style=frozenset({"components"} if state else ()))
         tail = layout.tail(entries, len(content)) if i == len(documents) - 1 else []
         text = stripped(head) + lines(_in_order(entries, state), 0) + stripped(tail, foot=True)
         blocks.append("\n".join(text) + "\n")

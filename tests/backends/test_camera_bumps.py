@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pico.backends.sim.eyes import bump, eyes_of
+from pico.backends.sim.cameras import bump, eyes_of
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.store import load_world, save_world, world_from_json
 from pico.backends.sim.table import SimulatedTable

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from benches import plan_to, shel, sim
 
-from pico.backends.memory import LastSeen, recall, remember
+from pico.backends.last_seen import LastSeen, recall, remember
 from pico.backends.sight import Look
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import load_world, save_world

@@ -14,7 +14,7 @@ from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
 from pico.bench.bench import Bench
 from pico.bench.pictures.contents import goals, marks, places
-from pico.drawing.marks import Mark
+from pico.drawing.conflict_marks import Mark
 from pico.history.examples.example import make_example
 
 P2 = "  p2:\n    pose:\n      x: 520"

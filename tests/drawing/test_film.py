@@ -17,7 +17,7 @@ from physical import bench
 from pico.diagnostics import PicoError
 from pico.drawing.film.camerawork import build_set
 from pico.drawing.film.film import Caption, write_film
-from pico.drawing.film.gif import GifReel
+from pico.drawing.film.gif import GifWriter
 from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
 from pico.model.state import home_state, place_of
@@ -143,7 +143,7 @@ def test_a_gif_holds_what_was_put_into_it(seed: int, tmp_path: Path) -> None:
     shown = [colors[random.integers(0, 200, (90, 130))] for _ in range(2)]
     shown.append(shown[-1].copy())
     shown[-1][20:40, 30:60] = colors[0]
-    reel = GifReel(tmp_path / "noise.gif", 12)
+    reel = GifWriter(tmp_path / "noise.gif", 12)
     for image in shown:
         reel.add(image)
     reel.close()

@@ -12,16 +12,16 @@ from pathlib import Path
 
 from pico.history.git import command as git
 from pico.history.lab import files as write_files
-from pico.history.writing import index_lock, under
+from pico.history.writing import index_lock, locked_git
 
 Watched = Sequence[tuple[object, str]]
 WATCHED: Watched = (
-    (git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (under, "copy_index"), (write_files, "write_file"),
-    (index_lock, "_claimed"),
+    (git, "run"), (os, "link"), (Path, "replace"), (Path, "unlink"), (locked_git, "copy_index"),
+    (write_files, "write_file"), (index_lock, "_claimed"),
 )  # fmt: skip
 EVERY: Watched = (
     (subprocess, "run"), (subprocess, "Popen"), (os, "link"), (os, "replace"), (os, "rename"), (os, "unlink"),
-    (os, "mkdir"), (os, "rmdir"), (os, "write"), (os, "fsync"), (os, "open"), (under, "copy_index"),
+    (os, "mkdir"), (os, "rmdir"), (os, "write"), (os, "fsync"), (os, "open"), (locked_git, "copy_index"),
 )  # fmt: skip
 """Every call of git, before it, once it runs, and after it; and every write."""
 

@@ -101,7 +101,7 @@ def test_killed_inside_git_its_locks_are_known_and_cleared(repo: Path, git: Git,
 
 
 def test_a_ref_lock_of_somebody_else_is_left(repo: Path, git: Git, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pico.history.writing.under._SAFE", ("-c", "core.filesRefLockTimeout=10"))
+    monkeypatch.setattr("pico.history.writing.locked_git._SAFE", ("-c", "core.filesRefLockTimeout=10"))
     hook(repo, "pre-commit", "kill -9 0")
     write(repo, "x: 7\n")
     assert not forked(lambda: opened(repo).commit([FILE], "killed"))

@@ -24,7 +24,7 @@ from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
 
 if TYPE_CHECKING:
-    from pico.backends.memory import LastSeen
+    from pico.backends.last_seen import LastSeen
     from pico.backends.recovery import SettledOperation
     from pico.backends.sight import Look
     from pico.backends.sim.session import WorldSession
@@ -122,7 +122,7 @@ class SimBackend:
 
     def _by_sight(self) -> Look:
         """Look through the cameras; the same table looks the same again, so that it is not looked at twice."""
-        from pico.backends.memory import noted, recall, remember
+        from pico.backends.last_seen import noted, recall, remember
         from pico.backends.sight import BLIND
         from pico.backends.sim.sight import see
         from pico.vision.calibration import calibration_digest
@@ -252,10 +252,10 @@ class SimBackend:
 
     def _note_placed(self, operation: Operation, time: float) -> None:
         """Remember where an arm put a part down, for it may hide it from the cameras."""
-        from pico.backends.memory import LastSeen
+        from pico.backends.last_seen import LastSeen
 
-        spread = self.setup.type_of(operation.component).repeatability
-        sigma = Uncertainty(position=spread.position, yaw=spread.yaw)
+        repeatability = self.setup.type_of(operation.component).repeatability
+        sigma = Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
         pose = Pose(**operation.arguments["to"]["pose"])
         self._placed[operation.component] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
 

@@ -108,8 +108,8 @@ class PhysicsWorld:
         standard deviation in x, in y and in yaw. A free part stays where it stands."""
         if self._setup.seating_of(component) not in ("magnet", "kinematic"):
             return
-        spread = self._setup.type_of(component).repeatability
-        sigmas = (spread.position, spread.position, spread.yaw)
+        repeatability = self._setup.type_of(component).repeatability
+        sigmas = (repeatability.position, repeatability.position, repeatability.yaw)
         self.twin.pull(component, *(self._random.gauss(0.0, sigma) for sigma in sigmas))
 
     def _guarded(self, robot: str, work: Generator[float, None, Any]) -> Generator[float, None, Any]:
@@ -143,7 +143,7 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight
         return Exact if setup.lab.sim.sight == "exact" else None
 
     def eyes(twin: Twin) -> HandSight:
-        from pico.backends.sim.eyes import eyes_of
+        from pico.backends.sim.cameras import eyes_of
         from pico.cameras.eye_in_hand import EyeInHand
         from pico.vision.calibration import read_calibration
         from pico.vision.nominal import camera_models

@@ -13,10 +13,10 @@ from typing import Any
 from pico.backends.attempt import Attempts
 from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
+from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
 from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
-from pico.backends.sim.mishaps import REST, Mishaps, driven_badly
 from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline

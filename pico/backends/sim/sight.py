@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.backends.memory import LastSeen
+from pico.backends.last_seen import LastSeen
 from pico.backends.sight import Look, look, no_cameras
 from pico.backends.sim.bodies import body_placement
-from pico.backends.sim.eyes import eyes_of
+from pico.backends.sim.cameras import eyes_of
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pico.backends.sim.bodies import body_placement
-from pico.backends.sim.eyes import bump
+from pico.backends.sim.cameras import bump
 from pico.backends.sim.faults import Faults, faults_of, parse, save_faults
 from pico.backends.sim.hand import nudge, power_cycle, remove
 from pico.backends.sim.store import change_world, load_world, reset_world

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from pico.drawing.beams import Place
+from pico.drawing.conflict_marks import Mark
 from pico.drawing.film.film import Caption
-from pico.drawing.marks import Mark
 from pico.drawing.steps import DrawnStep
 from pico.model.diff import Change, show_value
 from pico.model.event import Event

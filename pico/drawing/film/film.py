@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.disk import beside, removed, sweep, writing
 from pico.drawing.film.camerawork import Set, build_set
-from pico.drawing.film.movie_file import open_reel, require_kind
+from pico.drawing.film.movie_file import open_movie, require_kind
 from pico.model.lab import Setup
 from pico.twin.snapshot import Snapshot, at
 
@@ -71,19 +71,19 @@ def _shot(
     first, last = snapshots[0].time, snapshots[-1].time
     step = 1 / fps
     count = int((last - first) / step + 1e-9) + 2  # the end is always shown
-    reel = open_reel(path, fps, size)
+    movie = open_movie(path, fps, size)
     picture: Any = None
     try:
         stage = build_set(setup, snapshots, (size[0], size[1] - _strip(size[1])))
         for number in range(count):
             now = replace(at(snapshots, min(last, first + number * step)), time=min(last, first + number * step))
             picture = _titled(stage.shoot(now), stage, now, _current(captions, now.time), now.time - first, size[1])
-            reel.add(picture)
+            movie.add(picture)
             yield number + 1, count
     finally:
         for _ in range(round(_HOLD * fps) if picture is not None else 0):
-            reel.add(picture)
-        reel.close()
+            movie.add(picture)
+        movie.close()
 
 
 def _current(captions: Sequence[Caption], time: float) -> Caption:

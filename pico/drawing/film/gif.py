@@ -15,7 +15,7 @@ _COLORS = 255
 _CLEAR_PIXEL = 255  # the index of "as before"
 
 
-class GifReel:
+class GifWriter:
     """A GIF that plays on and on. Its colors are those of the first picture; it can be played once it is closed."""
 
     def __init__(self, path: Path, fps: float) -> None:

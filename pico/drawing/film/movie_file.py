@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 KINDS = (".mp4", ".gif")
 
 
-class Reel(Protocol):
+class MovieWriter(Protocol):
     """A film that is being written: pictures (height, width, 3), sRGB, all of one size."""
 
     def add(self, picture: Image) -> None: ...
@@ -35,17 +35,17 @@ def require_kind(path: Path) -> None:
         raise PicoError(error("unwritable", f"cannot write the film {path}: there is no folder {path.parent}"))
 
 
-def open_reel(path: Path, fps: float, size: tuple[int, int]) -> Reel:
+def open_movie(path: Path, fps: float, size: tuple[int, int]) -> MovieWriter:
     """Return a new film of `fps` pictures a second, `size` (width, height) [pixels].
 
     It and its `close` raise PicoError or OSError where it can't be written.
     """
-    from pico.drawing.film.gif import GifReel
+    from pico.drawing.film.gif import GifWriter
 
-    return GifReel(path, fps) if path.suffix.lower() == ".gif" else Mp4Reel(path, fps, size)
+    return GifWriter(path, fps) if path.suffix.lower() == ".gif" else Mp4Writer(path, fps, size)
 
 
-class Mp4Reel:
+class Mp4Writer:
     """An MPEG-4 film, written picture by picture."""
 
     def __init__(self, path: Path, fps: float, size: tuple[int, int]) -> None:

@@ -10,7 +10,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.lab.notes import is_note, note_path
 from pico.history.lab.run_files import run_trailers, write_once
 from pico.history.messages.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
-from pico.history.writing.underway import require_resolved
+from pico.history.writing.in_progress import require_resolved
 from pico.manifest.edit import components_of
 from pico.manifest.file_names import is_manifest
 from pico.manifest.load import load_files

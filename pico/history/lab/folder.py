@@ -19,9 +19,9 @@ from pico.history.git.commit import Commit, Head
 from pico.history.lab.files import write_file
 from pico.history.lab.missing_files import missing_files
 from pico.history.lab.notes import Note, note_path, notes, read_note, require_part, with_note
+from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
-from pico.history.writing.underway import refuse_begun
 from pico.manifest.edit import capture
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files

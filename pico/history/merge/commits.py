@@ -14,8 +14,8 @@ from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_commits
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.history.writing.claim import Goal
-from pico.history.writing.made import NewCommit
-from pico.history.writing.underway import refuse_begun
+from pico.history.writing.commit_object import NewCommit
+from pico.history.writing.in_progress import refuse_begun
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
 from pico.model.record import record

@@ -16,13 +16,15 @@ Version = tuple[str, Sequence[Document]]
 """A text without byte order mark, and its documents; none where a version does not exist."""
 
 
-def merge_layout(base: Version, ours: Version, theirs: Version, conflicts: Sequence[Conflict], *, spread: bool) -> str:
+def merge_layout(
+    base: Version, ours: Version, theirs: Version, conflicts: Sequence[Conflict], *, block_style: bool
+) -> str:
     """Return the merged text in the normal form of `pico fmt`, lines ended by a line feed.
 
     The three texts hold the same values wherever those could be merged, and tokens where not. Each conflict over
-    entries stands between sentinels. `spread`: no mapping stays in braces, so that its entries can be merged.
+    entries stands between sentinels. `block_style`: no mapping stays in braces, so that its entries can be merged.
     """
-    below = frozenset({"*"}) if spread else _STATE
+    below = frozenset({"*"}) if block_style else _STATE
     read = [_read(version, below, len(ours[1])) for version in (base, ours, theirs)]
     blocks = []
     split = {(*c.path[:-1], key): (i, c.keys) for i, c in enumerate(conflicts) for key in c.keys}
@@ -38,7 +40,7 @@ def _read(version: Version, below: frozenset[str], count: int) -> list[tuple[lis
     layout = Layout(content)
     found = []
     for i, document in enumerate(documents):
-        head, entries = layout.entries(document, spread=below)
+        head, entries = layout.entries(document, block_style=below)
         tail = layout.tail(entries, len(content)) if i == len(documents) - 1 and entries else []
         found.append((head, entries, tail))
     return found or [([], [], [])] * count

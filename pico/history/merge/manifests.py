@@ -201,9 +201,9 @@ def _candidates(plan: _Plan, labels: Labels) -> Iterator[str]:
     if clean and not structural:
         yield data.decode()
     versions = [(v.text, v.documents) for v in (plan.base, plan.ours, plan.theirs)]
-    for spread in (False, True):
+    for block_style in (False, True):
         try:
-            yield merge_layout(versions[0], versions[1], versions[2], plan.outcome.conflicts, spread=spread)
+            yield merge_layout(versions[0], versions[1], versions[2], plan.outcome.conflicts, block_style=block_style)
         except (PicoError, IndexError, ValueError):  # a layout that can't be taken apart
             continue
 

@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pico.history.git.trees import entries, subtree
-from pico.history.merge.across import Alike, Files, Versions, made_alike, settled
+from pico.history.merge.alignment import Alike, Files, Versions, made_alike, settled
 from pico.history.merge.groups import groups_of, is_lab
 from pico.history.merge.leaves import Conflict, Coupled
 from pico.history.merge.manifests import Merged, merge

@@ -18,12 +18,12 @@ from pico.history.git.revisions import BRANCHES, TAGS, branch_for, find, names_a
 from pico.history.git.trees import folder_id, subtree
 from pico.history.git.unread import read_tree
 from pico.history.writing.claim import GitFolders, Goal
+from pico.history.writing.commit_object import NewCommit
+from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.landing import Landing, land
 from pico.history.writing.lock import write_lock
-from pico.history.writing.made import NewCommit
 from pico.history.writing.passage import Start, advance, go, shelve
 from pico.history.writing.recovery import leave_word, recover
-from pico.history.writing.underway import refuse_begun
 from pico.manifest.file_names import is_manifest
 from pico.manifest.load import bare_repository
 

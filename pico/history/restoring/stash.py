@@ -11,7 +11,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import manifest_tree, opened, unite_trees, with_files
 from pico.history.writing.claim import Goal
-from pico.history.writing.underway import refuse_begun
+from pico.history.writing.in_progress import refuse_begun
 from pico.model.diff import Change
 from pico.model.record import record
 

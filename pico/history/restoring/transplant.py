@@ -25,7 +25,7 @@ from pico.history.restoring.messages import (
     rootless,
 )  # fmt: skip
 from pico.history.writing.claim import Goal
-from pico.history.writing.made import NewCommit
+from pico.history.writing.commit_object import NewCommit
 from pico.manifest.load import Manifests
 from pico.model.diff import Change
 from pico.model.record import record

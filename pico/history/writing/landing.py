@@ -16,7 +16,7 @@ from pico.diagnostics import PicoError
 from pico.history.git import command as git
 from pico.history.writing.claim import GitFolders
 from pico.history.writing.index_lock import index_lock
-from pico.history.writing.under import Under, copy_index, list_of, listed
+from pico.history.writing.locked_git import LockedGit, copy_index, list_of, listed
 
 _LATER = ("-c", "maintenance.auto=false")
 """What git tidies up may take minutes, and nobody is to wait for that; it comes when the locks are free again."""
@@ -45,7 +45,7 @@ class Landing:
 def land(at: GitFolders, what: Landing) -> None:
     """Commit. Raises PicoError with git's words; index and HEAD are then as they were."""
     with index_lock(at, "pico commit", what.head, what.refs) as claim:
-        before, under = at.private / "index.before", Under(at, claim)
+        before, under = at.private / "index.before", LockedGit(at, claim)
         try:
             copy_index(at.index, before)
             _stage(under, what)
@@ -60,7 +60,7 @@ def land(at: GitFolders, what: Landing) -> None:
         git.answer(at.root, ["maintenance", "run", "--auto", "--quiet"])
 
 
-def _stage(under: Under, what: Landing) -> None:
+def _stage(under: LockedGit, what: Landing) -> None:
     """Add to a copy of the index, and let that take the index's place."""
     under.begin()
     plain = tuple(path for path in what.paths if path not in what.ignored)
@@ -70,7 +70,7 @@ def _stage(under: Under, what: Landing) -> None:
     under.adopt()
 
 
-def _commit(under: Under, what: Landing) -> None:
+def _commit(under: LockedGit, what: Landing) -> None:
     under.begin()
     only = ["--only", *listed(under.at, what.paths)] if what.partial else []
     arguments = [*_LATER, "commit", "--quiet", "--file=-", *what.options, *only]
@@ -79,7 +79,7 @@ def _commit(under: Under, what: Landing) -> None:
     under.adopt()
 
 
-def _follow_hooks(under: Under, what: Landing) -> None:
+def _follow_hooks(under: LockedGit, what: Landing) -> None:
     """Let the index have what a hook made of the files: the commit has it, and the index would stage its reversal."""
     asked = ["diff-index", "--cached", "--name-only", "-z", "HEAD"]
     differ = set(under.git(*asked, doing="read the index").split("\0")) & set(what.paths)

@@ -19,10 +19,10 @@ from pathlib import Path
 from pico.diagnostics import PicoError
 from pico.history.git import command as git
 from pico.history.writing.claim import Claim, GitFolders, Goal, Said
+from pico.history.writing.commit_object import NewCommit, make
 from pico.history.writing.index_lock import index_lock
-from pico.history.writing.made import NewCommit, make
+from pico.history.writing.locked_git import LockedGit, listed
 from pico.history.writing.shelving import dropped, shelf, stored
-from pico.history.writing.under import Under, listed
 from pico.history.writing.worktree import bring
 
 _HOOK = "reference-transaction"
@@ -59,9 +59,9 @@ def advance(at: GitFolders, start: Start, steps: Sequence[NewCommit], reason: st
     made: list[str] = []
 
     def work(claim: Claim) -> None:
-        files = Under(at, claim, _FILES)
+        files = LockedGit(at, claim, _FILES)
         for step in steps:
-            _restaged(Under(at, claim), start.base, step.tree)
+            _restaged(LockedGit(at, claim), start.base, step.tree)
             bring(files, (start.base, *claim.said().trees), step.tree, partial(claim.will_write, step.tree))
             made.append(make(files, step, (start.base, *made)[-1]))
             claim.will_write(made[-1])  # a hook may have changed the files
@@ -77,8 +77,8 @@ def go(at: GitFolders, start: Start, to: Goal) -> None:
     """Let files, index and HEAD go from one commit to another; raises PicoError as `advance` does."""
 
     def work(claim: Claim) -> None:
-        _restaged(Under(at, claim), start.base, to.tree or to.commit)
-        bring(Under(at, claim, _FILES), (start.base,), to.tree or to.commit, lambda: claim.leads(to))
+        _restaged(LockedGit(at, claim), start.base, to.tree or to.commit)
+        bring(LockedGit(at, claim, _FILES), (start.base,), to.tree or to.commit, lambda: claim.leads(to))
 
     _pass(at, start, work)
 
@@ -117,10 +117,10 @@ def settle(at: GitFolders, claim: Claim) -> SettledClaim:
 
 
 def _onwards(at: GitFolders, claim: Claim, said: Said, base: str, to: Goal) -> SettledClaim:
-    index = Under(at, claim)
+    index = LockedGit(at, claim)
     if to.shelf and not to.tree and (why := stored(index, to)):
         return SettledClaim(why=why)  # the edits stay where they are
-    kept = bring(Under(at, claim, _FILES), (base, *said.trees), to.tree or to.commit)
+    kept = bring(LockedGit(at, claim, _FILES), (base, *said.trees), to.tree or to.commit)
     if to.tree:
         return SettledClaim(True, kept, dropped(index, to) if to.shelf else None)
     if to.shelf:
@@ -137,14 +137,14 @@ def _onwards(at: GitFolders, claim: Claim, said: Said, base: str, to: Goal) -> S
 
 
 def _back(at: GitFolders, claim: Claim, said: Said, base: str) -> SettledClaim:
-    kept = bring(Under(at, claim, _FILES), said.trees, base)
-    index = Under(at, claim)
+    kept = bring(LockedGit(at, claim, _FILES), said.trees, base)
+    index = LockedGit(at, claim)
     _restaged(index, said.trees[-1], base)
     index.adopt()
     return SettledClaim(False, kept)
 
 
-def _restaged(index: Under, before: str, after: str) -> None:
+def _restaged(index: LockedGit, before: str, after: str) -> None:
     """Make an index as git's own, with what leads from one tree to another; what else is staged in it stays.
 
     Raises PicoError where what is staged would be lost.
@@ -154,7 +154,7 @@ def _restaged(index: Under, before: str, after: str) -> None:
     index.git("update-index", "-q", "--refresh", doing="look at the files", ends=(0, 1))
 
 
-def _unstaged(index: Under, trees: Sequence[str], base: str) -> None:
+def _unstaged(index: LockedGit, trees: Sequence[str], base: str) -> None:
     """Make an index as git's own, in which files that trees hold otherwise are as in `base`."""
     index.begin()
     for tree in trees:
@@ -164,7 +164,7 @@ def _unstaged(index: Under, trees: Sequence[str], base: str) -> None:
             index.git("reset", "--quiet", base, *listed(index.at, paths), doing="take back what was staged")
 
 
-def _move_head(index: Under, base: str, to: Goal) -> None:
+def _move_head(index: LockedGit, base: str, to: Goal) -> None:
     """Let HEAD, and the branch that it names, go from `base` to a goal, where it has not done so already."""
     root = index.at.root
     now = git.answer(root, ["rev-parse", "--verify", "--quiet", "HEAD"]).strip()

@@ -15,8 +15,8 @@ from pico.history.git import command as git
 from pico.history.git.places import places
 from pico.history.writing import index_lock
 from pico.history.writing.claim import Claim, GitFolders, Goal, Said
+from pico.history.writing.locked_git import list_of
 from pico.history.writing.passage import settle
-from pico.history.writing.under import list_of
 
 SETTLED = 1.0
 """Seconds for which the lock of a ref must not change to be called left over; git holds one for milliseconds."""

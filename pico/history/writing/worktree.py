@@ -17,7 +17,7 @@ from pathlib import Path
 
 from pico.diagnostics import PicoError, error
 from pico.disk import unwritable
-from pico.history.writing.under import Under
+from pico.history.writing.locked_git import LockedGit
 
 _NOTHING = "0" * 40
 _FOLDER = "folder"
@@ -35,7 +35,7 @@ class WantedFile:
     known: frozenset[str]
 
 
-def bring(under: Under, known: Sequence[str], to: str, begin: Callable[[], None] | None = None) -> tuple[str, ...]:
+def bring(under: LockedGit, known: Sequence[str], to: str, begin: Callable[[], None] | None = None) -> tuple[str, ...]:
     """Let each file be as in the tree `to` where it is as in one of the `known`; return the paths of the others.
 
     Files that no two of the trees hold otherwise are not looked at, nor those that a sparse checkout leaves out. The
@@ -69,7 +69,7 @@ def bring(under: Under, known: Sequence[str], to: str, begin: Callable[[], None]
     return kept
 
 
-def _wanted(under: Under, known: Sequence[str], to: str) -> dict[str, WantedFile]:
+def _wanted(under: LockedGit, known: Sequence[str], to: str) -> dict[str, WantedFile]:
     left_out = _left_out(under)
     found: dict[str, WantedFile] = {}
     for tree in known:
@@ -83,13 +83,13 @@ def _wanted(under: Under, known: Sequence[str], to: str) -> dict[str, WantedFile
     return found
 
 
-def _left_out(under: Under) -> set[str]:
+def _left_out(under: LockedGit) -> set[str]:
     """Return the files that the working tree is not to have (a sparse checkout)."""
     entries = under.on(str(under.at.index)).git("ls-files", "-t", "-z", doing="list the files").split("\0")
     return {entry[2:] for entry in entries if entry.startswith("S ")}
 
 
-def _present(under: Under, wanted: Mapping[str, WantedFile]) -> dict[str, str]:
+def _present(under: LockedGit, wanted: Mapping[str, WantedFile]) -> dict[str, str]:
     """Return by path the blob that each file would be, zeros where there is none."""
     root = under.at.root
     gone = {root / p for p, w in wanted.items() if w.blob == _NOTHING}
@@ -143,7 +143,7 @@ def _refuse(paths: Sequence[str], wanted: Mapping[str, WantedFile]) -> None:
             raise PicoError(error("dirty", "edits that are not committed would be lost", detail=named, hint=hint))
 
 
-def _prepare(under: Under, paths: Sequence[str], folder: Path) -> None:
+def _prepare(under: LockedGit, paths: Sequence[str], folder: Path) -> None:
     """Let git write files as the index has them into a folder, and have them on the disk."""
     shutil.rmtree(folder, ignore_errors=True)
     if paths:

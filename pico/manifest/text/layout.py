@@ -40,28 +40,28 @@ class Layout:
         self.content = content
         self.at = 0
 
-    def entries(self, document: Document, *, spread: frozenset[str]) -> tuple[list[str], list[Entry]]:
-        """Return the comments above a document, and its entries; no mapping below a key of `spread` stays in flow."""
+    def entries(self, document: Document, *, block_style: frozenset[str]) -> tuple[list[str], list[Entry]]:
+        """Return the comments above a document, and its entries; none below a key of `block_style` stays in flow."""
         root = document.root
         if not isinstance(root, Map):
             return [], []
         first = next(iter(root.entries.values()))[0].start if root.entries else root.end
         head = [line for _, line in self._gap(first)]
-        return head, self._map(root, spread)
+        return head, self._map(root, block_style)
 
     def tail(self, entries: list[Entry], end: int) -> list[str]:
         """Return the comments below the last entry, as far as they don't belong to it."""
         gap = self._gap(end)
         return self._give_foot(entries, gap, 0)
 
-    def _map(self, node: Map, spread: frozenset[str]) -> list[Entry]:
+    def _map(self, node: Map, block_style: frozenset[str]) -> list[Entry]:
         entries: list[Entry] = []
         for name, (key, value) in node.entries.items():
             column = self._column(key.start)
             lead = self._lead(entries, key.start, column)
             entry = Entry(self.content[key.start : key.end] or '""', column, lead)
             self.at = key.end
-            self._fill(entry, value, frozenset({"*"}) if name in spread or "*" in spread else frozenset())
+            self._fill(entry, value, frozenset({"*"}) if name in block_style or "*" in block_style else frozenset())
             entries.append(entry)
         return entries
 
@@ -76,21 +76,21 @@ class Layout:
             entries.append(entry)
         return entries
 
-    def _fill(self, entry: Entry, node: Node, spread: frozenset[str]) -> None:
+    def _fill(self, entry: Entry, node: Node, block_style: frozenset[str]) -> None:
         if isinstance(node, Scalar):
             entry.lead += [line for _, line in self._gap(max(node.start, self.at)) if line]
             entry.value = _scalar(self.content, node)
             self.at = max(self.at, node.end)
             entry.trail = self._trail()
-        elif node.flow and self._stays_flow(node, spread, entry):
+        elif node.flow and self._stays_flow(node, block_style, entry):
             entry.lead += [line for _, line in self._gap(node.start) if line]
             entry.value = _flow(self.content, node)
             self.at = node.end
             entry.trail = self._trail()
         else:
-            self._fill_block(entry, node, spread)
+            self._fill_block(entry, node, block_style)
 
-    def _fill_block(self, entry: Entry, node: Map | List, spread: frozenset[str]) -> None:
+    def _fill_block(self, entry: Entry, node: Map | List, block_style: frozenset[str]) -> None:
         if node.flow:
             entry.lead += [line for _, line in self._gap(node.start) if line]
             self.at = node.start + 1
@@ -98,7 +98,7 @@ class Layout:
             self.at = self.content.find(":", self.at, node.start) + 1 or self.at
         if entry.key is not None:
             entry.trail = self._trail()
-        entry.below = self._map(node, spread) if isinstance(node, Map) else self._list(node)
+        entry.below = self._map(node, block_style) if isinstance(node, Map) else self._list(node)
         if node.flow:
             entry.below[-1].foot += [line for _, line in self._gap(node.end) if line]
             self.at = node.end
@@ -108,11 +108,11 @@ class Layout:
             elif trail:
                 entry.foot.append(trail.strip())
 
-    def _stays_flow(self, node: Map | List, spread: frozenset[str], entry: Entry) -> bool:
+    def _stays_flow(self, node: Map | List, block_style: frozenset[str], entry: Entry) -> bool:
         text = self.content[node.start : node.end]
         if not (node.entries if isinstance(node, Map) else node.items):
             return "#" not in text
-        if "*" in spread and isinstance(node, Map):
+        if "*" in block_style and isinstance(node, Map):
             return False
         if any(True for _ in comments(self.content, node.start, node.end, node)):
             return False

@@ -13,9 +13,9 @@ from typing import Any
 import yaml
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.manifest.text.broken import conflict, explain
 from pico.manifest.text.scalars import Plain, resolve
 from pico.manifest.text.source import Source
+from pico.manifest.text.syntax_errors import conflict, explain
 
 MAX_DEPTH = 32
 MAX_NODES = 100_000

@@ -34,7 +34,7 @@ PROOF_WORK = 30_000
 
 
 @dataclass(frozen=True, slots=True)
-class Hunted:
+class StagingSearch:
     """The moves, or None; `least`: stagings below which no order of these movers' moves goes. Without moves: `core`,
     movers that are proven not to get home together, if known, the configuration that came closest, and whether it is
     `proven` that there is no order. `slots`: where storage has no room for the fewest stagings, how many free slots
@@ -54,22 +54,22 @@ def stagings(steps: Sequence[OrderedMove]) -> int:
     return len(steps) - len({s.mover for s in steps})
 
 
-def hunt(table: Conflicts, *, several: bool = False) -> Hunted:
+def search_fewest(table: Conflicts, *, several: bool = False) -> StagingSearch:
     """Return the moves with the fewest stagings that were found, and how few there must be; `several`: and what else a
     longer search finds."""
     for i, mover in enumerate(table.movers):
         if not mover.right and not any(table.ways(i, 0, g) for g in mover.goals):
             alone = search(table, PROOF, (i,))
             if alone.exhausted:
-                return Hunted(None, 0, (i,), alone.closest, True)
+                return StagingSearch(None, 0, (i,), alone.closest, True)
     relaxed = fewest_staged(relaxation(table), BOUND)
     if relaxed.options is None and relaxed.proven:
         core = tuple(sorted({i for cycle in relaxed.cycles for link in cycle for i in (link[0], link[2])}))
-        return Hunted(None, 0, core, (0,) * len(table.movers), True)
+        return StagingSearch(None, 0, core, (0,) * len(table.movers), True)
     least = _least(table, relaxed)
     answers = _with_room(table, relaxed)
     for steps in answers:
-        return Hunted(steps, least, others=tuple(_others(table, answers)) if several else ())
+        return StagingSearch(steps, least, others=tuple(_others(table, answers)) if several else ())
     slots = slots_needed(relaxation(table), relaxed) if relaxed.options is not None else 0
     found = _searched(table)
     if found.steps is not None:
@@ -77,7 +77,7 @@ def hunt(table: Conflicts, *, several: bool = False) -> Hunted:
     core = _core(table, found.closest)
     if not core and len(table.movers) <= COMPLETE:
         found = search(table, EVERYTHING)
-    return Hunted(found.steps, least, core, found.closest, bool(core) or found.exhausted, slots)
+    return StagingSearch(found.steps, least, core, found.closest, bool(core) or found.exhausted, slots)
 
 
 def _least(table: Conflicts, relaxed: StagingAnswer) -> int:
@@ -120,15 +120,15 @@ def _searched(table: Conflicts) -> Found:
     return found
 
 
-def _compared(table: Conflicts, steps: tuple[OrderedMove, ...], least: int, slots: int) -> Hunted:
+def _compared(table: Conflicts, steps: tuple[OrderedMove, ...], least: int, slots: int) -> StagingSearch:
     """Return the moves, or fewer where a complete search of a small table finds them, which proves their number."""
     if stagings(steps) == least:
-        return Hunted(steps, least)
+        return StagingSearch(steps, least)
     if len(table.movers) <= COMPLETE and not any(m.right or m.penalty for m in table.movers):
         found = search(table, FEWEST)
         if found.steps is not None:
-            return Hunted(found.steps, stagings(found.steps), slots=slots)
-    return Hunted(steps, least, slots=slots)
+            return StagingSearch(found.steps, stagings(found.steps), slots=slots)
+    return StagingSearch(steps, least, slots=slots)
 
 
 def _core(table: Conflicts, closest: Configuration) -> tuple[int, ...]:

@@ -68,7 +68,7 @@ class _Search:
     finished: tuple[frozenset[int], ...]
     _storage: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
-    def taken(self, places: Configuration) -> int:
+    def occupied(self, places: Configuration) -> int:
         union = 0
         for i in self.who:
             union |= self.table.bit(i, places[i])
@@ -188,10 +188,10 @@ def search(
     """Return the steps that bring the movers `who` (all where None; the others are left out of the world) to their
     goals, or None. `work` takes the place of the effort's own limit."""
     names = tuple(range(len(table.movers))) if who is None else tuple(who)
-    hunt = _Search(table, names, effort, tuple(m.finished for m in table.movers))
+    searched = _Search(table, names, effort, tuple(m.finished for m in table.movers))
     work = work or Expansions(effort.limit)
     start: Configuration = (0,) * len(table.movers)
-    closest, fewest = start, len(hunt.pending(start))
+    closest, fewest = start, len(searched.pending(start))
     costs: dict[Configuration, float] = {start: 0.0}
     parents: dict[Configuration, tuple[Configuration, OrderedMove]] = {}
     heap: list[tuple[float, int, int, Configuration, float]] = [(effort.weight * fewest, fewest, 0, start, 0.0)]
@@ -208,15 +208,15 @@ def search(
             return Found(None, False, closest, expanded)
         work.left -= 1
         expanded += 1
-        taken = hunt.taken(places)
-        for step, price in hunt.moves(places, taken):
+        taken = searched.occupied(places)
+        for step, price in searched.moves(places, taken):
             after = (*places[: step.mover], step.goal, *places[step.mover + 1 :])
             total = cost + price
             if total >= costs.get(after, float("inf")):
                 continue
             costs[after], parents[after] = total, (places, step)
             pushed += 1
-            done = hunt.finished[step.mover]
+            done = searched.finished[step.mover]
             remaining = left - (step.goal in done) + (step.start in done)
             heapq.heappush(heap, (total + effort.weight * remaining, remaining, pushed, after, total))
     return Found(None, True, closest, expanded)

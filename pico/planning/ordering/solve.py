@@ -9,7 +9,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.motion.types import Motion
 from pico.planning.ordering.conflicts import Conflicts
-from pico.planning.ordering.fewest_stagings import COMPLETE, hunt, stagings
+from pico.planning.ordering.fewest_stagings import COMPLETE, search_fewest, stagings
 from pico.planning.ordering.paths import NoPath, Paths, find_paths
 from pico.planning.ordering.search import Configuration, OrderedMove
 from pico.planning.ordering.shorten import shortened
@@ -102,7 +102,7 @@ def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
     table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
     blocked: list[NoPath] = []
     while True:
-        found = hunt(table, several=problem.fastest)
+        found = search_fewest(table, several=problem.fastest)
         if found.steps is None:
             return Refusal(table, found.core, found.closest, found.proven, tuple(blocked), found.slots)
         answers = dict.fromkeys(shortened(table, steps) for steps in (found.steps, *found.others))

@@ -7,7 +7,7 @@ from datetime import datetime
 
 from pico.diagnostics import PicoError, error
 from pico.history.git import command as git
-from pico.history.writing.under import Under
+from pico.history.writing.locked_git import LockedGit
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class NewCommit:
         return f"commit {self.name}".strip()
 
 
-def make(under: Under, step: NewCommit, parent: str) -> str:
+def make(under: LockedGit, step: NewCommit, parent: str) -> str:
     """Make a commit on `parent`, and return its id; the index of `under`, and the files, are as it shall have them.
 
     A hook may change index and message, and refuse: raises PicoError with its words, or with git's.
@@ -46,7 +46,7 @@ def make(under: Under, step: NewCommit, parent: str) -> str:
     return under.git(*words, doing=step.doing, stdin=message, extra=_author(step)).strip()
 
 
-def _message(under: Under, step: NewCommit) -> str:
+def _message(under: LockedGit, step: NewCommit) -> str:
     """Return the message as the hooks leave it, cleaned up as git does where no editor was open."""
     path = under.at.own / "COMMIT_EDITMSG"
     path.write_text(step.message, encoding="utf-8")

@@ -17,7 +17,7 @@ _SAFE = ("-c", "core.fsync=committed,loose-object,index,reference", "-c", "core.
 
 
 @dataclass(frozen=True)
-class Under:
+class LockedGit:
     """Runs git under a claim, on the index `name` in PICO's own folder: the lock of git's own index is taken."""
 
     at: GitFolders
@@ -29,9 +29,9 @@ class Under:
         """The index that git is told of."""
         return self.at.private / self.name
 
-    def on(self, name: str) -> Under:
+    def on(self, name: str) -> LockedGit:
         """Return the same with another index."""
-        return Under(self.at, self.claim, name)
+        return LockedGit(self.at, self.claim, name)
 
     def git(
         self, *arguments: str, doing: str, stdin: str = "", hook: str | None = None, ends: Sequence[int] = (0,),
