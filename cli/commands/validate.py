@@ -27,10 +27,16 @@ def validate(
     from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
     from pico.optics.ends import stray_beams
+    from pico.planning.checks.bolted import check_bolted
 
     session = Session.of(context)
     asked = (
-        lambda root, read: [*overlapping(read), *stray_beams(*read.require()), *doubts_in(root, read)],
+        lambda root, read: [
+            *check_bolted(read.require()[0], read.source),
+            *overlapping(read),
+            *stray_beams(*read.require()),
+            *doubts_in(root, read),
+        ],
         missing_files,
     )
     where = session.folder

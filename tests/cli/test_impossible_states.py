@@ -83,3 +83,11 @@ def test_a_branch_that_moved_during_an_apply_is_told(shel: Path) -> None:
     process = started(shel, "apply", "e1", "--auto-approve")
     git(shel, "branch", "-f", "e1", "e2")
     assert f"The bench equals e1 as it was when it was planned ({commit})." in finished(process, shel)
+
+
+def test_bolted_parts_in_one_another_are_found_by_validate(shel: Path, pico: Pico) -> None:
+    assert "bolted" not in pico("validate").err
+    edit(shel / "lab.yaml", "pose: {x: 222, y: 420, yaw: 0}", "pose: {x: 130, y: 420, yaw: 0}")
+    answer = pico("validate")
+    assert "hwp is bolted at (130, 420, 0°) and laser at (120, 420, 0°): their bases would overlap by" in answer.err
+    assert "state/table.yaml:" in answer.err and answer.code == 0
