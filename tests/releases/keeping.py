@@ -45,7 +45,7 @@ def restore(kept: Path, lab: Path) -> None:
     with sqlite3.connect(lab / ".pico/journal.sqlite") as journal:
         journal.executescript((kept / "journal.sql").read_text())
     shutil.copy(kept / "world.json", lab / ".pico/sim")
-    for plan in (kept / "plans").iterdir():
+    for plan in (kept / "plans").glob("*"):
         shutil.copy(plan, lab)
 
 
