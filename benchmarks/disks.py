@@ -9,8 +9,8 @@ Afterwards: nobody speaks of a mistake in PICO; the message says which disk and 
 (moved, written into manifests, committed); no temporary file, lock or torn file is left (save one that a read-only
 disk did not let go of, the journal that SQLite plays back, and the lock of what PICO says that it will end: the next
 call must clear them); success was said only where the command did all of it; and the same command on the mended disk,
-after what its hint asks for, reaches what it reaches on a good one. Prints a table, and what was wrong; the exit code
-is 1 where anything was.
+after what its hint asks for, reaches what it reaches on a good one (or a plan has nothing to do). Prints a table, and
+what was wrong; the exit code is 1 where anything was.
 """
 
 from __future__ import annotations
@@ -429,7 +429,8 @@ def mended(judge: Judge, case: Case, code: int | None, good: Good) -> tuple[list
         judge.run(judge.lab, *way[1].split(), *(["--auto-approve"] if way[1] == "recover" else []))
         again = judge.run(judge.lab, *case.words)
     after, wrong, said = judge.state(case.out), [], ""
-    if after != good.after and not (case.adds and 0 in (code, again)):
+    led = bool(way) and judge.run(judge.lab, "plan", "--detailed-exitcode") == 0  # what was seen is written otherwise
+    if after != good.after and not led and not (case.adds and 0 in (code, again)):
         wrong.append("not reached after")
         said = f"\n-- again, on the mended disk: {again}\n{judge.said.read_text()}"
         differ = {name for name in (*after, *good.after) if after.get(name) != good.after.get(name)}
