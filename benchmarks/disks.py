@@ -418,7 +418,7 @@ def answered(judge: Judge, case: Case, fault: str, code: int | None, said: str, 
     for words, before, after in zip(STANDING, good.standing, now, strict=True):
         if words in said and before != after:
             yield f"untrue: {words}"
-    if code == 1 and now == good.standing and case.tells and STANDING[1] not in said:
+    if code == 1 and case.tells and not re.search(f"{STANDING[1]}|manifests changed", said):
         yield "does not say what was not done"
 
 
