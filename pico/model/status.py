@@ -9,7 +9,7 @@ from typing import Any
 from pico.diagnostics import PicoError, error
 from pico.model.diff import Change, deviation, diff_observed, diff_states, place_json, show_value, slot_left
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, doubtful
+from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.record import record
 from pico.model.state import LabState, place_of
@@ -105,7 +105,7 @@ def _pose_row(
     part = seen.components.get(name)
     note = _note(setup, name, part)
     live = part.pose if part and not note else None
-    in_slot = slot_left(setup, name, live, goal) if live else None
+    in_slot = (slot_left(setup, name, live, goal) or _said(setup, slot, live)) if live else None
     return StatusRow(
         component=name,
         tunable="pose",
@@ -118,6 +118,11 @@ def _pose_row(
         aside=_aside(setup, name, in_slot, live) if in_slot and live else "",
         **_verdict((name, "pose"), off, moved),
     )
+
+
+def _said(setup: Setup, slot: str | None, live: Pose) -> str | None:
+    """Return the slot that the state names, where a part is in it."""
+    return slot if slot and slot_at(setup, live) == slot else None
 
 
 def _value_rows(
