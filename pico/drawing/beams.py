@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.optics.axis import Vector, beams
+from pico.optics.axis import Values, Vector, beams
 from pico.twin.placement import Placement
 
 Place = Pose | Placement
@@ -19,9 +20,18 @@ def flat(poses: Mapping[str, Place]) -> dict[str, Pose]:
     return {name: at.pose if isinstance(at, Placement) else at for name, at in poses.items()}
 
 
-def beam_paths(setup: Setup, poses: Mapping[str, Place]) -> Sequence[tuple[str, Vector, Vector]]:
-    """Return (source, start, end) [mm] of each straight piece of the beams."""
-    return [(axis.source, leg.start, leg.end) for axis in beams(setup, standing(poses)) for leg in axis.legs]
+def beam_paths(
+    setup: Setup, poses: Mapping[str, Place], values: Values | None = None
+) -> Sequence[tuple[str, Vector, Vector]]:
+    """Return (source, start, end) [mm] of each straight piece of the beams of the lasers that shine, as far as `values`
+    tell: emission not off, and their own shutter not closed."""
+    known = values or {}
+    axes = (axis for axis in beams(setup, standing(poses), known) if not _dark(known.get(axis.source, {})))
+    return [(axis.source, leg.start, leg.end) for axis in axes for leg in axis.legs]
+
+
+def _dark(laser: Mapping[str, Any]) -> bool:
+    return laser.get("emission") is False or laser.get("shutter") == "closed"
 
 
 def standing(poses: Mapping[str, Place]) -> dict[str, Pose]:

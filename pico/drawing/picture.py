@@ -13,6 +13,7 @@ from pico.model.pose import Pose
 from pico.motion.engine import require_mujoco
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints
+from pico.optics.axis import Values
 from pico.twin.placement import Placement, upright
 
 if TYPE_CHECKING:
@@ -49,23 +50,25 @@ def render(
     marks: Sequence[Mark] = (),
     steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
+    values: Values | None = None,
 ) -> Image:
     """Return a picture (height, width, 3) of the bench, sRGB.
 
     `poses`: where components stand, by name; a `Placement` where one does not stand on its base; names that are
     missing are not drawn. `joints`: of each robot [rad], parked where missing. `beams`: draw the light of sources up to
-    what stops it. In the view from above only: `ghosts`, where components are to go, dashed; `marks`, what is in whose
-    way, red; `steps`, what is moved where, numbered, with a list below that makes the picture higher; `dimensions`,
-    lengths.
+    what stops it; with `values`, as those say: mirrors tipped, nothing of a laser that is off. In the view from above
+    only: `ghosts`, where components are to go, dashed; `marks`, what is in whose way, red; `steps`, what is moved
+    where, numbered, with a list below that makes the picture higher; `dimensions`, lengths.
     """
     if view == "top":
         from pico.drawing.topview import draw
 
         return draw(
             setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams,
-            marks=marks, steps=steps, dimensions=dimensions,
+            values=values, marks=marks, steps=steps, dimensions=dimensions,
         )  # fmt: skip
-    return _perspective(setup, poses, joints, width, height, labels, beams)
+    light = glow(setup, poses, values=values) if beams else ()
+    return _perspective(setup, poses, joints, width, height, labels, light)
 
 
 def png(image: Image) -> bytes:
@@ -94,7 +97,7 @@ def _perspective(
     width: int,
     height: int,
     labels: bool,
-    beams: bool,
+    light: tuple[Beam, ...],
 ) -> Image:
     from pico.drawing.perspective import Stage, photograph
     from pico.twin.surfaces import surfaces
@@ -103,7 +106,6 @@ def _perspective(
     model, data = posed_model(setup, places, joints)
     points = scene_extent(setup, model, data)
     view = viewpoint(setup, points, width, height)
-    light = glow(setup, poses) if beams else ()
     stage = Stage(model, data, surfaces(setup, model, places), light, center_of(setup))
     image = photograph(stage, view)
     if labels:
@@ -184,13 +186,15 @@ def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
     return framing(points, _AZIMUTH, _ELEVATION, _FIELD, width, height, margin=0.04)
 
 
-def glow(setup: Setup, lit: Mapping[str, Place], poses: Mapping[str, Place] | None = None) -> tuple[Beam, ...]:
+def glow(
+    setup: Setup, lit: Mapping[str, Place], poses: Mapping[str, Place] | None = None, *, values: Values | None = None
+) -> tuple[Beam, ...]:
     """Return the light of each source among `lit`, up to what stops it among `poses`."""
     import numpy as np
 
     from pico.drawing.perspective import Beam
 
-    paths = beam_paths(setup, lit if poses is None else poses)
+    paths = beam_paths(setup, lit if poses is None else poses, values)
     return tuple(Beam(np.array(start) / 1000, np.array(end) / 1000) for name, start, end in paths if name in lit)
 
 

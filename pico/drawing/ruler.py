@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
@@ -18,7 +18,7 @@ from pico.drawing.picture import placed, posed_model
 from pico.model.lab import Setup
 from pico.model.pose import short
 from pico.motion.types import Joints
-from pico.optics.axis import beams
+from pico.optics.axis import Axis, Values, beams
 from pico.twin.placement import Placement
 
 Vector = tuple[float, float, float]
@@ -117,9 +117,11 @@ class Measured:
 
 
 def measure(
-    setup: Setup, poses: Mapping[str, Place], joints: Mapping[str, Joints], first: str, second: str
-) -> Measured:
-    """Return how far the ends named `first` and `second` are apart; raises PicoError naming each that is not there."""
+    setup: Setup, poses: Mapping[str, Place], joints: Mapping[str, Joints], first: str, second: str,
+    values: Values | None = None,
+) -> Measured:  # fmt: skip
+    """Return how far the ends named `first` and `second` are apart; `values` of mirrors and irises count along a beam.
+    Raises PicoError naming each that is not there."""
     places = placed(poses)
     problems: list[Diagnostic] = []
     ends = []
@@ -134,14 +136,15 @@ def measure(
     if not (a.component and b.component and a.component != b.component):
         return Measured(a, b, Span(a.at, b.at), None, _along(places, a, b))
     between = _surfaces(setup, places, joints, a.component, b.component)
-    ways = [*_ways(setup, poses, a.component, b.component), *_ways(setup, poses, b.component, a.component)]
+    axes = list(beams(setup, standing(poses), values))
+    ways = [*_ways(axes, a.component, b.component), *_ways(axes, b.component, a.component)]
     shortest = tuple(sorted(ways, key=lambda way: way.length))
     return Measured(a, b, Span(a.at, b.at), between, _along(places, a, b), shortest)
 
 
-def _ways(setup: Setup, poses: Mapping[str, Place], first: str, then: str) -> Iterator[ByLight]:
+def _ways(axes: Iterable[Axis], first: str, then: str) -> Iterator[ByLight]:
     """Yield each way of a beam from one component to another."""
-    for axis in beams(setup, standing(poses)):
+    for axis in axes:
         known = set()
         for way in axis.ways(then):
             starts = [n for n, met in enumerate(way[:-1]) if met.component == first]

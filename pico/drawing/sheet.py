@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from pico.drawing import parts_list as partslist
 from pico.drawing.beams import Place, beam_paths, flat
@@ -12,6 +12,7 @@ from pico.drawing.svg import Box, Drawing, Point, text_box, text_width
 from pico.model.lab import Box2, Setup, Slot
 from pico.model.pose import Pose
 from pico.motion.kinematics import span
+from pico.optics.axis import Values, Vector
 from pico.twin.surfaces import HOLE_RADIUS
 
 _INK, _FAINT, _EDGE, _HOLE = "#222831", "#6b7480", "#788a8a", "#d3d8de"
@@ -23,8 +24,9 @@ COLORS = {
 _HALF_SLOT = 36.0
 
 
-def sheet(setup: Setup, poses: Mapping[str, Place], *, subtitle: str = "") -> str:
-    """Return the SVG of a bench with components at `poses`; `subtitle` says which state it is."""
+def sheet(setup: Setup, poses: Mapping[str, Place], *, subtitle: str = "", values: Values | None = None) -> str:
+    """Return the SVG of a bench with components at `poses`; `subtitle` says which state it is, `values` as
+    `render` takes them."""
     places = flat(poses)
     width, depth = setup.lab.table.size
     size = max(width, depth) / 100
@@ -36,7 +38,7 @@ def sheet(setup: Setup, poses: Mapping[str, Place], *, subtitle: str = "") -> st
     drawing = Drawing(whole, height, (margin, head + depth))
     _table(drawing, setup, size, subtitle)
     labels = _fixed(drawing, setup, places, size)
-    _beams(drawing, setup, poses)
+    _beams(drawing, beam_paths(setup, poses, values))
     for name, pose in sorted(places.items()):
         _component(drawing, setup, name, pose)
     _names(drawing, setup, places, labels, size)
@@ -144,9 +146,9 @@ def _arcs(drawing: Drawing, setup: Setup, center: Point, radius: float, size: fl
         drawing.shape(arc, closed=False, stroke=_MOVER, stroke_width=0.1 * size, stroke_dasharray=dash)
 
 
-def _beams(drawing: Drawing, setup: Setup, poses: Mapping[str, Place]) -> None:
+def _beams(drawing: Drawing, paths: Iterable[tuple[str, Vector, Vector]]) -> None:
     drawing.group("beams")
-    for _, start, end in beam_paths(setup, poses):
+    for _, start, end in paths:
         drawing.shape((start[:2], end[:2]), closed=False, stroke=_BEAM, stroke_width=1.5)
 
 

@@ -18,6 +18,7 @@ from pico.model.lab import Box2, Robot, Setup
 from pico.model.pose import Pose
 from pico.motion.kinematics import span, tool_pose
 from pico.motion.types import Joints
+from pico.optics.axis import Values
 from pico.twin.lettering import Color
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def draw(
     ghosts: Mapping[str, Pose],
     labels: bool,
     beams: bool,
+    values: Values | None = None,
     marks: Sequence[Mark] = (),
     steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
@@ -68,7 +70,7 @@ def draw(
         if robot.model == "xarm7":
             _draw_reach(canvas, setup, robot)
     if beams:
-        for _, start, end in beam_paths(setup, poses):
+        for _, start, end in beam_paths(setup, poses, values):
             canvas.line((start[:2], end[:2]), _BEAM, 1.2)
     places = flat(poses)
     for name, pose in sorted(places.items()):

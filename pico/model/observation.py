@@ -92,6 +92,14 @@ class Observation:
     person: bool | None = None
     problems: tuple[Diagnostic, ...] = ()
 
+    @property
+    def known_values(self) -> dict[str, dict[str, Value]]:
+        """The tunables that were read back, by component, in the units of the catalog."""
+        return {
+            name: {t: v.value for t, v in part.values.items() if v.status == "known" and v.value is not None}
+            for name, part in self.components.items()
+        }
+
 
 def doubtful(setup: Setup, name: str, part: ObservedComponent) -> bool:
     """Return whether a component was seen less exactly than it must stand: then nobody can say that it is right."""

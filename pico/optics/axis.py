@@ -19,11 +19,15 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 
 Vector = tuple[float, float, float]
+Values = Mapping[str, Mapping[str, Any]]
+"""Tunables of components by name, in the units of the catalog."""
 Event = Literal["passed", "reflected", "divided", "detected", "blocked", "left"]
 LEGS = 256
 """Straight pieces after which a beam that goes round and round is followed no more."""
 
 _ENDS: Mapping[str, Event] = {"mirror": "reflected", "beam_splitter": "divided", "detector": "detected"}
+_FACES: Mapping[str, float] = {"mirror": -1.0, "detector": 1.0}
+"""Along which side of its normal light must come to an element that has one face."""
 _NEAR = 1e-6  # mm: what a ray has just left
 _RADIANS = {"mrad": 1e-3, "deg": math.pi / 180, "rad": 1.0}
 
@@ -109,12 +113,11 @@ class _Optic:
     radius: float
 
 
-def axis_of(
-    setup: Setup, poses: Mapping[str, Pose], source: str, values: Mapping[str, Mapping[str, Any]] | None = None
-) -> Axis:
+def axis_of(setup: Setup, poses: Mapping[str, Pose], source: str, values: Values | None = None) -> Axis:
     """Return the beam of `source` among the components that stand at `poses` (the source one of them).
 
-    `values`: their tunables in the units of the catalog, of which `tip` and `tilt` of mirrors count; 0 where unknown.
+    `values`: their tunables in the units of the catalog, of which `tip` and `tilt` of mirrors count, 0 where unknown,
+    and the `opening` of an iris, wide open where unknown.
     """
     known = values or {}
     optics = [_optic(setup.type_of(n), n, pose, known.get(n, {})) for n, pose in poses.items()]
@@ -133,9 +136,7 @@ def axis_of(
     return Axis(source, tuple(legs))
 
 
-def beams(
-    setup: Setup, poses: Mapping[str, Pose], values: Mapping[str, Mapping[str, Any]] | None = None
-) -> Iterator[Axis]:
+def beams(setup: Setup, poses: Mapping[str, Pose], values: Values | None = None) -> Iterator[Axis]:
     """Yield the beam of each source that stands on the table, by name."""
     for name in sorted(poses):
         if setup.type_of(name).optics.element == "source":
@@ -148,6 +149,7 @@ def _optic(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]
     center = aperture.center if aperture else (0.0, 0.0, 0.0)
     x, y = pose.apply(*center[:2])
     tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if element == "mirror" else (0.0, 0.0)
+    opening = values.get("opening") if element == "iris" else None
     if element == "beam_splitter":
         # what comes along +x is divided to `fold` degrees from it: the coating stands half way
         tip = math.radians(float(kind.optics.properties.get("fold", 90.0)) / 2 + 90.0)
@@ -155,7 +157,10 @@ def _optic(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2]) if aperture else None
     shape = placed(geometry.footprint, pose)
-    return _Optic(name, element, shape, geometry.height, where, normal, aperture.diameter / 2 if aperture else 0.0)
+    width = aperture.diameter if aperture else 0.0
+    if isinstance(opening, int | float):
+        width = min(width, float(opening))
+    return _Optic(name, element, shape, geometry.height, where, normal, width / 2)
 
 
 def _aperture(kind: ComponentType) -> ClearAperture | None:
@@ -201,11 +206,11 @@ def _through(ray: _Ray, optic: _Optic) -> float | None:
     """Return where a ray meets the plane of an optic within its clear aperture [mm ahead], None where it does not.
 
     A splitter is as open on each side of its cube, so there the distance to the ray counts, too, and the coating is as
-    long as that takes; a mirror is seen from its face only.
+    long as that takes; mirrors and detectors are seen from their face only.
     """
     assert optic.center is not None
     facing = _dot(ray.towards, optic.normal)
-    if abs(facing) < 1e-6 or (optic.element == "mirror" and facing > 0):
+    if abs(facing) < 1e-6 or facing * _FACES.get(optic.element, facing) < 0:
         return None
     offset = _minus(optic.center, ray.at)
     far = _dot(offset, optic.normal) / facing

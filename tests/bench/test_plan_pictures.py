@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -12,10 +13,12 @@ import pytest
 import pico
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
+from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
 from pico.bench.pictures.contents import goals, marks, places
 from pico.drawing.conflict_marks import Mark
 from pico.history.examples.example import make_example
+from pico.model.plan import Plan
 
 P2 = "  p2:\n    pose:\n      x: 520"
 
@@ -44,13 +47,20 @@ def red(image: np.ndarray) -> int:
 
 
 def carrying(bench: Bench) -> str:
-    """Stop a run at once while a component is in the gripper; return which."""
-    run = bench.run(bench.plan("e1"))
-    for event in run:
-        if event.kind == "operation_progress" and event.data.get("phase") == "transit":
-            run.stop()
-    (held,) = run.report.held.values()
-    return held
+    """Stop a run at once while a component is in the gripper; return which. In the loop of the run, which a blocking
+    caller would race."""
+
+    async def stopped(plan: Plan) -> str:
+        own = AsyncBench.open(bench.root)
+        run = own.run(plan)
+        async for event in run:
+            if event.data.get("phase") == "transit":
+                await run.stop()
+        await own.close()
+        (held,) = run.report.held.values()
+        return held
+
+    return asyncio.run(stopped(bench.plan("e1")))
 
 
 def test_a_held_component_is_drawn_in_the_hand(folder: Path) -> None:

@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 from physical import LABS, bench
 
+from pico.bench.bench import Bench
 from pico.drawing.picture import placed, posed_model, render, scene_extent, viewpoint, write_png
 from pico.drawing.topview import new_canvas
+from pico.history.examples.example import make_example
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.state import home_state, place_of
@@ -125,3 +127,14 @@ loaded = maps.read_text() if maps.exists() else ""
 assert not any(library in loaded for library in ("libEGL", "libGL.", "libGLX", "libOSMesa"))
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_laser_that_is_off_throws_no_beam(tmp_path: Path) -> None:
+    make_example("minimal", tmp_path / "lab")
+    with Bench.open(tmp_path / "lab") as bench:
+        laser = next(n for n in bench.setup.lab.inventory if bench.setup.type_of(n).optics.element == "source")
+        shown = [bench.render(view="top", size=(W, H)).astype(int)]
+        bench.apply()
+        shown.append(bench.render(view="top", size=(W, H)).astype(int))
+    red = [((image[:, :, 0] - image[:, :, 2] > 90) & (image[:, :, 1] < 110)).sum() for image in shown]
+    assert bench.state.components[laser].values["emission"] is True and red[0] < red[1]

@@ -99,7 +99,7 @@ def met(setup, name, pose, line, start, way):  # type: ignore[no-untyped-def]
                 return [(here.distance(crossing), name, "divided", [way, (way / coating).conjugate() * coating])]
             if element == "mirror" and ahead:
                 return [(here.distance(crossing), name, "reflected", [(way / coating).conjugate() * coating])]
-            if element == "detector":
+            if element == "detector" and ahead:
                 return [(here.distance(crossing), name, "detected", [])]
     outline = kind.geometry.footprint
     shape = Point(pose.x, pose.y).buffer(outline.disc, 4096) if outline.disc else Polygon(

@@ -119,6 +119,34 @@ def test_the_back_of_a_mirror_and_a_block_end_the_beam(setup: Setup) -> None:
         assert [m.event for m in axis.meetings] == ["blocked"] and not axis.reaches(name)
 
 
+def test_a_detector_sees_light_from_its_face_only(setup: Setup) -> None:
+    for yaw, event in ((0, "detected"), (180, "blocked"), (30, "detected"), (120, "blocked")):
+        turned = math.radians(yaw)
+        at = Pose(900 + 27 * math.cos(turned), 300 + 27 * math.sin(turned), yaw)
+        axis = axis_of(setup, {"source0": Pose(100, 300), "detector0": at}, "source0")
+        assert axis.meetings[0].event == event, yaw
+
+
+@pytest.mark.parametrize(("opening", "event"), [(1.0, "blocked"), (5.9, "blocked"), (6.1, "passed"), (11.5, "passed")])
+def test_an_iris_is_as_open_as_it_is_set(setup: Setup, opening: float, event: str) -> None:
+    poses = {"source0": Pose(100, 300), "iris": Pose(500, 303)}
+    parts = {**setup.lab.inventory, "iris": Part(type="iris", home="none")}
+    with_iris = replace(setup, lab=replace(setup.lab, inventory=parts))
+    axis = axis_of(with_iris, poses, "source0", {"iris": {"opening": opening}})
+    assert axis.meetings[0].event == event
+
+
+def test_the_ruler_and_pictures_know_how_mirrors_are_tipped(setup: Setup) -> None:
+    poses = {"source0": Pose(100, 300), "mirror0": Pose(700, 300, -43), "detector0": Pose(700, 600, 90)}
+    straight = {"mirror0": {"tip": -math.radians(2) * 1000}}
+    assert measure(setup, poses, {}, "source0", "detector0").ways == ()
+    (way,) = measure(setup, poses, {}, "source0", "detector0", straight).ways
+    assert way.length == pytest.approx(600 - 60 + 300 - 27, abs=1)
+    assert beam_paths(setup, poses, straight)[-1][2] == pytest.approx((700, 573, 70), abs=0.1)
+    for dark in ({"emission": False}, {"shutter": "closed"}):
+        assert beam_paths(setup, poses, {"source0": dark}) == []
+
+
 def test_light_that_comes_back_ends_at_the_laser(setup: Setup) -> None:
     axis = axis_of(setup, {"source0": Pose(500, 300), "mirror0": Pose(900, 300)}, "source0")
     assert [(m.component, m.event) for m in axis.meetings] == [("mirror0", "reflected"), ("source0", "blocked")]

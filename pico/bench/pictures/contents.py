@@ -43,6 +43,11 @@ def standing(setup: Setup, state: LabState) -> dict[str, Place]:
     return {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
 
 
+def wanted(state: LabState) -> dict[str, Mapping[str, Any]]:
+    """Return the tunables that a state wants, by component."""
+    return {name: part.values for name, part in state.components.items()}
+
+
 def goals(setup: Setup, plan: Plan) -> dict[str, Pose]:
     """Return where the components are to stand that a plan moves, or would have to."""
     ends = ends_of(setup, plan)

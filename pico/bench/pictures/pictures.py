@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from pico.drawing.picture import Image, View
     from pico.drawing.ruler import Measured
     from pico.motion.types import Joints
+    from pico.optics.axis import Values
     from pico.twin.placement import Placement
 
 
@@ -52,15 +53,16 @@ class Drawings(Reader, ABC):
         manifest, drawn dashed and numbered, with a list below; where it is impossible, what is in whose way, in red.
         `size`: width and height [pixels], without that list. `out`: write it there, too, as PNG. Raises PicoError.
         """
-        from pico.bench.pictures.contents import goals, marks, standing, steps
+        from pico.bench.pictures.contents import goals, marks, standing, steps, wanted
         from pico.drawing.picture import render, write_png
 
         if plan is True:
             plan = await self._planned(revision)
         drawn = plan if isinstance(plan, Plan) else None
-        poses, joints = await self._live()
+        poses, joints, values = await self._live()
         if not drawn and (revision or manifest):
-            poses = standing(self.setup, self.state_at(revision) if revision else self.state)
+            state = self.state_at(revision) if revision else self.state
+            poses, values = standing(self.setup, state), wanted(state)
         image = render(
             self.setup,
             poses,
@@ -71,6 +73,7 @@ class Drawings(Reader, ABC):
             ghosts=goals(self.setup, drawn) if drawn else None,
             marks=marks(self.setup, drawn) if drawn else (),
             steps=steps(drawn) if drawn else (),
+            values=values,
         )
         if out is not None:
             write_png(image, out)
@@ -79,25 +82,26 @@ class Drawings(Reader, ABC):
     async def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:
         """Return a drawing of the bench from above as SVG at true scale, with its parts list: as it is, or as a
         revision or the manifest wants it; raises PicoError."""
-        from pico.bench.pictures.contents import standing
+        from pico.bench.pictures.contents import standing, wanted
         from pico.drawing.sheet import sheet
 
-        poses, _ = await self._live()
+        poses, _, values = await self._live()
         title = self.head_name()
         if revision or manifest:
-            poses = standing(self.setup, self.state_at(revision) if revision else self.state)
+            state = self.state_at(revision) if revision else self.state
+            poses, values = standing(self.setup, state), wanted(state)
             title = self.name_of(revision) if revision else "the manifest"
-        return sheet(self.setup, poses, subtitle=title)
+        return sheet(self.setup, poses, subtitle=title, values=values)
 
     def render_diff(self, a: str | None = None, b: str | None = None, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of how state `a` (HEAD) becomes `b` (the manifest), numbered
         in the order of `diff`; raises PicoError."""
-        from pico.bench.pictures.contents import differences, standing
+        from pico.bench.pictures.contents import differences, standing, wanted
         from pico.drawing.picture import render, write_png
 
         before, after = self.state_at(a or "HEAD"), self.state_at(b) if b else self.state
         found = differences(self.setup, before, after, self.diff(a, b))
-        image = render(self.setup, standing(self.setup, before), {}, view="top", steps=found)
+        image = render(self.setup, standing(self.setup, before), {}, view="top", steps=found, values=wanted(before))
         if out is not None:
             write_png(image, out)
         return image
@@ -107,15 +111,15 @@ class Drawings(Reader, ABC):
         `pico.drawing.ruler`; raises PicoError."""
         from pico.drawing.ruler import measure
 
-        poses, joints = await self._live()
-        return measure(self.setup, poses, joints, a, b)
+        poses, joints, values = await self._live()
+        return measure(self.setup, poses, joints, a, b, values)
 
     async def render_ruler(self, measured: Measured, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of what `ruler` found."""
         from pico.drawing.picture import render, write_png
 
-        poses, joints = await self._live()
-        image = render(self.setup, poses, joints, view="top", dimensions=measured.dimensions)
+        poses, joints, values = await self._live()
+        image = render(self.setup, poses, joints, view="top", dimensions=measured.dimensions, values=values)
         if out is not None:
             write_png(image, out)
         return image
@@ -130,15 +134,15 @@ class Drawings(Reader, ABC):
         loop = asyncio.get_running_loop()
 
         def now() -> tuple[Mapping[str, Placement], Mapping[str, Joints]]:
-            poses, joints = asyncio.run_coroutine_threadsafe(self._live(), loop).result()
+            poses, joints, _ = asyncio.run_coroutine_threadsafe(self._live(), loop).result()
             return placed(poses), joints
 
         await asyncio.to_thread(view, self.setup, now)
 
-    async def _live(self) -> tuple[dict[str, Place], dict[str, Joints]]:
-        """Return where components are, and the joints of each robot."""
+    async def _live(self) -> tuple[dict[str, Place], dict[str, Joints], Values]:
+        """Return where components are, the joints of each robot, and what is known of tunables."""
         from pico.bench.pictures.contents import places
 
         seen = await self.observe()
         found = places(self.setup, seen, self._in_space())
-        return found, {name: robot.joints for name, robot in seen.robots.items()}
+        return found, {name: robot.joints for name, robot in seen.robots.items()}, seen.known_values
