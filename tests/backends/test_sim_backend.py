@@ -15,7 +15,7 @@ from pico.backends.hardware import HardwareBackend
 from pico.backends.protocol import Backend, Lease
 from pico.backends.sim.backend import SimBackend
 from pico.backends.sim.hand import nudge
-from pico.backends.sim.store import change_world, load_world, world_path
+from pico.backends.sim.store import change_world, load_world, reset_world, world_path
 from pico.backends.sim.world import new_world
 from pico.diagnostics import ExitCode, PicoError
 from pico.model.lab import Policy
@@ -253,6 +253,28 @@ def test_a_broken_world_does_not_leave_the_bench_locked(bench: SimBackend) -> No
     for _ in range(2):
         with pytest.raises(PicoError, match=r"world\.json"):
             asyncio.run(bench.acquire("test"))
+
+
+def test_a_table_that_was_moved_and_is_not_stored_is_an_error_until_it_is_reset(bench: SimBackend) -> None:
+    executed(bench, move("p1", P1, GOAL))
+    world_path(bench.root).unlink()
+    with pytest.raises(PicoError, match=r"world\.json .*it is not there, and the journal has runs") as caught:
+        asyncio.run(bench.observe())
+    assert caught.value.diagnostics[0].code == "world-file" and "pico sim reset" in caught.value.diagnostics[0].hint
+    reset_world(SETUP, bench.root, "test")
+    assert asyncio.run(bench.observe()).components["p1"].pose == P1
+
+
+@pytest.mark.parametrize("backend", [None, "emulated"])
+def test_a_journal_without_a_simulated_run_does_not_ask_for_a_simulated_table(
+    bench: SimBackend, backend: str | None
+) -> None:
+    assert not bench.journal.runs()
+    if backend:
+        bench.journal.begin_run("r1", "plan", "test", about={"environment": {"backend": backend}})
+        executed(bench, move("p1", P1, GOAL))
+        world_path(bench.root).unlink()
+    assert asyncio.run(bench.observe()).components["p1"].pose == P1
 
 
 def test_measuring_is_refused_until_light_is_simulated(bench: SimBackend) -> None:

@@ -102,3 +102,15 @@ def test_stop_asks_no_manifest(shel: Path, pico: Pico) -> None:
     edit(shel / "state" / "table.yaml", "components:", "component:")
     assert pico("plan").code == 1
     assert pico("stop").code == 0
+
+
+def test_a_simulated_table_that_is_gone_is_never_taken_for_one_with_every_part_at_home(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    (shel / ".pico" / "sim" / "world.json").unlink()
+    before = (shel / "state" / "table.yaml").read_text()
+    for command in ("status", "plan", "capture", "commit --capture -m x", "apply --auto-approve"):
+        said = pico(*command.split())
+        assert said.code == 1 and "error[world-file]" in said.err and "pico sim reset" in said.err, command
+    assert (shel / "state" / "table.yaml").read_text() == before
+    assert pico("sim", "reset").code == 0
+    assert pico("plan", "--detailed-exitcode").code == 2

@@ -6,7 +6,7 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,7 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
     """Return the simulated table of the lab in `root` and what had to change because the lab did.
 
     A lab without one gets a new world; nothing is written, and what a killed writer left is cleared. Raises PicoError
-    where the file can't be read.
+    where the file can't be read, and where it is gone though the journal says that this table was moved.
     """
     path = world_path(root)
     with suppress(OSError):
@@ -41,6 +41,8 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
+        if _was_moved(root):
+            raise PicoError(_broken(path, "it is not there, and the journal has runs that moved this table")) from None
         return new_world(setup), ()
     except (OSError, UnicodeDecodeError) as exc:
         raise PicoError(_broken(path, getattr(exc, "strerror", None) or "it is not text")) from exc
@@ -50,6 +52,23 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
         what = f"no {exc}" if isinstance(exc, KeyError) else str(exc)
         raise PicoError(_broken(path, what)) from exc
     return reconcile(setup, world)
+
+
+def _was_moved(root: Path) -> bool:
+    """Return whether the journal, if it can be read, has a simulated run in which anything was done."""
+    path = bench_folder(root) / "journal.sqlite"
+    if not path.exists():
+        return False
+    from pico.runs.journal import Journal
+
+    with suppress(PicoError), closing(Journal(path, looking=True)) as journal:
+        runs = (run for run in journal.moving() if _simulated(journal.about(run)[0]))
+        return any(record.kind == "done" for run in runs for record in journal.records(run=run))
+    return False  # looking must not fail because of the journal
+
+
+def _simulated(about: tuple[Mapping[str, Any], ...]) -> bool:
+    return all(begun.get("environment", {}).get("backend", "sim") == "sim" for begun in about)
 
 
 def save_world(root: Path, world: World, *, durable: bool = True) -> None:
