@@ -125,6 +125,7 @@ def with_stranger(world: World, marker: int, pose: Pose) -> World:
     return replace(world, unknown={f"unknown/{marker}": thing})
 
 
+@pytest.mark.slow
 def test_a_marker_that_is_there_twice_is_neither_part(tmp_path: Path) -> None:
     change(tmp_path, lambda w: with_stranger(w, 3, Pose(700, 250)))
     seen = observe(tmp_path)

@@ -63,6 +63,7 @@ def carrying(bench: Bench) -> str:
     return asyncio.run(stopped(bench.plan("e1")))
 
 
+@pytest.mark.slow
 def test_a_held_component_is_drawn_in_the_hand(folder: Path) -> None:
     with pico.open(folder) as bench:
         held = carrying(bench)

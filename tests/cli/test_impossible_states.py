@@ -67,6 +67,7 @@ def test_a_file_that_was_only_touched_or_commented_is_still_the_manifest(shel: P
     assert "The bench equals the manifest." in finished(process, shel)
 
 
+@pytest.mark.slow
 def test_a_checkout_during_an_apply_is_told_and_a_revision_stays_what_it_is(shel: Path) -> None:
     process = started(shel, "apply", "--auto-approve")
     git(shel, "checkout", "-q", "e1")

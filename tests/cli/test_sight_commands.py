@@ -64,6 +64,7 @@ def test_a_part_is_found_by_hole_slot_and_uncertainty(seeing: Path, pico: Pico) 
     assert answer.code == 1 and answer.out == "Nobody sees p2.\n" and "its place is in plain view" in answer.err
 
 
+@pytest.mark.slow
 def test_cameras_that_moved_stop_everything(seeing: Path, pico: Pico) -> None:
     pico("sim", "bump", "left", "--dx", "5")
     for words in (["plan"], ["apply", "--auto-approve"], ["capture"], ["drift"], ["status"]):
@@ -91,6 +92,7 @@ def forgotten(root: Path, *names: str) -> None:
         path.write_text(text)
 
 
+@pytest.mark.slow
 def test_what_stands_there_is_imported_and_nothing_is_left_to_do(seeing: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
     forgotten(seeing, "p2", "lx_100")

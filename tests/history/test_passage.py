@@ -165,7 +165,12 @@ def test_killed_in_its_hooks_nothing_is_half_written_and_the_next_command_says_s
     assert look(lab)[0] != before[0]
 
 
-@pytest.mark.parametrize("name", ["merge", "fast-forward", "revert", "cherry-pick"])
+SLOW = pytest.mark.slow
+
+
+@pytest.mark.parametrize(
+    "name", ["merge", "cherry-pick", pytest.param("fast-forward", marks=SLOW), pytest.param("revert", marks=SLOW)]
+)
 def test_killed_while_head_moves_it_is_finished_and_done_again_there_is_nothing_to_do(
     origin: Path, lab: Path, name: str
 ) -> None:

@@ -230,6 +230,7 @@ def moment(
     return None, held_still(robot, before)
 
 
+@pytest.mark.slow
 def test_the_arms_hand_a_part_over_in_the_physical_world(tmp_path: Path) -> None:
     make_example("two_arms", tmp_path / "lab")
     with Bench.open(tmp_path / "lab", fidelity="physics") as bench:

@@ -13,6 +13,7 @@ sys.path.append(str(ROOT / "benchmarks"))
 import identical  # noqa: E402
 
 
+@pytest.mark.slow
 def test_the_order_of_sets_changes_no_byte() -> None:
     ours, theirs = (identical.plans(sys.executable, hashes, ["minimal", "random"]) for hashes in (1, 2))
     assert len(ours) > 10

@@ -166,6 +166,7 @@ def test_odd_files_show_their_ordinary_diff(lab: Lab, content: bytes) -> None:
     assert ordinary and _lines_of_git(said.decode(errors="replace")) == ordinary.decode(errors="replace")
 
 
+@pytest.mark.slow
 def test_every_kind_of_change_looks_as_git_shows_it(lab: Lab) -> None:
     git, folder = lab.git, lab.folder
     git("mv", "state/table.yaml", "state/other name.yaml")
