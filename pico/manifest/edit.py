@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.changes import Change, Changes, differences
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
+from pico.manifest.text.places import find
 from pico.manifest.text.source import Source
 from pico.manifest.text.splice import Editor, apply_splices
 from pico.manifest.text.tree import Document, Map, Node, Scalar, parse, plain
@@ -83,11 +84,17 @@ def largest_state(files: Mapping[str, bytes]) -> str:
     return max(texts, key=lambda path: len(_named(texts[path])))
 
 
-def components_of(data: bytes) -> frozenset[str]:
-    """Return the components that the LabStates in a file name; none of a file that can't be read."""
+def components_of(data: bytes, lab: str = "") -> frozenset[str]:
+    """Return the components that the LabStates (of a `lab`) in a file name; none of a file that can't be read."""
     source = decode("manifest", data)[0] if b"LabState" in data else None
     documents = parse(source)[0] if source else []
-    return frozenset(name for d in documents if kind_of(d)[0] == "LabState" for name, _ in _parts(d))
+    states = [d for d in documents if kind_of(d)[0] == "LabState" and (not lab or _lab(d) == lab)]
+    return frozenset(name for d in states for name, _ in _parts(d))
+
+
+def _lab(document: Document) -> str:
+    node = find(document, "metadata", "lab")
+    return node[1].text if node and isinstance(node[1], Scalar) else ""
 
 
 def _is_state(path: str, data: bytes) -> bool:

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import PurePosixPath
 
 from pico.diagnostics import Diagnostic, error
 from pico.manifest.text.source import Source
-from pico.model.lab import Setup
-from pico.model.state import LabState
 
 MAX_BYTES = 2 * 1024 * 1024
 SUFFIX = ".yaml"
@@ -21,7 +18,10 @@ _DECLARED = re.compile(
     rb"""^(?:(?:\{[ \t]*)?['"]?apiVersion['"]?|[ \t{]*"apiVersion")[ \t]*:[ \t]*['"]?pico/""", re.MULTILINE
 )
 _MARKS = b"\xef\xbb\xbf\xff\xfe"
+# With `.yaml` somewhere in it; or without an extension, or with one for what is set aside.
+_ASIDE = re.compile(r"[.#]*(.+?)\.ya?ml(?![a-z]).*|[.#]*([^.]+?)(?:\.(?:bak|old|orig|save|off|disabled))?[~# ]*", re.I)
 UNSEEN, GONE = "unseen", "gone"
+AWAY = "delete it, or move it out of the lab's folder"
 PASSED_OVER = (UNSEEN, GONE, "symlink")
 """Codes of what is said of a file that is not read: of one that nobody can look at, of one deleted, of a link."""
 
@@ -45,6 +45,17 @@ def hidden(path: str) -> bool:
 def named_as_manifest(path: str) -> bool:
     """Return whether a file's name is that of a manifest, or of one in another spelling: `.yml`, `.YAML`."""
     return PurePosixPath(path).suffix.lower() in _LIKE
+
+
+def set_aside_from(path: str) -> str:
+    """Return the name that a manifest had before it was set aside as `path`: `p1.yaml` of `p1.yaml~`, `.p1.yaml`, `p1`.
+
+    Empty for a name that no such file has, and for one that is read or told by itself (`p1.yml`).
+    """
+    name = PurePosixPath(path).name
+    told = named_as_manifest(name) and not hidden(path)
+    match = None if told else _ASIDE.fullmatch(name)
+    return f"{match[1] or match[2]}{SUFFIX}" if match else ""
 
 
 def declares_api(data: bytes) -> bool:
@@ -76,9 +87,15 @@ def unseen(path: str, why: str, hint: str) -> Diagnostic:
     return replace(about(path, UNSEEN, f"{why}: PICO can't tell whether manifests lie there", hint), severity="warning")
 
 
-def weighed(found: Iterable[Diagnostic], setup: Setup | None, state: LabState | None) -> list[Diagnostic]:
-    """Return diagnostics with an error for each thing unseen, where it may name a part that would else go home."""
-    parts = setup.lab.inventory if setup else {}
-    if setup and state and all(part.home is None or name in state.components for name, part in parts.items()):
-        return list(found)
-    return [replace(d, severity="error") if d.code == UNSEEN else d for d in found]
+@dataclass(frozen=True, slots=True)
+class SetAside(Diagnostic):
+    """A manifest at `path` that is not read, and its `data`: what it names counts once the state is known."""
+
+    path: str = ""
+    data: bytes = b""
+
+
+def set_aside(path: str, data: bytes) -> list[Diagnostic]:
+    """Return what to weigh of a file whose name is that of one set aside; nothing where it is no manifest."""
+    summary, at = f"{path}: a manifest that is not read", Source(path, "").range(0)
+    return [SetAside("note", "name", summary, source=at, path=path, data=data)] if declares_api(data) else []

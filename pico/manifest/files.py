@@ -5,20 +5,23 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.manifest.file_names import (
     MAX_BYTES,
-    SUFFIX,
     about,
     declares_api,
     hidden,
+    is_manifest,
     misnamed_manifest,
     named_as_manifest,
+    set_aside,
+    set_aside_from,
 )
-from pico.manifest.links import head_of, manifest_behind
+from pico.manifest.links import head_of, manifest_behind, small_state
 from pico.manifest.text.source import Source
 
 MAX_LEVELS = 64
@@ -56,7 +59,7 @@ def read_folder(root: Path) -> tuple[dict[str, bytes], list[Diagnostic]]:
         path = Path(entry.path)
         shown = _below(root, path)
         try:
-            if entry.name.endswith(SUFFIX):
+            if is_manifest(entry.name):
                 files[shown] = _read(path, shown)
             else:
                 found.extend(_passed_over(entry, shown, root))
@@ -81,17 +84,24 @@ def _walk(root: Path, found: list[Diagnostic]) -> Iterator[os.DirEntry[str]]:
             continue
         folders = {e: Path(e.path) for e in reversed(listed) if e.is_dir(follow_symlinks=False)}
         below += [path for entry, path in folders.items() if not hidden(entry.name)]
-        for entry in listed:
-            if (
-                entry not in folders
-                and not hidden(entry.name)
-                and (named_as_manifest(entry.name) or entry.is_symlink())
-            ):
-                yield entry
+        names = {entry.name for entry in listed}
+        yield from (entry for entry in listed if entry not in folders and _counts(entry, names))
+
+
+def _counts(entry: os.DirEntry[str], beside: Container[str]) -> bool:
+    """Return whether a file or link may be a manifest, or one that is set aside and no copy of what is read."""
+    if not hidden(entry.name) and (named_as_manifest(entry.name) or entry.is_symlink()):
+        return True
+    was = set_aside_from(entry.name)
+    return bool(was) and was not in beside
 
 
 def _passed_over(entry: os.DirEntry[str], shown: str, root: Path) -> list[Diagnostic]:
     """Return what to say of a link, or of a file that is not called as manifests are."""
+    if set_aside_from(entry.name) and (hidden(entry.name) or not entry.is_symlink()):
+        with suppress(OSError):
+            return set_aside(shown, small_state(Path(entry.path)))
+        return []
     try:
         if entry.is_symlink():
             target = Path(entry.path).readlink()

@@ -20,6 +20,7 @@ from pico.manifest.file_names import (
     unseen,
 )
 
+_BEGINNING = 4096
 MOST = 10_000
 """Files and folders that are looked at behind one link. A folder with more holds data, and no 10 to 50 components."""
 
@@ -80,6 +81,15 @@ def _search(goal: Path, root: Path, *, named: bool) -> str | None:
 
 def _ours(path: Path) -> bool:
     return declares_api(head_of(path))
+
+
+def small_state(path: Path) -> bytes:
+    """Return a small file that may hold a state; nothing of others. Raises OSError."""
+    if path.is_symlink() or not path.is_file() or path.stat().st_size > MAX_BYTES:
+        return b""
+    with path.open("rb") as file:
+        start = file.read(_BEGINNING)
+        return start + file.read() if b"LabState" in start else b""
 
 
 def head_of(path: Path) -> bytes:

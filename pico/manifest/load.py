@@ -12,7 +12,7 @@ from pico.diagnostics import Diagnostic, PicoError, SourceRange, error
 from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_broken
 from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
 from pico.manifest.checks.labs import check_lab, check_setup
-from pico.manifest.file_names import PASSED_OVER, misnamed_manifest, named_as_manifest, weighed
+from pico.manifest.file_names import PASSED_OVER, misnamed_manifest, named_as_manifest
 from pico.manifest.files import decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
 from pico.manifest.state import read_states
@@ -20,6 +20,7 @@ from pico.manifest.text.kinds import headless, kind_of
 from pico.manifest.text.places import find, where, where_key
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map, Scalar, parse
+from pico.manifest.weighing import weighed
 from pico.model.catalog import ComponentType
 from pico.model.lab import Lab, Setup
 from pico.model.state import LabState

@@ -73,6 +73,33 @@ def test_a_plan_says_which_deleted_file_sends_parts_home(split: Path, pico: Pico
     assert "more/p2.yaml: deleted since HEAD, and no other file names p2" in said.err
 
 
+def test_a_state_that_git_renamed_is_an_error_of_plan_and_validate_once_it_is_committed(
+    split: Path, pico: Pico
+) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    _git("mv", "more/p2.yaml", "more/p2.yaml.bak")
+    _git("commit", "-qm", "bak")
+    for words in (("plan",), ("plan", "HEAD"), ("validate",), ("apply", "--auto-approve")):
+        said = pico(*words)
+        assert said.code == 1 and "error[name]" in said.err + said.out, words
+        assert "more/p2.yaml.bak: a state with p2 that is not read" in said.err + said.out, words
+    assert pico("log").code == 0
+    _git("mv", "more/p2.yaml.bak", "more/p2.yaml")
+    assert pico("plan", "--detailed-exitcode").code == 0
+
+
+def test_a_plan_says_which_state_without_parts_sends_parts_home(split: Path, pico: Pico) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    (split / "more" / "p2.yaml").write_text(MORE)
+    said = pico("plan", "--detailed-exitcode")
+    assert said.code == 2
+    assert "more/p2.yaml: no part is left since HEAD, and no other file names p2" in said.err
+    _git("commit", "-qam", "cut off")
+    assert "more/p2.yaml" not in pico("plan").err
+    said = pico("plan", "HEAD")
+    assert "HEAD:more/p2.yaml: no part is left in this commit, and no other file names p2" in said.err
+
+
 def test_a_lab_under_another_extension_is_named(shel: Path, pico: Pico) -> None:
     (shel / "lab.yaml").rename(shel / "lab.yml")
     said = pico("plan")

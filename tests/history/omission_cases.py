@@ -135,11 +135,21 @@ def renamed(box: Box, unit: str, rng: random.Random) -> None:
 
 
 def aside(box: Box, unit: str, rng: random.Random) -> None:
-    """A name that no manifest has, a hidden one, or a folder that is left out."""
+    """A name that no manifest has, a hidden one, or a folder with a dot."""
     path = box.lab / unit
     names = [f"{path.name}{end}" for end in (".bak", "~", ".orig", " ", ".txt", ".json")]
-    hidden = [f".{path.name}", f".x/{path.name}", f"runs/{path.name}", f"runs/.{path.stem}", path.stem]
-    goal = path.parent / rng.choice([*names, *hidden])
+    hidden = [f".{path.name}", f".x/{path.name}", f".x/.{path.stem}", f".x/{path.stem}.yml", path.stem]
+    _rename(path, rng.choice([*names, *hidden, f"{path.stem}.bak", f"#{path.name}#"]))
+
+
+def in_runs(box: Box, unit: str, rng: random.Random) -> None:
+    """A folder that is left out, for it holds data, or a name that says nothing."""
+    path = box.lab / unit
+    _rename(path, rng.choice([f"runs/{path.name}", f"runs/.{path.stem}", f"{path.stem}.json", f"{path.stem}.txt"]))
+
+
+def _rename(path: Path, name: str) -> None:
+    goal = path.parent / name
     goal.parent.mkdir(exist_ok=True)
     path.rename(goal)
 
@@ -210,12 +220,14 @@ class Kind:
 
 IN_FOLDER = {
     "sparse": Kind(sparse), "assumed": Kind(assumed), "extension": Kind(renamed, edit=True),
-    "aside": Kind(aside), "link": Kind(linked, edit=True), "elsewhere": Kind(elsewhere, edit=True),
+    "aside": Kind(aside, edit=True), "in runs": Kind(in_runs), "link": Kind(linked, edit=True),
+    "elsewhere": Kind(elsewhere, edit=True),
     "permission": Kind(shut, bound=True),
     "submodule": Kind(unfetched, modules=True),
 }  # fmt: skip
 AT_REVISION = {
-    "extension": Kind(renamed), "link": Kind(linked), "elsewhere": Kind(elsewhere), "damaged": Kind(changed, lost=True),
+    "extension": Kind(renamed), "aside": Kind(aside), "link": Kind(linked),
+    "elsewhere": Kind(elsewhere), "damaged": Kind(changed, lost=True),
     "submodule": Kind(never_fetched, modules=True),
 }  # fmt: skip
 
@@ -231,7 +243,7 @@ class Outcome:
 
     @property
     def silent(self) -> tuple[str, ...]:
-        """The units that were left out, without an error that names the file or a folder above it."""
+        """The units that were left out, without an error that names the file, a folder above it, or its part."""
         if self.state is not None:
             return tuple(u for u in self.units if f"p{UNITS.index(u)}" not in self.state)
         errors = " ".join(d.summary for d in self.said if d.severity == "error")
@@ -240,7 +252,8 @@ class Outcome:
 
 def _names(unit: str) -> tuple[str, ...]:
     path = Path(unit)
-    return (str(path.with_suffix("")), *(f"{p}:" for p in map(str, path.parents) if p != "."))
+    part = f"a state with p{UNITS.index(unit)} that is not read"
+    return (part, str(path.with_suffix("")), *(f"{p}:" for p in map(str, path.parents) if p != "."))
 
 
 def in_folder(box: Box, seed: int, kinds: tuple[str, ...]) -> Outcome:
@@ -298,6 +311,7 @@ def _read_bound(root: Path) -> Outcome:
     """Read the lab as somebody whom permissions bind: for root, in a process that is nobody's."""
     if os.geteuid() != 0:
         return read_lab(root)
+    read_lab(root)  # imports what nobody may not be allowed to
     for folder, _, names in os.walk(root):
         for path in (Path(folder), *(Path(folder) / n for n in names)):
             os.chown(path, NOBODY, NOBODY, follow_symlinks=False)
@@ -349,12 +363,34 @@ def _moved(box: Box) -> None:
     box.git("mv", "optics/lenses.yaml", "state/lenses.yaml")
 
 
+def _backups(box: Box) -> None:
+    """States with p4, which is at home: copies of manifests that are read, states of another lab, and no manifests."""
+    state = _STATE.format(4, 1000)
+    for name in ("top.yaml~", ".top.yaml.swp", ".backup/top.yaml", ".other/lab.yaml", ".other/top.yaml.bak"):
+        (box.lab / name).parent.mkdir(exist_ok=True)
+        (box.lab / name).write_text(state)
+    (box.lab / "README").write_text(f"# The lab\n\n```yaml\n{state}```\n")
+    (box.lab / "template").write_text(state.replace("lab: small", "lab: large"))
+
+
 def _deleted(box: Box) -> None:
     (box.lab / UNITS[1]).unlink()
 
 
 def _removed(box: Box) -> None:
     box.git("rm", "-q", UNITS[1])
+
+
+def _emptied(box: Box) -> None:
+    """Cut off behind `components:`."""
+    path = box.lab / UNITS[1]
+    path.write_text(path.read_text().partition("  p1")[0])
+
+
+def _emptied_json(box: Box) -> None:
+    (box.lab / UNITS[1]).write_text(
+        '{"apiVersion": "pico/v1", "kind": "LabState", "metadata": {"lab": "small"}, "components": {}}\n'
+    )
 
 
 def _unwanted(box: Box) -> None:
@@ -370,7 +406,7 @@ def _with_another_lab(box: Box) -> None:
     (box.lab / UNITS[1]).unlink()
 
 
-WORKING = (_compose, _data, _copies, _aliases, _moved)
+WORKING = (_compose, _data, _copies, _aliases, _moved, _backups)
 """Ways of working that leave nothing out."""
-DELETING = (_deleted, _removed, _unwanted, _with_another_lab)
+DELETING = (_deleted, _removed, _emptied, _emptied_json, _unwanted, _with_another_lab)
 """Ways to say that the parts of a file are not wanted on the table."""

@@ -80,6 +80,41 @@ def test_parts_of_a_deleted_file_go_home_and_a_note_says_so(box: Box, delete: Ca
     assert "optics/lenses.yaml" in said.summary and "p1" in said.summary
 
 
+@pytest.mark.parametrize("delete", DELETING, ids=lambda delete: delete.__name__)
+def test_a_revision_that_deleted_or_emptied_a_file_says_which_parts_go_home_by_that(
+    box: Box, delete: Callable[[Box], None]
+) -> None:
+    box.begin(modules=False)
+    delete(box)
+    box.commit()
+    assert read_lab(box.lab).said == ()
+    (said,) = read_lab(box.lab, "HEAD").said
+    assert said.severity == "note" and said.code == "gone"
+    assert "HEAD:optics/lenses.yaml" in said.summary and "p1" in said.summary
+    (box.lab / "top.yaml").write_text((box.lab / "top.yaml").read_text() + "# as before\n")
+    box.commit()
+    assert read_lab(box.lab, "HEAD").said == ()
+
+
+ASIDE = ("p1", ".p1.yaml", "p1.yaml~", "p1.bak", ".x/p1.yaml", ".p1.yml")
+
+
+@pytest.mark.parametrize("name", ASIDE)
+def test_a_state_set_aside_stays_an_error_once_it_is_committed(box: Box, name: str) -> None:
+    box.begin(modules=False)
+    path = box.lab / "optics" / name
+    path.parent.mkdir(exist_ok=True)
+    (box.lab / "optics" / "lenses.yaml").rename(path)
+    box.commit()
+    (box.lab / "top.yaml").write_text((box.lab / "top.yaml").read_text() + "# as before\n")
+    for shown, found in (("optics", read_lab(box.lab)), ("HEAD:optics", read_lab(box.lab, "HEAD"))):
+        (said,) = found.said
+        assert (said.severity, said.code) == ("error", "name")
+        assert f"{shown}/{name}: a state with p1 that is not read" in said.summary and "delete it" in said.hint
+    path.rename(box.lab / "optics" / "p1.yaml")
+    assert (read_lab(box.lab).state, read_lab(box.lab).said) == (ALL, ())
+
+
 def test_where_an_error_names_the_file_nothing_is_said_of_parts_that_go_home(box: Box) -> None:
     box.begin(modules=False)
     path = box.lab / UNITS[1]

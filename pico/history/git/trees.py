@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Callable, Iterator
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.manifest.file_names import hidden, is_manifest, named_as_manifest
+from pico.manifest.file_names import hidden, is_manifest, named_as_manifest, set_aside_from
 from pico.manifest.files import MAX_LEVELS
 
 Odd = tuple[str, Any]
@@ -20,19 +21,30 @@ Module = Callable[[str, Any], Any]
 """Returns the tree of the submodule at a path of which a tree holds an entry; None where its content is not here."""
 
 
-def manifests(tree: Any, odd: list[Odd] | None = None, module: Module = lambda path, entry: None) -> Iterator[Odd]:
-    """Yield the manifests of a tree, by path; add to `odd` what may hide one: links, submodules, other spellings.
+def manifests(
+    tree: Any,
+    odd: list[Odd] | None = None,
+    module: Module = lambda path, entry: None,
+    aside: list[Odd] | None = None,
+) -> Iterator[Odd]:
+    """Yield the manifests of a tree, by path; add to `odd` what may hide one: links, submodules, other spellings, and
+    to `aside` what is called as one that is set aside, also in folders with a dot.
 
     What `module` returns of a submodule is read as a folder is.
     """
     from pygit2.enums import FileMode
 
-    for path, entry in entries(tree, lambda folder: not hidden(folder), module):
+    def enters(folder: str) -> bool:
+        return not hidden(folder) if aside is None else posixpath.basename(folder) not in ("runs", ".pico")
+
+    for path, entry in entries(tree, enters, module):
         elsewhere = entry.filemode in (FileMode.COMMIT, FileMode.LINK)
         if is_manifest(path) and not elsewhere:
             yield path, entry
         elif odd is not None and (elsewhere or named_as_manifest(path)) and not hidden(path):
             odd.append((path, entry))
+        elif aside is not None and not elsewhere and set_aside_from(path):
+            aside.append((path, entry))
 
 
 def entries(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import posixpath
-from collections.abc import Iterable
-from pathlib import Path
+from collections.abc import Collection, Iterable
+from pathlib import Path, PurePosixPath
 from typing import Any, Protocol
 
 from pico.diagnostics import Diagnostic, PicoError
@@ -16,9 +16,12 @@ from pico.manifest.file_names import (
     declares_api,
     hidden,
     is_manifest,
+    left_out,
     linked,
     misnamed_manifest,
     named_as_manifest,
+    set_aside,
+    set_aside_from,
     unseen,
 )
 from pico.manifest.links import broken_link, manifest_behind
@@ -43,9 +46,10 @@ def read_tree(
     call the commit. Raises PicoError.
     """
     odd: list[Odd] = []
+    aside: list[Odd] = []
     files: dict[str, bytes] = {}
     unread: list[Diagnostic] = []
-    for path, entry in manifests(subtree(top, lab) or (), odd, modules(repository, lab)):
+    for path, entry in manifests(subtree(top, lab) or (), odd, modules(repository, lab), aside):
         data = content_of(entry)
         if data is None:
             hint = "`git fsck` says what is missing; `git fetch` may bring it back"
@@ -53,11 +57,27 @@ def read_tree(
         else:
             files[path] = data
     unread += unread_at(repository, top, lab, odd, name)
+    for path, entry in no_copies(aside, files):
+        unread += set_aside(f"{name}:{path}", content_of(entry) or b"")
     if diagnostics is not None:
         diagnostics += unread
     elif any(d.severity == "error" for d in unread):
         raise PicoError(unread)
     return files
+
+
+def no_copies(aside: Iterable[Odd], files: Collection[str]) -> list[Odd]:
+    """Return what is set aside, without copies of the manifests `files` that are read, and without other labs."""
+    found = list(aside)
+    labs = {posixpath.dirname(path) for path, _ in found if posixpath.basename(path) == "lab.yaml"}
+    names = {posixpath.basename(path) for path in files}
+    return [
+        (path, entry)
+        for path, entry in found
+        if labs.isdisjoint(map(str, PurePosixPath(path).parents))
+        and posixpath.join(posixpath.dirname(path), set_aside_from(path)) not in files
+        and not (left_out(path) and set_aside_from(path) in names)
+    ]
 
 
 def content_of(entry: Any) -> bytes | None:

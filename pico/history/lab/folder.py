@@ -17,7 +17,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
 from pico.history.lab.files import write_file
-from pico.history.lab.missing_files import missing_files
+from pico.history.lab.missing_files import gone_at, missing_files
 from pico.history.lab.notes import Note, note_path, notes, read_note, require_part, with_note
 from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.lock import write_lock
@@ -175,6 +175,7 @@ class LabFolder:
             files = self.history().files(revision, self.root, found)
         except PicoError as exc:
             raise PicoError([_no_revision(d, revision, self.setup) for d in exc.diagnostics]) from exc
+        found += gone_at(self.history(), self.root, revision, files)
         manifests = load_files(_named(revision, files), found, setup=self.setup)
         return replace(manifests, diagnostics=tuple(_at_revision(d, revision) for d in manifests.diagnostics))
 

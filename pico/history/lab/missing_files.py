@@ -1,9 +1,11 @@
-"""What HEAD has of a lab and its folder has not: what somebody deleted, and what git keeps out of the folder."""
+"""What HEAD has of a lab and its folder has not: what somebody deleted, and what git keeps out of the folder; and what
+a revision has no more that the one before it had."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from shlex import quote
@@ -12,11 +14,13 @@ from typing import TYPE_CHECKING, Any
 from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git import command as git
 from pico.history.git.trees import Odd, manifests
-from pico.history.git.unread import content_of, submodule
+from pico.history.git.unread import content_of, no_copies, submodule
+from pico.history.git.unread import modules as modules_of
 from pico.history.lab.unread_states import unread_states
 from pico.manifest.edit import components_of
-from pico.manifest.file_names import GONE, UNSEEN, about, declares_api
+from pico.manifest.file_names import AWAY, GONE, about, declares_api, left_out, set_aside
 from pico.manifest.files import shown_path
+from pico.manifest.links import small_state
 
 if TYPE_CHECKING:
     from pico.history.repository.repository import Repository
@@ -54,25 +58,60 @@ def _missing(
     from pygit2.enums import FileMode
 
     shown = shown_path(root)
-    read = {os.path.relpath(path, shown) for path in files}
+    read = {os.path.relpath(path, shown): data for path, data in files.items()}
     told = [os.path.relpath(d.source.path, shown) for d in found if d.source and d.severity == "error"]
     odd: list[Odd] = []
-    there = dict(manifests(tree, odd))
+    aside: list[Odd] = []
+    there = dict(manifests(tree, odd, aside=aside))
     away = {p: e for p, e in there.items() if p not in read and not any(f"{p}/".startswith(f"{t}/") for t in told)}
     modules = {p: e for p, e in odd if e.filemode == FileMode.COMMIT and _empty(root / p)}
+    said = _in_folders_with_a_dot(root, no_copies(aside, read))
+    gone = named_no_more({p: e for p, e in there.items() if p in read}, read)
     if not (away or modules):
-        return []
+        return [*said, *_gone(root, gone, files)]
     lead = f"{inside}/" if (inside := repository.relative(root)) else ""
     tags = {p.removeprefix(lead): tag for p, tag in _tags(repository, inside).items()}
     lost = [(path, content_of(entry) or b"") for path, entry in sorted(away.items())]
     lost = [(path, data) for path, data in lost if declares_api(data)]
-    said = [_kept_out(root, path, tags.get(path, ""), there.keys()) for path, _ in lost]
-    gone = {path: components_of(data) for (path, data), d in zip(lost, said, strict=True) if d is None}
-    said += [submodule(repository, lead + p, str(e.id), _shown(root, p)) for p, e in modules.items() if p in tags]
-    all_said = [*(d for d in said if d), *_gone(root, gone, files)]
-    # What can't be read may hold the parts of a file that is not there: nothing is said of where they go.
-    refused = any(d.severity == "error" or d.code == UNSEEN for d in (*found, *all_said))
-    return [d for d in all_said if d.code != GONE] if refused else all_said
+    kept_out = [_kept_out(root, path, tags.get(path, ""), there.keys()) for path, _ in lost]
+    gone |= {path: components_of(data) for (path, data), d in zip(lost, kept_out, strict=True) if d is None}
+    kept_out += [submodule(repository, lead + p, str(e.id), _shown(root, p)) for p, e in modules.items() if p in tags]
+    return [*said, *(d for d in kept_out if d), *_gone(root, gone, files)]
+
+
+def named_no_more(there: Mapping[str, Any], files: Mapping[str, bytes]) -> dict[str, frozenset[str]]:
+    """Return the parts that each manifest of a tree (`there`) names which names none in `files`, or is not there."""
+    import pygit2
+
+    emptied = {
+        path: entry
+        for path, entry in there.items()
+        if path not in files or (pygit2.hash(files[path]) != entry.id and not components_of(files[path]))
+    }
+    return {path: components_of(content_of(entry) or b"") for path, entry in emptied.items()}
+
+
+def gone_at(repository: Repository, root: Path, revision: str, files: Mapping[str, bytes]) -> list[Diagnostic]:
+    """Return a note for each manifest of the lab in `root` that a revision, which has `files`, deleted or emptied
+    against its first parent, of the parts that go home by that."""
+    try:
+        tree = repository.tree_at(f"{revision}^", root)
+    except PicoError:  # the first commit, or one whose parents a shallow clone lacks
+        return []
+    there = dict(manifests(tree, module=modules_of(repository, repository.relative(root)))) if tree else {}
+    hint = f"`git diff {revision}^ {revision}` shows it"
+    homeless = _homeless(named_no_more(there, files), files)
+    return [_note(f"{revision}:{p}", p in files, "in this commit", parts, hint) for p, parts in homeless.items()]
+
+
+def _in_folders_with_a_dot(root: Path, aside: Iterable[Odd]) -> list[Diagnostic]:
+    """Return what to weigh of files of HEAD in folders that are not read."""
+    found: list[Diagnostic] = []
+    for path, _ in aside:
+        if left_out(path):
+            with suppress(OSError):
+                found += set_aside(_shown(root, path), small_state(root / path))
+    return found
 
 
 def _empty(folder: Path) -> bool:
@@ -108,28 +147,42 @@ def _kept_out(root: Path, path: str, tag: str, there: Iterable[str]) -> Diagnost
 
 
 def _gone(root: Path, gone: Mapping[str, frozenset[str]], files: Mapping[str, bytes]) -> list[Diagnostic]:
-    """Return a note for each file of HEAD that is not there, of its parts that no other file names; an error where a
-    link may hide it, or a file that is not read names them."""
+    """Return a note for each file of HEAD that is not there or empty, of its parts that no other file names; an error
+    where a link may hide it, or a file that is not read names them."""
+    homeless = _homeless(gone, files)
+    emptied = {path for path in homeless if _shown(root, path) in files}
+    sought = {part for path, parts in homeless.items() if path not in emptied for part in parts}
+    kept = unread_states(root, sought) if sought else {}
+    return [
+        (None if path in emptied else _hidden(root, path)) or _lost(root, path, parts, kept, emptied=path in emptied)
+        for path, parts in homeless.items()
+    ]
+
+
+def _homeless(gone: Mapping[str, frozenset[str]], files: Mapping[str, bytes]) -> dict[str, list[str]]:
+    """Return of the parts in each file that is `gone` those that no other file names."""
     if not any(gone.values()):
-        return []
+        return {}
     named = frozenset().union(*(components_of(data) for data in files.values()))
-    homeless = {path: sorted(parts - named) for path, parts in gone.items() if parts - named}
-    kept = unread_states(root, {part for parts in homeless.values() for part in parts}) if homeless else {}
-    return [_hidden(root, path) or _lost(root, path, parts, kept) for path, parts in homeless.items()]
+    return {path: sorted(parts - named) for path, parts in gone.items() if parts - named}
 
 
-def _lost(root: Path, path: str, parts: Sequence[str], kept: Mapping[str, str]) -> Diagnostic:
-    """Return what to say of the `parts` of a file of HEAD that is not there; some are `kept` in other files."""
+def _lost(root: Path, path: str, parts: Sequence[str], kept: Mapping[str, str], *, emptied: bool) -> Diagnostic:
+    """Return what to say of the `parts` of a file of HEAD that is gone; some are `kept` in other files."""
     shown = _shown(root, path)
     if holder := next((kept[part] for part in parts if part in kept), None):
         names = ", ".join(part for part in parts if kept.get(part) == holder)
         text = f"a state with {names} that is not read, and {shown} of HEAD is not there"
-        goes = f"if {names} shall go home: delete it, or move it out of the lab's folder"
+        goes = f"if {names} shall go home: {AWAY}"
         hint = f"`mv {quote(holder)} {quote(path)}`; {goes}"
         return about(_shown(root, holder), "name", text, hint)
-    text = f"deleted since HEAD, and no other file names {', '.join(parts)}: not wanted on the table"
-    said = about(shown, GONE, text, f"`git restore --staged --worktree {path}` brings it back")
-    return replace(said, severity="note")
+    return _note(shown, emptied, "since HEAD", parts, f"`git restore --staged --worktree {path}` brings it back")
+
+
+def _note(shown: str, emptied: bool, since: str, parts: Sequence[str], hint: str) -> Diagnostic:
+    done = "no part is left" if emptied else "deleted"
+    text = f"{done} {since}, and no other file names {', '.join(parts)}: not wanted on the table"
+    return replace(about(shown, GONE, text, hint), severity="note")
 
 
 def _hidden(root: Path, path: str) -> Diagnostic | None:

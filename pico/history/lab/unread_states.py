@@ -8,12 +8,10 @@ from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 from pico.manifest.edit import components_of
-from pico.manifest.file_names import MAX_BYTES, hidden, named_as_manifest
-from pico.manifest.links import MOST, head_of
+from pico.manifest.file_names import hidden, named_as_manifest
+from pico.manifest.links import MOST, small_state
 
 _OWN = (".git", ".pico")
-_HEADER = b"LabState"
-_BEGINNING = 4096
 
 
 def unread_states(root: Path, parts: Collection[str]) -> Mapping[str, str]:
@@ -24,9 +22,9 @@ def unread_states(root: Path, parts: Collection[str]) -> Mapping[str, str]:
     found: dict[str, str] = {}
     for path in _unread(root):
         with contextlib.suppress(OSError):
-            if _may_be_state(path):
+            if data := small_state(path):
                 inside = os.path.relpath(path, root)
-                found = dict.fromkeys(sorted(components_of(head_of(path)) & set(parts)), inside) | found
+                found = dict.fromkeys(sorted(components_of(data) & set(parts)), inside) | found
     return found
 
 
@@ -44,10 +42,3 @@ def _unread(root: Path) -> Iterator[Path]:
                 return
             if not named_as_manifest(name) or hidden(str(Path(folder, name))):
                 yield Path(at, name)
-
-
-def _may_be_state(path: Path) -> bool:
-    if path.is_symlink() or not path.is_file() or path.stat().st_size > MAX_BYTES:
-        return False
-    with path.open("rb") as file:
-        return _HEADER in file.read(_BEGINNING)
