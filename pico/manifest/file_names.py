@@ -47,15 +47,15 @@ def named_as_manifest(path: str) -> bool:
     return PurePosixPath(path).suffix.lower() in _LIKE
 
 
+@lru_cache(10_000)
 def set_aside_from(path: str) -> str:
     """Return the name that a manifest had before it was set aside as `path`: `p1.yaml` of `p1.yaml~`, `.p1.yaml`, `p1`.
 
     Empty for a name that no such file has, and for one that is read or told by itself (`p1.yml`).
     """
-    name = PurePosixPath(path).name
-    told = named_as_manifest(name) and not hidden(path)
-    match = None if told else _ASIDE.fullmatch(name)
-    return f"{match[1] or match[2]}{SUFFIX}" if match else ""
+    match = _ASIDE.fullmatch(path.rpartition("/")[2])
+    told = match and match[1] and named_as_manifest(path) and not hidden(path)
+    return f"{match[1] or match[2]}{SUFFIX}" if match and not told else ""
 
 
 def declares_api(data: bytes) -> bool:

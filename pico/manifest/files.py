@@ -55,9 +55,10 @@ def read_folder(root: Path) -> tuple[dict[str, bytes], list[Diagnostic]]:
     """
     files: dict[str, bytes] = {}
     found: list[Diagnostic] = []
+    top = Path(shown_path(root))
     for entry in _walk(root, found):
         path = Path(entry.path)
-        shown = _below(root, path)
+        shown = str(top / path.relative_to(root))
         try:
             if is_manifest(entry.name):
                 files[shown] = _read(path, shown)

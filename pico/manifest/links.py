@@ -85,9 +85,10 @@ def _ours(path: Path) -> bool:
 
 def small_state(path: Path) -> bytes:
     """Return a small file that may hold a state; nothing of others. Raises OSError."""
-    if path.is_symlink() or not path.is_file() or path.stat().st_size > MAX_BYTES:
+    about_it = path.lstat()
+    if not stat.S_ISREG(about_it.st_mode) or about_it.st_size > MAX_BYTES:
         return b""
-    with path.open("rb") as file:
+    with path.open("rb", buffering=0) as file:
         start = file.read(_BEGINNING)
         return start + file.read() if b"LabState" in start else b""
 

@@ -74,7 +74,7 @@ def no_copies(aside: Iterable[Odd], files: Collection[str]) -> list[Odd]:
     return [
         (path, entry)
         for path, entry in found
-        if labs.isdisjoint(map(str, PurePosixPath(path).parents))
+        if not (labs and labs.intersection(map(str, PurePosixPath(path).parents)))
         and posixpath.join(posixpath.dirname(path), set_aside_from(path)) not in files
         and not (left_out(path) and set_aside_from(path) in names)
     ]

@@ -65,7 +65,7 @@ def _missing(
     there = dict(manifests(tree, odd, aside=aside))
     away = {p: e for p, e in there.items() if p not in read and not any(f"{p}/".startswith(f"{t}/") for t in told)}
     modules = {p: e for p, e in odd if e.filemode == FileMode.COMMIT and _empty(root / p)}
-    said = _in_folders_with_a_dot(root, no_copies(aside, read))
+    said = _in_folders_with_a_dot(root, no_copies([(p, e) for p, e in aside if "/." in f"/{p}"], read))
     gone = named_no_more({p: e for p, e in there.items() if p in read}, read)
     if not (away or modules):
         return [*said, *_gone(root, gone, files)]
