@@ -32,7 +32,15 @@ def killed(folder: Path, words: tuple[str, ...], seconds: float) -> bool:
     except subprocess.TimeoutExpired:
         os.killpg(running.pid, signal.SIGKILL)
         running.wait()
+        _guards_ended(folder / ".git" / "index.lock")
         return True
+
+
+def _guards_ended(lock: Path) -> None:
+    """Wait until the guard of what was killed has brought it to its end; a lock that a killed git left stays."""
+    deadline = time.monotonic() + 3.0
+    while lock.exists() and time.monotonic() < deadline:
+        time.sleep(0.01)
 
 
 def duration(folder: Path, words: tuple[str, ...]) -> float:
