@@ -105,7 +105,8 @@ def _pose_row(
     part = seen.components.get(name)
     note = _note(setup, name, part)
     live = part.pose if part and not note else None
-    in_slot = (slot_left(setup, name, live, goal) or _said(setup, slot, live)) if live else None
+    at_home = slot and live and slot_at(setup, live) == slot
+    in_slot = slot if at_home else slot_left(setup, name, live, goal) if live else None
     return StatusRow(
         component=name,
         tunable="pose",
@@ -118,11 +119,6 @@ def _pose_row(
         aside=_aside(setup, name, in_slot, live) if in_slot and live else "",
         **_verdict((name, "pose"), off, moved),
     )
-
-
-def _said(setup: Setup, slot: str | None, live: Pose) -> str | None:
-    """Return the slot that the state names, where a part is in it."""
-    return slot if slot and slot_at(setup, live) == slot else None
 
 
 def _value_rows(

@@ -8,7 +8,7 @@ from pico.diagnostics import Diagnostic, warning
 from pico.model.lab import Setup
 from pico.model.pose import short
 from pico.model.state import LabState, place_of
-from pico.optics.axis import Meeting, axis_of
+from pico.optics.axis import Meeting, beams
 
 
 def stray_beams(setup: Setup, state: LabState) -> tuple[Diagnostic, ...]:
@@ -16,13 +16,8 @@ def stray_beams(setup: Setup, state: LabState) -> tuple[Diagnostic, ...]:
     that is no block: shutters count as open."""
     poses = {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
     values = {name: part.values for name, part in state.components.items()}
-    on = (n for n in sorted(poses) if setup.type_of(n).optics.element == "source" and values[n].get("emission") is True)
-    return tuple(
-        found
-        for name in on
-        for end in axis_of(setup, poses, name, values).meetings
-        for found in _stray(setup, name, end)
-    )
+    on = (axis for axis in beams(setup, poses, values) if values.get(axis.source, {}).get("emission") is True)
+    return tuple(found for axis in on for end in axis.meetings for found in _stray(setup, axis.source, end))
 
 
 def _stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:

@@ -19,6 +19,8 @@ def reaching(setup: Setup, seen: Observation) -> Callable[[str, str], bool]:
         n: c.pose for n, c in seen.components.items() if c.pose and c.presence == "seen" and n in setup.lab.inventory
     }
 
+    values = seen.known_values
+
     def reaches(laser: str, component: str) -> bool:
         for name in (laser, component):
             if name not in setup.lab.inventory:
@@ -29,6 +31,6 @@ def reaching(setup: Setup, seen: Observation) -> Callable[[str, str], bool]:
                 )
         if setup.type_of(laser).optics.element != "source":
             raise ValueError(f"{laser} is no source of light")
-        return axis_of(setup, poses, laser, seen.known_values).reaches(component)
+        return axis_of(setup, poses, laser, values).reaches(component)
 
     return reaches

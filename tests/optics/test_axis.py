@@ -13,6 +13,7 @@ from pico.drawing.ruler import measure
 from pico.manifest.catalog import load_catalog
 from pico.model.lab import Lab, Part, Setup, Table
 from pico.model.observation import Observation, ObservedComponent
+from pico.model.operation import Operation, Reason
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState
 from pico.optics.axis import LEGS, axis_of
@@ -181,6 +182,23 @@ def test_picture_planner_policy_and_ruler_tell_the_same(setup: Setup) -> None:
             reaches(*wrong)
 
 
+def test_a_shutter_does_not_count_where_anything_is_put_before_it_on_its_way(setup: Setup) -> None:
+    poses = {"source0": Pose(100, 300), "shutter0": Pose(500, 300), "lens0": Pose(300, 600)}
+    seen = Observation(backend="sim", components={n: ObservedComponent(pose=pose) for n, pose in poses.items()})
+
+    def put(*goals: Pose) -> list[Operation]:
+        to = ({"pose": {"x": pose.x, "y": pose.y, "yaw": pose.yaw}} for pose in goals)
+        why = Reason(kind="changed")
+        return [
+            Operation(id=f"o{n}", primitive="move", component="lens0", arguments={"from": {}, "to": end}, reason=why)
+            for n, end in enumerate(to)
+        ]
+
+    aside, before, behind = Pose(300, 800), Pose(300, 300), Pose(700, 300)
+    assert shutter_of(setup, seen, put(aside, behind), "source0") == "shutter0"
+    assert shutter_of(setup, seen, put(before, aside), "source0") is None
+
+
 def test_the_ruler_tells_the_difference_of_two_arms(setup: Setup) -> None:
     poses = {
         "source0": Pose(100, 600), "beam_splitter0": Pose(600, 600), "mirror0": Pose(600, 800, 90),
@@ -216,3 +234,8 @@ def test_a_beam_that_nothing_ends_is_told(setup: Setup, poses: dict[str, Pose], 
     )
     found = stray_beams(replace(setup, lab=lab), state)
     assert [d.summary.partition(", beside")[0] for d in found] == said
+
+
+def test_a_laser_that_the_state_does_not_name_throws_no_beam(setup: Setup) -> None:
+    lab = replace(setup.lab, inventory={"source0": Part(type=TYPES["source"], pose=Pose(100, 300))})
+    assert stray_beams(replace(setup, lab=lab), LabState(lab="light", components={})) == ()

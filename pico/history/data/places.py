@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from pico.diagnostics import PicoError, error
-from pico.disk import beside, replace_whole, writing
+from pico.disk import beside, replace_whole, sweep, writing
 from pico.history.data.needs import Needs
 from pico.history.data.pieces import Heard, pieces
 from pico.history.git import command as git
@@ -103,6 +103,7 @@ class LfsObjects:
             if not path.is_file():
                 with writing(path, code="data-io"):
                     path.parent.mkdir(parents=True, exist_ok=True)
+                    sweep(path.parent)
                     replace_whole(path, pieces(file, heard), beside(path))
 
     def fetch(self, sha256: str, store: Store, heard: Heard) -> None:

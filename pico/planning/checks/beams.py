@@ -27,11 +27,13 @@ def shutter_of(setup: Setup, seen: Observation, operations: Sequence[Operation],
     first = _first(setup, standing, laser)
     if not first or setup.type_of(first).optics.element != "shutter" or seen.components[first].presence != "seen":
         return None
-    goals = dict(_goals(operations))
-    if first in goals or laser in goals or abs(angle_between(source.pose.yaw, standing[first].yaw, 180.0)) > SQUARE:
+    goals = list(_goals(operations))
+    if {first, laser} & {name for name, _ in goals} or abs(
+        angle_between(source.pose.yaw, standing[first].yaw, 180.0)
+    ) > SQUARE:
         return None
-    then = {**goals, laser: source.pose, first: standing[first]}
-    return first if _first(setup, then, laser) == first else None
+    gate = {laser: source.pose, first: standing[first]}
+    return first if all(_first(setup, {**gate, name: goal}, laser) == first for name, goal in goals) else None
 
 
 def _first(setup: Setup, poses: Mapping[str, Pose], laser: str) -> str:
