@@ -16,7 +16,7 @@ SETTINGS = {"ignore_unknown_options": True}
 def do(
     context: typer.Context,
     component: Component,
-    primitive: Annotated[str, typer.Argument(metavar="PRIMITIVE", help="move, stow, set, home or measure.")],
+    primitive: Annotated[str, typer.Argument(metavar="PRIMITIVE", help="move, stow, set, home, measure.")],
     arguments: Pairs = None,
     speed: Speed = None,
     dry_run: DryRun = False,

@@ -80,7 +80,7 @@ def _expected(session: Session, bench: Bench, plan: Plan) -> int:
 
 def question(plan: Plan) -> str:
     """Return what is asked before anything moves."""
-    moved = len({op.component for op in plan.operations if op.primitive in ("move", "stow")})
+    moved = len({op.component for op in plan.operations if op.kind.carries})
     where = f"on {plan.backend} ({plan.fidelity})"
     if moved:
         return f"Move {moved} {'component' if moved == 1 else 'components'} {where}?"

@@ -141,7 +141,7 @@ class StepView:
 
 def question(proposal: Proposal) -> str:
     """Return what is asked before the bench is brought to a configuration."""
-    moved = len({op.component for op in proposal.plan.operations if op.primitive in ("move", "stow")})
+    moved = len({op.component for op in proposal.plan.operations if op.kind.carries})
     where = f"on {proposal.plan.backend} ({proposal.plan.fidelity})"
     what = f"Move {count(moved, 'component')}" if moved else f"Run {count(len(proposal.plan.operations), 'operation')}"
     return f"{what} {where}?"

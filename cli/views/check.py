@@ -61,7 +61,7 @@ def said(check: Check) -> str:
 
 def plan_line(plan: Plan) -> str:
     """Return `2 moves, 0 staged, 21.0 s`, empty where nothing moves."""
-    moves = any(op.primitive in ("move", "stow") for op in plan.operations)
+    moves = any(op.kind.carries for op in plan.operations)
     parts = [tally(plan.operations), f"{plan.staging.count} staged" if moves else "", seconds(plan.makespan)]
     return ", ".join(part for part in parts if part) if plan.operations else ""
 

@@ -24,7 +24,7 @@ def text(plan: Plan, found: Explanation, *, head: str = "", goal: str = "") -> s
         blocks += _paragraphs([_brief(step) for step in found.steps])
     else:
         blocks += ["\n".join(_full(step)) for step in found.steps] or [_untouched(plan, found.component)]
-    moved = found.component is None or any(s.operation.primitive in ("move", "stow") for s in found.steps)
+    moved = found.component is None or any(s.operation.kind.carries for s in found.steps)
     blocks += ["\n".join(block) for block in (_impossible(found), _fewer(found) if moved else []) if block]
     return "\n\n".join(blocks)
 

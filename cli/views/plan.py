@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from datetime import datetime
 from typing import Any
@@ -11,6 +12,7 @@ from pico.model.diff import Change
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
 from pico.model.pose import wrap as wrap_angle
+from pico.model.primitive import OWN
 from pico.model.record import as_json
 
 from .style import WIDTH, ago, columns, count, listed, paint, place, seconds, width, wrap
@@ -73,13 +75,13 @@ def operations(plan: Plan) -> list[str]:
 
 def symbol(op: Operation, change: Change | None = None) -> str:
     """Return + placed from storage, - stowed, ~ changed where it is, ↷ makes room, ! a person must act."""
-    if op.primitive == "operator":
+    if op.kind.by_hand:
         return paint("red", "!")
-    if op.primitive == "park":
+    if op.kind.parks:
         return paint("dim", "·")
     if op.reason.kind in ("staged", "in_the_way"):
         return paint("yellow", "↷")
-    if op.primitive in ("move", "stow"):
+    if op.kind.carries:
         if _slot(op.arguments.get("to")):
             return paint("yellow", "-")
         if _slot(_start(op, change)):
@@ -106,10 +108,8 @@ def address(op: Operation) -> str:
 
 def step(op: Operation, change: Change | None = None) -> str:
     """Return what an operation does: `storage/a3 → (395, 420, 0°)`, `90 → 1`, `home`."""
-    if op.primitive == "operator":
+    if op.kind.by_hand:
         return "by hand" if "to" not in op.arguments else f"by hand to {place(op.arguments['to'])}"
-    if op.primitive in ("home", "park", "measure"):
-        return op.primitive
     if "to" not in op.arguments:
         return op.primitive
     before = _start(op, change)
@@ -132,7 +132,7 @@ def what(op: Operation, change: Change | None) -> str:
 
 def _cells(op: Operation, change: Change | None, several: bool) -> list[str]:
     took = seconds(op.seconds) if op.seconds >= 0.05 else ""
-    robot = "" if op.primitive == "park" else op.robot or ""
+    robot = "" if op.kind.parks else op.robot or ""
     when = [robot, f"at {seconds(op.start):>6}"] if several else []
     return [f"{symbol(op, change)} {address(op)}", what(op, change), *when, f"{took:>6}"]
 
@@ -160,7 +160,7 @@ def _why(op: Operation, change: Change | None, moving: bool, several: bool) -> s
     if change and op.primitive == "set" and said == change.text:
         said = ""  # it stands beside it already
     beside = "beside the arm" if moving and not op.robot and op.reason.kind != "interlock" else ""
-    beside = beside if op.primitive in ("set", "home") and not several else ""
+    beside = beside if op.kind.drives and not several else ""
     return ", ".join(part for part in (said, beside) if part)
 
 
@@ -205,22 +205,16 @@ def _name(change: Change) -> str:
 
 def tally(operations: Sequence[Operation]) -> str:
     """Return `2 moves, 1 setting, 1 homing`; empty for no operation. Interlocks are the policy's matter."""
-    kinds = [op.primitive for op in operations if op.reason.kind != "interlock"]
-    found = [
-        (kinds.count("move") + kinds.count("stow"), "move", ""),
-        (kinds.count("set"), "setting", ""),
-        (kinds.count("home"), "homing", ""),
-        (kinds.count("measure"), "measurement", ""),
-        (kinds.count("operator"), "step by hand", "steps by hand"),
-    ]
-    return ", ".join(count(n, noun, plural) for n, noun, plural in found if n)
+    found = Counter(op.kind.counted for op in operations if op.reason.kind != "interlock")
+    order = dict.fromkeys([*(p.counted for p in OWN.values()), *found])
+    return ", ".join(count(found[words], *words) for words in order if found[words] and any(words))
 
 
 def _summary(plan: Plan) -> list[str]:
     if not plan.operations:
         return _idle(plan)
     parts = [tally(plan.operations)]
-    if any(op.primitive in ("move", "stow") for op in plan.operations):
+    if any(op.kind.carries for op in plan.operations):
         parts.append(_staging(plan))
     arm = sum(op.seconds for op in plan.operations if op.robot) if len(arms(plan)) == 1 else 0.0
     parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arm)}" if arm else ""))
@@ -279,7 +273,7 @@ def _scope(plan: Plan) -> str:
 
 def _bound(plan: Plan) -> str:
     """Return how much of the time no other order of the same operations saves, where that is known."""
-    if plan.bound is None or sum(op.primitive in ("move", "stow") for op in plan.operations) < 2:
+    if plan.bound is None or sum(op.kind.carries for op in plan.operations) < 2:
         return ""
     least = plan.makespan - plan.bound < 0.05
     return " (least possible)" if least else f" (at least {seconds(plan.bound)})"

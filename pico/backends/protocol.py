@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 from pico.model.event import Event
 from pico.model.observation import Observation
-from pico.model.operation import Operation, OperationResult, Primitive
+from pico.model.operation import Operation, OperationResult
 from pico.model.record import record
 
 
@@ -22,7 +22,7 @@ class Capabilities:
     fidelity: str
     evidence: str
     lab_digest: str
-    primitives: frozenset[Primitive]
+    primitives: frozenset[str]
     robots: tuple[str, ...]
     unmodelled: tuple[str, ...] = ()
 

@@ -44,12 +44,12 @@ def verdict(setup: Setup, operation: Operation, seen: Observation) -> Outcome:
     so that it may be done again), or `unknown`, where looking does not tell."""
     if not repeatable(operation):
         return "unknown"
-    if operation.primitive in ("park", "measure"):
+    if operation.kind.changes == "nothing":
         return "failed"
     part = seen.components.get(operation.component)
     if part is None or part.presence == "missing":
         return "unknown"
-    if operation.primitive in ("move", "stow"):
+    if operation.kind.carries:
         there = part.presence == "seen" and part.pose is not None and arrived(setup, operation, part.pose)
         return "done" if there else "failed"
     return "done" if _has_value(setup, operation, seen) else "failed"
@@ -58,7 +58,7 @@ def verdict(setup: Setup, operation: Operation, seen: Observation) -> Outcome:
 def repeatable(operation: Operation) -> bool:
     """Return whether an operation may be done again where an observation shows that it is not done: its target is
     absolute. What a person does, and what can't be undone (glue), never is."""
-    return operation.primitive != "operator" and not operation.arguments.get("irreversible")
+    return operation.kind.repeatable and not operation.arguments.get("irreversible")
 
 
 def arrived(setup: Setup, operation: Operation, pose: Pose) -> bool:

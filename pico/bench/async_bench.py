@@ -260,6 +260,8 @@ class AsyncBench(Drawings):
         elif request.primitive == "home":
             assert request.tunable is not None
             found = planning.home_one(self.setup, seen, name, request.tunable, base=base, **options)
+        elif request.slot is None and request.pose is None:
+            found = planning.do_one(self.setup, seen, name, request.primitive, request.arguments, base=base, **options)
         else:
             goal, motion = request.slot or request.pose, DeferredMotion(self.setup)
             assert goal is not None

@@ -13,6 +13,7 @@ from pico.model.drift import drift_of
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, Uncertainty
 from pico.model.pose import Pose, angle_between
+from pico.model.primitive import primitive
 from pico.model.record import record
 
 if TYPE_CHECKING:
@@ -203,7 +204,7 @@ def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalR
             continue
         if r.kind == "intent":
             own = r.data.get("arguments", {}).get("tunable")
-            moves = r.data.get("primitive") in ("move", "stow", "operator")
+            moves = primitive(str(r.data.get("primitive"))).changes in ("pose", "anything")
             if own == change.tunable or (change.tunable == "pose" and moves):
                 wanted.add(r.key)
         elif r.key in wanted:

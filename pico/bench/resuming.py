@@ -11,6 +11,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan, Target, plan_from_json
+from pico.model.primitive import primitive
 from pico.model.state import LabState, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed
@@ -76,7 +77,7 @@ def _begun(journal: Journal, run: RunRecord) -> Iterator[tuple[str, str]]:
     records = journal.records(run=run.run)
     begun = {r.key for r in records if r.kind == "started"}
     for record in records:
-        if record.kind == "intent" and record.key in begun and record.data["primitive"] not in ("park", "measure"):
+        if record.kind == "intent" and record.key in begun and primitive(record.data["primitive"]).changes != "nothing":
             yield record.component, str(record.data["arguments"].get("tunable", "pose"))
 
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.execution.stale import differing, stale
 from pico.model.diff import diff_states
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.model.stale import differing, stale
 from pico.model.state import state_from_json
 
 if TYPE_CHECKING:

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from pico.backends.protocol import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.execution.stale import require_fresh
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
-from pico.model.stale import require_fresh
 
 
 def require_applicable(plan: Plan, able: Capabilities) -> None:
@@ -47,7 +47,7 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
         text = f"the plan was made for {plan.backend}, not for {able.name}"
         yield error("backend", text, hint=f"plan again with `--backend {able.name}`")
     for op in plan.operations:
-        if op.primitive == "operator":
+        if op.kind.by_hand:
             yield _for_a_person(op, able)
         elif op.primitive not in able.primitives:
             text = f"{able.name} ({able.fidelity}) cannot {op.primitive} {op.component}"
@@ -77,7 +77,7 @@ def require_current(setup: Setup, plan: Plan, seen: Observation) -> None:
 def _moved(setup: Setup, plan: Plan, seen: Observation) -> Iterator[Diagnostic]:
     checked = set()
     for op in plan.operations:
-        if op.primitive not in ("move", "stow") or op.component in checked:
+        if not op.kind.carries or op.component in checked:
             continue
         checked.add(op.component)
         part, start = seen.components.get(op.component), Pose(**op.arguments["from"]["pose"])

@@ -98,12 +98,12 @@ def retried(dispatch: Dispatch, result: OperationResult) -> Dispatch | None:
     if result.error is None or result.outcome != "failed" or dispatch.attempt >= ATTEMPTS:
         return None
     op, code = dispatch.operation, result.error.code
-    if op.primitive in ("move", "stow") and code in PLACED_BESIDE and not op.arguments.get("irreversible"):
+    if op.kind.carries and code in PLACED_BESIDE and not op.arguments.get("irreversible"):
         if result.after is None or result.after.presence != "seen" or result.after.pose is None:
             return None
         start = {"pose": as_json(result.after.pose)}
         op = replace(op, arguments={**op.arguments, "from": start})
         return replace(dispatch, operation=op, attempt=dispatch.attempt + 1)
-    if op.primitive in ("set", "home") and code in NO_ANSWER:
+    if op.kind.drives and code in NO_ANSWER:
         return replace(dispatch, attempt=dispatch.attempt + 1)
     return None

@@ -37,7 +37,7 @@ class Graph:
         return found
 
     def _may_follow(self, op: Operation) -> bool:
-        if op.primitive == "park":
+        if op.kind.parks:
             return all(self.status[a] not in ("waiting", "running") for a in op.after)
         return all(self.status[a] == "done" for a in op.after)
 
@@ -56,7 +56,7 @@ class Graph:
             return []
         lost, skipped = {op.id}, []
         for other in self.operations:
-            waits = self.status[other.id] == "waiting" and other.primitive != "park"
+            waits = self.status[other.id] == "waiting" and not other.kind.parks
             if waits and not lost.isdisjoint(other.after):
                 lost.add(other.id)
                 skipped.append(other)

@@ -14,7 +14,6 @@ from pico.model.record import record
 Mover = Literal["arm", "motor", "electronics", "person", "none"]
 RestoreKind = Literal["setpoint", "align", "none"]
 SeatingKind = Literal["free", "magnet", "kinematic", "bolted"]
-PrimitiveName = Literal["move", "stow", "set", "home", "measure", "scan"]
 
 
 @record
@@ -239,7 +238,7 @@ class ComponentType:
     pose: PoseTunable = PoseTunable()
     tunables: Mapping[str, Tunable] = field(default_factory=dict)
     measurables: Mapping[str, Measurable] = field(default_factory=dict)
-    primitives: tuple[PrimitiveName, ...] = ("move", "stow")
+    primitives: tuple[str, ...] = ("move", "stow")
     geometry: Geometry
     frames: Frames = Frames()
     optics: OpticalElement = OpticalElement(element="none")

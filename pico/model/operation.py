@@ -8,9 +8,9 @@ from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic
 from pico.model.observation import ObservedComponent
+from pico.model.primitive import Primitive, primitive
 from pico.model.record import record
 
-Primitive = Literal["move", "stow", "set", "home", "measure", "park", "operator"]
 Outcome = Literal["done", "failed", "unknown"]
 ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked", "interlock", "held"]
 
@@ -48,7 +48,7 @@ class Operation:
     """
 
     id: str
-    primitive: Primitive
+    primitive: str
     component: str
     arguments: Mapping[str, Any] = field(default_factory=dict)
     robot: str | None = None
@@ -57,6 +57,11 @@ class Operation:
     reason: Reason
     start: float = 0.0
     seconds: float = 0.0
+
+    @property
+    def kind(self) -> Primitive:
+        """What its primitive is."""
+        return primitive(self.primitive)
 
 
 @record

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import PicoError, did_you_mean, error
@@ -11,13 +12,15 @@ from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose, wrap
+from pico.model.primitive import primitive
 from pico.model.quantities import QuantityError, Value, convert
 from pico.model.record import as_json, record
 
 
 @record
 class PrimitiveRequest:
-    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, or `home` it."""
+    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, or `home` it; of a
+    plug-in's the `arguments`, numbers in the units that it declares."""
 
     component: str
     primitive: str
@@ -25,24 +28,23 @@ class PrimitiveRequest:
     slot: str | None = None
     tunable: str | None = None
     value: Value | None = None
+    arguments: Mapping[str, Value] = field(default_factory=dict)
 
 
-def asked(
-    setup: Setup, seen: Observation, component: str, primitive: str, arguments: Mapping[str, str]
-) -> PrimitiveRequest:
+def asked(setup: Setup, seen: Observation, component: str, name: str, arguments: Mapping[str, str]) -> PrimitiveRequest:
     """Return the request that `key=value` arguments amount to; what is not named of a pose stays as observed.
 
     Raises PicoError naming what is unknown, of the wrong unit, out of range or missing.
     """
     require_component(setup, component)
     allowed = setup.type_of(component).primitives
-    if primitive not in allowed:
-        hint = did_you_mean(primitive, allowed)
-        raise _wrong(f"{component} has no primitive `{primitive}`", hint or f"known: {', '.join(allowed)}", component)
-    if primitive in ("measure", "scan"):
-        raise _wrong(f"{primitive} of {component}: no light is simulated yet, so there is nothing to measure", "")
-    readers = {"move": _move, "stow": _stow, "set": _set, "home": _home}
-    return readers[primitive](setup, seen, component, dict(arguments))
+    if name not in allowed:
+        hint = did_you_mean(name, allowed)
+        raise _wrong(f"{component} has no primitive `{name}`", hint or f"known: {', '.join(allowed)}", component)
+    if name in ("measure", "scan"):
+        raise _wrong(f"{name} of {component}: no light is simulated yet, so there is nothing to measure", "")
+    reader = {"move": _move, "stow": _stow, "set": _set, "home": _home}.get(name)
+    return reader(setup, seen, component, dict(arguments)) if reader else _plain(component, name, arguments)
 
 
 def require_component(setup: Setup, name: str) -> None:
@@ -59,7 +61,7 @@ def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
         if slot not in setup.lab.slots:
             raise _wrong(f"there is no slot `{slot}`", did_you_mean(slot, setup.lab.slots), name)
         return PrimitiveRequest(component=name, primitive="move", slot=slot)
-    _only(name, "move", given, ("x", "y", "yaw", "by"))
+    _only(name, "move", given, primitive("move").arguments)
     if not given:
         raise _wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
     part = seen.components.get(name)
@@ -94,13 +96,24 @@ def _set(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> P
 
 
 def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
-    _only(name, "home", given, ("tunable",))
+    _only(name, "home", given, primitive("home").arguments)
     axes = [k for k, t in setup.type_of(name).tunables.items() if t.axis and t.axis.kind != "open_loop"]
     tunable = given.get("tunable") or (axes[0] if len(axes) == 1 else "")
     if tunable not in axes:
         known = f"{name} has " + (f"the axes {', '.join(axes)}" if axes else "no axis that homes")
         raise _wrong(f"which axis of {name}?" if not tunable else f"`{tunable}` of {name} does not home", known, name)
     return PrimitiveRequest(component=name, primitive="home", tunable=tunable)
+
+
+def _plain(name: str, asked: str, given: Mapping[str, str]) -> PrimitiveRequest:
+    """Return the request for a primitive of which only its arguments are known, all of which it wants."""
+    known = primitive(asked).arguments
+    _only(name, asked, given, known)
+    if missing := [key for key in known if key not in given]:
+        raise _wrong(f"{asked} of {name} wants `{missing[0]}`", f"`pico do {name} {asked} {missing[0]}=...`", name)
+    units = {key: known[key] for key in given}
+    read = {k: v if (u := units[k]) is None else _quantity(f"{k} of {name}", v, u) for k, v in given.items()}
+    return PrimitiveRequest(component=name, primitive=asked, arguments=read)
 
 
 def read_value(component: str, name: str, kind: Tunable, text: str) -> Value:
@@ -134,12 +147,12 @@ def _quantity(subject: str, text: str, unit: str) -> float:
     return value
 
 
-def _only(name: str, primitive: str, given: Mapping[str, str], known: Iterable[str]) -> None:
+def _only(name: str, asked: str, given: Mapping[str, str], known: Iterable[str]) -> None:
     names = tuple(known)
     for key in given:
         if key not in names:
             hint = did_you_mean(key, names) or (f"known: {', '.join(names)}" if names else "it takes no arguments")
-            raise _wrong(f"{primitive} of {name} takes no `{key}`", hint, name)
+            raise _wrong(f"{asked} of {name} takes no `{key}`", hint, name)
 
 
 def _wrong(summary: str, hint: str, address: str = "") -> PicoError:

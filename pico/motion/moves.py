@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+from pico.geometry.tethers import turn_between
 from pico.model.catalog import Geometry
 from pico.model.pose import Pose
-from pico.model.tethers import turn_between
 from pico.motion import timing
 from pico.motion.explain import Errand, blocked
 from pico.motion.kinematics import Column, columns, tool_pose

@@ -6,10 +6,10 @@ import math
 
 from pico.geometry import table as tabletop
 from pico.geometry.shape import placed, separation
+from pico.geometry.tethers import tether_fault
 from pico.model.catalog import Geometry
 from pico.model.lab import Lab, Robot, Setup
 from pico.model.pose import Pose
-from pico.model.tethers import tether_fault
 from pico.motion.kinematics import reaches, span
 from pico.motion.shapes import PALM_LENGTH
 from pico.motion.types import Blocked

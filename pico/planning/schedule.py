@@ -48,7 +48,7 @@ def _priorities(operations: Sequence[Operation]) -> list[int]:
 def _in_turn(operations: Sequence[Operation]) -> list[int]:
     """Return the operations of robots and people as they are listed, each after what it waits for, a shutter, say."""
     order: dict[int, None] = {}
-    left = [n for n, o in enumerate(operations) if o.robot or o.primitive == "operator"]
+    left = [n for n, o in enumerate(operations) if o.robot or o.kind.by_hand]
     left = [*_awaited(operations, left), *left]
     while left:
         n = next(n for n in left if all(int(e) in order for e in operations[n].after))
@@ -104,10 +104,10 @@ def least_makespan(operations: Sequence[Operation], arms: float | None) -> float
     motors and set-points need one after the other. None where the arms do not tell."""
     if arms is None or not operations:
         return None
-    people = sum(o.seconds for o in operations if o.primitive == "operator")
+    people = sum(o.seconds for o in operations if o.kind.by_hand)
     chains: dict[str, float] = {}
     for o in operations:
-        if o.primitive in ("set", "home"):
+        if o.kind.drives:
             chains[o.component] = chains.get(o.component, 0.0) + o.seconds
     around = sum(_around(operations)) if arms else 0.0
     return round(min(max(arms + people + around, *chains.values(), 0.0), makespan(operations)), 6)

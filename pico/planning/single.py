@@ -12,6 +12,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
+from pico.model.primitive import primitive
 from pico.model.quantities import Value
 from pico.model.state import ComponentState, LabState
 from pico.motion.types import Motion
@@ -81,6 +82,22 @@ def home_one(
         ))  # fmt: skip
     live = seen.components[component].values.get(tunable)
     operation = home_operation(component, tunable, kind, live.value if live else None, ASKED)
+    return _sealed(setup, seen, [operation], [], backend, fidelity, base, live_state(setup, seen), ())
+
+
+def do_one(
+    setup: Setup, seen: Observation, component: str, name: str, arguments: Mapping[str, Value], *, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan of a primitive that a plug-in brought, which a device does and which brings about no state.
+
+    Raises PicoError for a component that the lab does not have or that is not seen.
+    """
+    _part(setup, seen, component)
+    operation = Operation(
+        id="", primitive=name, component=component, arguments=arguments, resources=(component,), reason=ASKED,
+        seconds=primitive(name).seconds,
+    )  # fmt: skip
     return _sealed(setup, seen, [operation], [], backend, fidelity, base, live_state(setup, seen), ())
 
 

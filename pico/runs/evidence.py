@@ -109,9 +109,9 @@ def _brought(setup: Setup, path: Path, state: LabState, tunables: Tunables) -> d
 
 def _tunable(operation: Operation) -> str:
     """Return which tunable an operation changes; empty for none."""
-    if operation.primitive in ("move", "stow"):
+    if operation.kind.carries:
         return "pose"
-    return str(operation.arguments.get("tunable", "")) if operation.primitive in ("set", "home") else ""
+    return str(operation.arguments.get("tunable", "")) if operation.kind.drives else ""
 
 
 def _there(setup: Setup, state: LabState, one: tuple[str, str], part: ObservedComponent | None) -> bool:

@@ -62,7 +62,7 @@ CREATE INDEX IF NOT EXISTS records_of_run ON records (run);
 """
 _LAST_PICK = """
 SELECT i.data FROM records AS s JOIN records AS i ON i.key = s.key AND i.phase = 0
-WHERE s.phase = 1 AND json_extract(i.data, '$.robot') = ? AND json_extract(i.data, '$.primitive') IN ('move', 'stow')
+WHERE s.phase = 1 AND json_extract(i.data, '$.robot') = ? AND json_extract(i.data, '$.arguments.from') IS NOT NULL
   AND json_extract(i.data, '$.arguments.from.held') IS NULL ORDER BY s.seq DESC LIMIT 1
 """
 _SUCCESSES = """

@@ -12,13 +12,14 @@ from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock, utc_now
 from pico.backends.protocol import Capabilities, Lease
 from pico.backends.sim import checks
+from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.store import load_world
 from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.observation import Observation, Uncertainty
-from pico.model.operation import Operation, OperationResult, Primitive
+from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from pico.runs.journal import Journal
     from pico.twin.snapshot import Snapshot
 
-PRIMITIVES: frozenset[Primitive] = frozenset({"move", "stow", "set", "home", "park"})
+PRIMITIVES = frozenset({"move", "stow", "set", "home", "park"})
 
 OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
@@ -92,7 +93,7 @@ class SimBackend:
             fidelity=self.fidelity,
             evidence=self.fidelity,
             lab_digest=self.setup.digest(),
-            primitives=PRIMITIVES,
+            primitives=PRIMITIVES | plugged_in().keys(),
             robots=tuple(sorted(self.setup.lab.robots)),
         )
 
@@ -246,7 +247,7 @@ class SimBackend:
         if self._halted:
             raise PicoError(checks.HALTED, ExitCode.INTERRUPTED)
         result = await session.execute(operation, key)
-        if result.outcome == "done" and operation.primitive in ("move", "stow"):
+        if result.outcome == "done" and operation.kind.carries:
             self._note_placed(operation, result.ended)
         return result
 

@@ -20,13 +20,13 @@ from pico.disk import write_whole
 from pico.geometry.shape import placed, separation
 from pico.geometry.table import overhang
 from pico.model.lab import Setup
-from pico.model.operation import Primitive
 from pico.model.pose import Pose
+from pico.model.primitive import OWN
 from pico.model.record import as_json, record
 
-_MOVES: tuple[Primitive, ...] = ("move", "stow")
-_SETS: tuple[Primitive, ...] = ("set", "home")
-KINDS: Mapping[str, tuple[Primitive, ...]] = {
+_MOVES = tuple(p.name for p in OWN.values() if p.carries)
+_SETS = ("set", "home")
+KINDS: Mapping[str, tuple[str, ...]] = {
     "drop": _MOVES, "slip": _MOVES, "jam": (*_MOVES, *_SETS), "camera": _MOVES, "timeout": _SETS,
     "reading": (*_MOVES, *_SETS), "slow": _SETS,
 }  # fmt: skip
@@ -55,7 +55,7 @@ class Faults:
     rates: Mapping[str, float] = field(default_factory=dict)
     seed: int = 1
 
-    def of(self, primitive: Primitive, key: str) -> Fault | None:
+    def of(self, primitive: str, key: str) -> Fault | None:
         """Return what goes wrong with the operation under `key`, the same each time; mostly nothing."""
         draw = random.Random(f"{self.seed}/{key}")
         able = [kind for kind, primitives in KINDS.items() if primitive in primitives]

@@ -18,6 +18,7 @@ from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
+from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World, observe
@@ -145,13 +146,17 @@ class WorldSession:
         self._tell("operation_started", operation, key, data)
 
     def act(self, operation: Operation, key: str) -> InProgress:
-        if operation.primitive in ("move", "stow"):
-            return (yield from self._move(operation, key))
-        if operation.primitive == "park":
-            return (yield from self._park(operation, key))
-        if operation.primitive in ("set", "home"):
-            return (yield from self._set(operation, key))
-        raise checks.refused(operation)
+        own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set}
+        return (yield from own.get(operation.primitive, self._plugged_in)(operation, key))
+
+    def _plugged_in(self, operation: Operation, key: str) -> InProgress:
+        """Do what a plug-in brought, in the time that the plan reckons with."""
+        does = plugged_in().get(operation.primitive)
+        if does is None:
+            raise checks.refused(operation)
+        yield operation.seconds
+        self._world = does(self._world, operation)
+        return {}
 
     def _move(self, operation: Operation, key: str) -> InProgress:
         """Pick and place on the table as it is now: the path is found anew, from where arm and component really are."""

@@ -94,7 +94,7 @@ def impossible(plan: Plan) -> str:
             return d.summary
     for rule in _denying(plan):
         return f"denied by the lab's policy: {rule.get('rule')}: {rule.get('text')}"
-    by_hand = [op for op in plan.operations if op.primitive == "operator"]
+    by_hand = [op for op in plan.operations if op.kind.by_hand]
     return f"{by_hand[0].component} needs a person" if by_hand else ""
 
 

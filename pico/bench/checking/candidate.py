@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError
+from pico.execution.stale import differing
 from pico.history.lab.missing_files import missing_files
 from pico.history.merge.checked import overlapping
 from pico.history.merge.doubts import unsettled
@@ -17,7 +18,6 @@ from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
 from pico.model.lab import Setup
 from pico.model.record import as_json
-from pico.model.stale import differing
 from pico.model.state import LabState, home_state
 
 

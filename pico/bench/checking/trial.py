@@ -68,7 +68,7 @@ def plan_from(
 
 def by_hand(plan: Plan) -> tuple[Operation, ...]:
     """Return what a person has to do in a plan."""
-    return tuple(op for op in plan.operations if op.primitive == "operator")
+    return tuple(op for op in plan.operations if op.kind.by_hand)
 
 
 def after_hands(world: World, operations: tuple[Operation, ...]) -> World:

@@ -16,12 +16,11 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.primitive import primitive
 from pico.model.state import LabState, place_of
 from pico.planning.checks.contacts import Contact, ends_of
 from pico.planning.explaining.blocking import moved_by, why_impossible
 from pico.twin.placement import Placement
-
-_CARRIES = ("move", "stow")
 
 
 def places(setup: Setup, seen: Observation, in_space: Mapping[str, Placement]) -> dict[str, Place]:
@@ -61,7 +60,7 @@ def steps(plan: Plan) -> tuple[DrawnStep, ...]:
 
 def _step(number: int, op: Operation, plan: Plan) -> DrawnStep:
     before, after, tunable = (op.arguments.get(word) for word in ("from", "to", "tunable"))
-    if op.primitive in ("move", "stow") and isinstance(before, Mapping) and isinstance(after, Mapping):
+    if op.kind.carries and isinstance(before, Mapping) and isinstance(after, Mapping):
         words = f"{_place(before)} → {_place(after)}"
         return DrawnStep(number, op.component, words, op.component, Pose(**before["pose"]), Pose(**after["pose"]))
     if tunable is None:
@@ -112,10 +111,10 @@ def captions(events: Iterable[Event], titles: Mapping[str, str]) -> tuple[Captio
         if not going:
             found.append(Caption(event.time, ""))
             continue
-        shown = max(going.values(), key=lambda e: (e.data.get("primitive") in _CARRIES, e.time))
+        shown = max(going.values(), key=lambda e: (_carries(e), e.time))
         phase = str(event.data.get("phase", "")) if event.operation == shown.operation else ""
         title = titles.get(shown.operation or "", f"{shown.component} {shown.data.get('primitive')}")
-        carried = shown.component or "" if shown.data.get("primitive") in _CARRIES else ""
+        carried = shown.component or "" if _carries(shown) else ""
         found.append(Caption(event.time, f"{title} · {phase}" if phase and phase not in title else title, carried))
     return tuple(found)
 
@@ -123,3 +122,7 @@ def captions(events: Iterable[Event], titles: Mapping[str, str]) -> tuple[Captio
 def _amount(by: Contact) -> str:
     finger = "finger, " if by.kind == "finger" else ""
     return f"{finger}{by.overlap:.3g} mm" if by.overlap > 0 else f"{finger}{-by.overlap:.3g} mm apart"
+
+
+def _carries(started: Event) -> bool:
+    return primitive(str(started.data.get("primitive"))).carries

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import Diagnostic, did_you_mean, error
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
 from pico.model.body import Body
 from pico.model.catalog import ComponentType, Footprint, Tunable
+from pico.model.primitive import OWN, known, plugged_in
 from pico.model.setpoint import refusal
 
 OBSERVATION_POSITION = 0.02
@@ -30,7 +31,16 @@ def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
     if kind.pose.mover == "arm" and kind.seating != "bolted" and kind.geometry.grasp:
         found += _tolerances(document, kind)
     found += _sizes(document, kind)
+    found += _primitives(document, kind)
     return found
+
+
+def _primitives(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:
+    for number, name in enumerate(kind.primitives):
+        if name not in OWN and name not in plugged_in():
+            hint = did_you_mean(name[:40], known()) or f"known: {', '.join(known())}; plug-ins bring more"
+            at = where(document, "primitives", number)
+            yield error("unknown-primitive", f"there is no primitive `{name[:40]}`", hint=hint, source=at)
 
 
 def _tunable(document: Document, name: str, tunable: Tunable) -> Iterator[Diagnostic]:

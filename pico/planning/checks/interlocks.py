@@ -60,7 +60,7 @@ def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[int]:
 
 def _works(operation: Operation) -> bool:
     """Whether somebody reaches over the table."""
-    return operation.robot is not None or operation.primitive == "operator"
+    return operation.robot is not None or operation.kind.by_hand
 
 
 def _steers(setup: Setup, operation: Operation) -> bool:
@@ -71,13 +71,13 @@ def _ends(operations: Sequence[Operation], guarded: Sequence[int]) -> tuple[list
     """Return those of the guarded operations that wait for none of them, and those that none but a park waits for."""
     inside = {str(n) for n in guarded}
     first = [n for n in guarded if inside.isdisjoint(operations[n].after)]
-    waited = {e for n in guarded if operations[n].primitive != "park" for e in operations[n].after}
+    waited = {e for n in guarded if not operations[n].kind.parks for e in operations[n].after}
     return first, [n for n in guarded if str(n) not in waited]
 
 
 def _why(operations: Sequence[Operation], guarded: Sequence[int]) -> str:
     who = sorted({operations[n].robot or "" for n in guarded} - {""})
-    who += ["a person"] if any(operations[n].primitive == "operator" for n in guarded) else []
+    who += ["a person"] if any(operations[n].kind.by_hand for n in guarded) else []
     if who:
         return f"{listed(who)} {'works' if len(who) == 1 else 'work'} in the beam"
     names = [f"{operations[n].component}.{operations[n].arguments['tunable']}" for n in guarded]
@@ -188,7 +188,7 @@ def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Op
 
 def policy_rules(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> tuple[Mapping[str, Any], ...]:
     """Return what `Plan.policy` says of a plan's lasers: each rule with whether it holds, and in words."""
-    count = sum(operations[n].primitive != "park" for n in _guarded(setup, operations))
+    count = sum(not operations[n].kind.parks for n in _guarded(setup, operations))
     lasers = [s.component for s in _shutters(setup, seen, operations)]
     if not count or not lasers:
         return ()

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, error
+from pico.geometry.tethers import tether_fault
 from pico.model.lab import Setup
-from pico.model.tethers import tether_fault
 from pico.planning.checks.target import Source, located, no_source
 from pico.planning.parts.movers import Mover
 

@@ -38,7 +38,7 @@ class Clash:
 
 def moved_by(plan: Plan) -> tuple[str, ...]:
     """Return the components that a plan moves, or, where it is impossible, would have to; sorted."""
-    moved = {o.component for o in plan.operations if o.primitive in ("move", "stow")}
+    moved = {o.component for o in plan.operations if o.kind.carries}
     wanted = {c.component for c in plan.changes if c.tunable == "pose" and not c.tolerated}
     return tuple(sorted(moved | wanted))
 

@@ -155,9 +155,9 @@ def why_after(setup: Setup, first: Operation, then: Operation) -> Iterator[Becau
         yield Because(kind="own", text="the axis must be homed first")
     elif _shutter(first) or _shutter(then):
         yield Because(kind="beam", text=_beam(first, then))
-    elif then.primitive == "park":
+    elif then.kind.parks:
         yield Because(kind="parked", text=f"{then.component} parks when its moves are done")
-    elif first.primitive == "park":
+    elif first.kind.parks:
         yield Because(kind="turn", text=f"robots take turns: {first.component} must be out of the way")
     elif first.component == then.component:
         yield Because(kind="own", text="its own earlier step")
@@ -222,7 +222,7 @@ def _end(setup: Setup, operation: Operation, key: str) -> Spot | None:
 
 
 def _fewer(setup: Setup, plan: Plan, component: str | None) -> Fewer:
-    moves = [o for o in plan.operations if o.primitive in ("move", "stow")]
+    moves = [o for o in plan.operations if o.kind.carries]
     moved = {o.component for o in moves}
     stops = {n for n, count in _counts(moves).items() if count > 1}
     rings = _rings(setup, plan, component, stops) if stops else ()

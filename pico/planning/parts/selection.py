@@ -57,7 +57,7 @@ def _covered(without: Named, address: str) -> bool:
 
 def done_by(operations: Sequence[Operation]) -> set[tuple[str, str]]:
     """Return the components and tunables that operations change; what an interlock sets is set back."""
-    own = [o for o in operations if o.primitive != "park" and o.reason.kind != "interlock"]
+    own = [o for o in operations if not o.kind.parks and o.reason.kind != "interlock"]
     return {(o.component, _tunable(o)) for o in own}
 
 

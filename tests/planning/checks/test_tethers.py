@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_benches import GRASP, TALL, TYPES, bench, moves, part, planned, see, want
 
+from pico.geometry.tethers import MOST, tether_fault, turn_between, wound
 from pico.manifest.load import load_folder
 from pico.model.lab import Mount, Robot, Setup, Slot, Tether
 from pico.model.pose import Pose
-from pico.model.tethers import MOST, tether_fault, turn_between, wound
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Blocked, MovePath
