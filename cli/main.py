@@ -6,10 +6,14 @@ import os
 import sys
 from collections.abc import Sequence
 
+from .garbage import wait_for_loading
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code (design: `pico.diagnostics.ExitCode`)."""
     words = list(sys.argv[1:] if argv is None else argv)
+    if argv is None:
+        wait_for_loading()
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by who started it
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))

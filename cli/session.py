@@ -13,6 +13,7 @@ import typer
 
 from pico.diagnostics import PicoError, error
 
+from .garbage import loaded
 from .terminal.output import write
 from .terminal.waiting import waiting
 from .views.style import inert_json
@@ -57,6 +58,7 @@ class Session:
         from pico.bench.bench import Bench
 
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
+        loaded()
         if self.context is not None:
             self.context.call_on_close(bench.close)
         if writing:
@@ -75,6 +77,7 @@ class Session:
         from pico.history.reader import HistoryReader
 
         reader = HistoryReader(self.folder)
+        loaded()
         self.tell(reader.folder.recovered)
         return reader
 

@@ -64,3 +64,27 @@ def test_the_library_itself_is_light(tmp_path: Path) -> None:
     code = "import sys, pico; print([m for m in sys.argv[1].split(',') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code, ",".join(HEAVY)], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+COLLECTED = """
+import gc
+from pico_cli.main import main
+main({words})
+print(gc.isenabled(), gc.get_freeze_count() > 50_000)
+"""
+
+
+def collected(words: str, folder: Path, *arguments: str) -> str:
+    """Return whether garbage is looked for after `main` was given some words, and whether much of it is left out."""
+    command = [sys.executable, "-c", COLLECTED.replace("{words}", words), *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
+    return done.stdout.splitlines()[-1]
+
+
+def test_garbage_is_looked_for_once_all_is_loaded_and_never_among_that(bench: Path) -> None:
+    assert collected("", bench, "plan") == "True True"
+    assert collected("", bench, "log") == "True True"
+
+
+def test_a_command_within_a_program_leaves_its_garbage_collector_alone(bench: Path) -> None:
+    assert collected("['plan']", bench) == "True False"
