@@ -159,6 +159,13 @@ def test_a_bolted_part_asks_a_person_and_others_wait_for_it() -> None:
     assert [d.code for d in made.diagnostics] == ["operator"] and not made.errored
 
 
+def test_people_alone_work_where_two_arms_have_nothing_to_do() -> None:
+    arms = {f"arm{n}": Robot(mount=Mount(x=100 * n, y=500)) for n in (1, 2)}
+    setup = bench({"a": part(seating="bolted")}, robots=arms)
+    made = planned(setup, see(setup, {"a": (300, 300)}), want({"a": (450, 300)}))
+    assert [(o.primitive, o.resources) for o in made.operations] == [("operator", ("a", "arm1", "arm2"))]
+
+
 def test_a_missing_part_stops_nothing_else() -> None:
     setup = bench({"a": "block", "lost": "block"})
     made = planned(setup, see(setup, {"a": (300, 300)}), want({"a": (500, 300), "lost": (300, 300)}))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from importlib.util import find_spec
 from itertools import permutations
 
@@ -83,6 +84,11 @@ def test_the_order_found_is_always_the_same_and_keeps_what_comes_before(seed: in
     assert found == soonest(work, range(14))
     assert all(found.index(e) < found.index(j) for j in range(14) for e in work.before[j])
     assert timed(work, found) <= timed(work, range(14))
+
+
+def test_moves_that_all_wait_for_one_another_in_a_row_keep_their_only_order() -> None:
+    row = replace(some_work(0, 4), before=tuple(frozenset(range(j)) for j in range(4)))
+    assert soonest(row, range(4)) == (0, 1, 2, 3)
 
 
 def test_an_arm_that_stands_in_a_zone_parks_before_the_other_comes_in() -> None:

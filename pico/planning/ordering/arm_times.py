@@ -83,7 +83,8 @@ def soonest(work: ArmWork, order: Sequence[int], tried: int = TRIED, seed: int =
     local search that shifts single moves, from there and again and again from some moves shifted at random."""
     rnd, left = random.Random(seed), [tried * len(order)]
     best, cost = _descended(work, tuple(order), left)
-    while left[0] > 0 and len(order) > 2:
+    movable = left[0] < tried * len(order)  # no shift costs no work: where all moves wait in a row there is none
+    while movable and left[0] > 0 and len(order) > 2:
         kicked = best
         for _ in range(3):
             shifts = list(_shifts(work, kicked, rnd.randrange(len(kicked))))

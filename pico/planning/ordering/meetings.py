@@ -58,8 +58,8 @@ def _listed(steps: Sequence[OrderedMove], parks: Sequence[Park]) -> Iterator[Ite
 def _turns(steps: Sequence[OrderedMove]) -> tuple[Park, ...]:
     """Return the parks where each arm parks before another has its turn."""
     order = turns(steps)
-    following = [*(turn.steps[0] for turn in order[1:]), None]
-    return tuple(Park(turn.robot, turn.steps, k) for turn, k in zip(order, following, strict=True))
+    following = (*(turn.steps[0] for turn in order[1:]), None)
+    return tuple(Park(turn.robot, turn.steps, k) for turn, k in zip(order, following, strict=False))
 
 
 def _enters(setup: Setup, zone: Zone, path: MovePath | Blocked | None) -> bool:
