@@ -48,7 +48,7 @@ def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operat
     first, last = _ends(operations, guarded)
     why = _why(operations, guarded)
     for shutter in _shutters(setup, seen, operations):
-        _close(out, shutter, first, why)
+        _close(out, shutter, first, guarded, why)
         _set_back(out, shutter, last, why)
     return out
 
@@ -121,15 +121,25 @@ def _sets(operation: Operation, name: str) -> bool:
     return operation.primitive == "set" and operation.component == name and tunable == "shutter"
 
 
-def _close(out: list[Operation], shutter: Shutter, first: Sequence[int], why: str) -> None:
+def _close(
+    out: list[Operation], shutter: Shutter, first: Sequence[int], guarded: Sequence[int], why: str
+) -> None:  # fmt: skip
     """Let the first of the guarded operations come after the shutter is closed, by what the plan holds or by more."""
     if shutter.live == CLOSED:
         return
     n = next((n for n, o in enumerate(out) if _sets(o, shutter.component) and o.arguments["to"] == CLOSED), len(out))
     if n == len(out):
         out.append(_set(shutter, shutter.live, CLOSED, why))
+    _at_once(out, n, guarded)
     for k in first:
         out[k] = replace(out[k], after=(*out[k].after, str(n)))
+
+
+def _at_once(out: list[Operation], n: int, guarded: Sequence[int]) -> None:
+    """Let an operation, and what it waits for, wait for none of the guarded: not for a hand to be emptied, either."""
+    out[n] = replace(out[n], after=tuple(e for e in out[n].after if int(e) not in guarded))
+    for e in out[n].after:
+        _at_once(out, int(e), guarded)
 
 
 def _set_back(out: list[Operation], shutter: Shutter, last: Sequence[int], why: str) -> None:

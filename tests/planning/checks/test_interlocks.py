@@ -159,6 +159,15 @@ def test_no_shutter_opens_while_a_robot_holds_something() -> None:
     assert not planned(setup, seen, wanted).errored
 
 
+def test_a_shutter_that_is_to_be_closed_closes_before_a_hand_sets_down_what_it_holds() -> None:
+    setup, seen, wanted = case("open", "closed", moves=False)
+    parts = {**seen.components, "a": replace(seen.components["a"], presence="held")}
+    hand = {"arm1": ObservedRobot(joints=(), holding="a", picked=Pose(*HERE))}
+    made = planned(setup, replace(seen, components=parts, robots=hand), wanted)
+    assert steps(made) == ["closed", "move", "park"]
+    assert made.operations[1].after == (made.operations[0].id,)
+
+
 def test_a_laser_that_nothing_can_close_is_told() -> None:
     setup, seen, wanted = case("open", "open")
     by_hand = replace(LASER, tunables={"shutter": replace(SHUTTER, mover="person")})
