@@ -22,7 +22,7 @@ def told(why: Explanation) -> Iterator[str]:
         yield from (f"    holds up {wait.operation} {wait.component}" for wait in step.holds_up)
     yield f"  {why.fewer.moved} parts in {why.fewer.moves} moves"
     yield from (f"    ring: {'; '.join(block.text for block in ring)}" for ring in why.fewer.rings)
-    yield from (f"  clash: {clash.text}" for clash in why.clashes)
+    yield from (f"  clash: {clash.a} {clash.b} {clash.by.text}" for clash in why.clashes)
     yield from (f"  block: {block.text}" for block in why.blocks)
 
 

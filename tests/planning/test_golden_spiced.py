@@ -1,0 +1,53 @@
+"""Plans, refusals and explanations of random labs of every kind, kept as text: see `kept`. A few labs a test, so that
+each is cheap; see `spiced_labs` for what is in them."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+
+import pytest
+from kept import differs
+from spiced_labs import Spiced, plan_spiced, spiced_case
+from test_golden_explanations import told as told_why
+
+from pico.model.plan import Plan
+from pico.planning.explaining.explain import explain, kind_of
+from pico.planning.explaining.graph import graph_of
+
+EACH = 10
+"""Labs a test."""
+
+
+def told(case: Spiced, made: Plan) -> Iterator[str]:
+    """All that a plan says, on few lines: what is done when, with what and after what, and what is said about it."""
+    count = made.staging
+    yield (
+        f"  staged {count.count} of at least {count.lower_bound}{'' if count.proven else ', not proven'}; "
+        f"{made.makespan:g} s of at least {made.bound}; absent {made.absent}; exit {made.exit_code}"
+    )
+    yield from (f"  {rule['text']}" for rule in made.policy)
+    yield from (f"  changes {c.component}.{c.tunable}: {c.text}{' tolerated' * c.tolerated}" for c in made.changes)
+    for d in made.diagnostics:
+        yield f"  {d.severity} {d.code} {d.address}: {d.summary} | {d.detail} | {d.hint}"
+    for o in made.operations:
+        what = " ".join(f"{k} {v}" for k, v in o.arguments.items() if k not in ("from", "text"))
+        yield f"  {o.id} {o.primitive} {o.component} {what}: {o.start:g}+{o.seconds:g} after {','.join(o.after)}"
+        yield f"    with {','.join(o.resources)}: {o.reason.kind} {o.reason.of} {o.reason.overlap} {o.reason.text}"
+    setup, graph = case.case.setup, graph_of(made)
+    name = sorted(case.lab.inventory)[len(made.operations) % 3]
+    yield f"  why {name}: {' '.join(kind_of(made, n) for n in sorted(case.lab.inventory))}"
+    yield from (f"  {line}" for line in told_why(explain(setup, made, name)))
+    edges = (f"{e.source}{e.target}{e.after:d}{e.critical:d}{e.implied:d}{e.resources}" for e in graph.edges)
+    all_of_it = "\n".join([*told_why(explain(setup, made)), *edges])
+    shown = hashlib.sha256(all_of_it.encode()).hexdigest()[:12]
+    yield f"  path {','.join(graph.path)} in {graph.length:g} s; the whole explanation and its graph: {shown}"
+
+
+@pytest.mark.parametrize("first", range(0, 120, EACH))
+def test_plans_of_labs_of_every_kind_are_the_ones_kept(first: int) -> None:
+    lines: list[str] = []
+    for seed in range(first, first + EACH):
+        case = spiced_case(seed)
+        lines += [f"seed {seed}: {' '.join(case.spices)}", *told(case, plan_spiced(case))]
+    assert not differs(f"spiced_{first:03}.txt", "\n".join(lines) + "\n")
