@@ -252,7 +252,7 @@ def scheduler(trials: int) -> None:
     from crashing import SETUP, Chaos
     from killing import DIGEST, InstantBench, KilledJournal, Table, lay_out
 
-    from pico.execution import run
+    from pico.execution.run import run
     from pico.model.observation import live_state
     from pico.model.operation import Operation, OperationResult, Reason
     from pico.model.plan import Base, LabRef, Plan, Target

@@ -7,12 +7,14 @@ their own, so that every backend runs them and a test can cut them anywhere.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from pico.diagnostics import Diagnostic
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Outcome
-from pico.runs.journal import Journal
+
+if TYPE_CHECKING:
+    from pico.runs.journal import Journal
 
 Progress = Generator[float, None, Mapping[str, Any]]
 """Something in progress: yields the seconds until it wants to be resumed, returns the data of its result."""

@@ -11,17 +11,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.bench.pictures.pictures import Drawings
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
-from pico.execution.async_execution import AsyncExecution
 from pico.history.lab.folder import LabFolder
 from pico.model.address import read_addresses
 from pico.model.diff import Change
 from pico.model.drift import drift_of
-from pico.model.expectation import Verified
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
-from pico.model.report import Captured, Committed, PartRow, RunReport, parts_of
 from pico.model.request import PrimitiveRequest, asked, read_values, require_seen
-from pico.model.status import Status, compare
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -29,9 +25,13 @@ if TYPE_CHECKING:
     from pico.backends.protocol import Backend
     from pico.backends.sim.table import SimulatedTable
     from pico.drawing.film.film import Caption
+    from pico.execution.async_execution import AsyncExecution
     from pico.history.restoring.selected import SelectedParts
     from pico.manifest.load import Manifests
+    from pico.model.expectation import Verified
+    from pico.model.report import Captured, Committed, PartRow, RunReport
     from pico.model.state import LabState
+    from pico.model.status import Status
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.twin.placement import Placement
@@ -281,6 +281,8 @@ class AsyncBench(Drawings):
         `recording`: keeps what a film of the run shows, see `film`; raises PicoError where nothing is simulated.
         `resumes`: the run that goes on under its id. `stop_on_error`: the first failure lets nothing more start.
         """
+        from pico.execution.async_execution import AsyncExecution
+
         self._adopt(plan)
         watch = getattr(self.backend, "watch", None)
         if watch is not None:
@@ -325,6 +327,8 @@ class AsyncBench(Drawings):
 
     async def status(self) -> Status:
         """Return committed, desired and live side by side."""
+        from pico.model.status import compare
+
         return compare(self.setup, self.folder.committed(), self.state, await self.observe(), self.head_name())
 
     async def drift(self) -> tuple[Change, ...]:
@@ -335,6 +339,7 @@ class AsyncBench(Drawings):
         """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
         whether any bench ever stood as that commit (HEAD for the manifest) says."""
         from pico.history import runs as recording
+        from pico.model.expectation import Verified
         from pico.policy.expectations import check_expectations
 
         wanted = self.state_at(revision) if revision else self.state
@@ -347,6 +352,7 @@ class AsyncBench(Drawings):
 
     async def expected(self, plan: Plan) -> Verified:
         """Return what became of the expectations of a plan's goal, which the bench has reached already."""
+        from pico.model.expectation import Verified
         from pico.policy.expectations import check_expectations
 
         seen = await self.observe()
@@ -355,6 +361,8 @@ class AsyncBench(Drawings):
 
     async def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
         """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""
+        from pico.model.report import parts_of
+
         return parts_of(self.setup, self.state, await self.observe(), free=free)
 
     async def read(self, component: str, tunable: str | None = None) -> dict[str, dict[str, Any]]:

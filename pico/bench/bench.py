@@ -16,11 +16,8 @@ from pico.execution.attending import attend
 from pico.execution.blocking import Execution, LoopThread
 from pico.history.reader import Reader
 from pico.model.diff import Change
-from pico.model.expectation import Verified
 from pico.model.observation import Observation
 from pico.model.plan import Plan
-from pico.model.report import Captured, Committed, PartRow, RunReport
-from pico.model.status import Status
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
@@ -40,7 +37,10 @@ if TYPE_CHECKING:
     from pico.history.restoring.stash import Stash
     from pico.history.restoring.transplant import Transplanted
     from pico.history.runs.comparing import Comparison
+    from pico.model.expectation import Verified
+    from pico.model.report import Captured, Committed, PartRow, RunReport
     from pico.model.run import Run
+    from pico.model.status import Status
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.runs.document import RecordedRun

@@ -8,12 +8,14 @@ import threading
 from collections.abc import Coroutine, Iterator
 from concurrent.futures import Future, wait
 from contextlib import suppress
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from pico.execution.async_execution import AsyncExecution
 from pico.model.event import Event
-from pico.model.plan import Plan
-from pico.model.report import RunReport
+
+if TYPE_CHECKING:
+    from pico.execution.async_execution import AsyncExecution
+    from pico.model.plan import Plan
+    from pico.model.report import RunReport
 
 T = TypeVar("T")
 

@@ -122,7 +122,7 @@ def test_the_lab_can_say_the_faults(tmp_path: Path) -> None:
 
 
 def test_what_slipped_is_told_as_tried_again_and_what_stops_everything_leaves_the_rest(tmp_path: Path) -> None:
-    from pico.execution import run
+    from pico.execution.run import run
 
     save_faults(tmp_path, Faults(rates={"slip": 1.0}))
     bench = sim(SETUP, tmp_path)

@@ -13,7 +13,7 @@ from results import RunResult
 
 from pico.backends.sim.halting import phase_at, way_out
 from pico.backends.sim.store import load_world
-from pico.execution import run
+from pico.execution.run import run
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.motion.types import MovePath, Segment

@@ -11,7 +11,7 @@ from typing import Any
 from results import RunResult
 
 from pico.backends.sim.backend import SimBackend
-from pico.execution import run
+from pico.execution.run import run
 from pico.manifest.load import load_folder
 from pico.model.event import Event
 from pico.model.lab import Setup

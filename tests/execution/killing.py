@@ -25,7 +25,7 @@ from pico.backends.lease import BenchLock
 from pico.backends.protocol import Capabilities, Lease
 from pico.backends.recovery import settle
 from pico.diagnostics import PicoError
-from pico.execution import run
+from pico.execution.run import run
 from pico.model.event import Event
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult

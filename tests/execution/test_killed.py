@@ -18,7 +18,7 @@ KILLED = """
 import asyncio, os, signal, sys
 from pathlib import Path
 from benches import plan_to, shel, sim
-from pico.execution import run
+from pico.execution.run import run
 
 async def go():
     setup, state = shel("gantry")

@@ -18,7 +18,7 @@ from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import change_world
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.execution import run
+from pico.execution.run import run
 from pico.model.event import Event
 from pico.model.operation import Operation
 from pico.model.plan import Plan

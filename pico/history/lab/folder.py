@@ -22,20 +22,19 @@ from pico.history.lab.notes import Note, note_path, notes, read_note, require_pa
 from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
-from pico.manifest.edit import capture
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named
 from pico.model.diff import Change, diff_states
 from pico.model.lab import Setup
-from pico.model.proof import Standing
 from pico.model.record import record
-from pico.model.report import Captured
-from pico.model.run import Run
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
     from pico.history.repository.repository import Repository
+    from pico.model.proof import Standing
+    from pico.model.report import Captured
+    from pico.model.run import Run
 
 STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
 """Matches the content of a file that holds states alone, nothing of the bench."""
@@ -284,9 +283,13 @@ class LabFolder:
         return captured, manifests.require()[1]
 
     def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
+        from pico.manifest.edit import capture
+
         return capture(self._files, self.setup, self.state, live, named)
 
     def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
+        from pico.model.report import Captured
+
         manifests = self._read({**self._files, **spliced}, self.setup) if spliced else self.manifests
         after = manifests.require()[1]
         captured = Captured(
