@@ -3,6 +3,8 @@ process: `pico("plan", "e1")` gives exit code, output and errors."""
 
 import os
 
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a process that a test starts does not compile everything anew
+
 import pytest
 from commanding import Answer, Pico
 from hypothesis import settings

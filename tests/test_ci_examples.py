@@ -73,7 +73,7 @@ def shell(line: str, folder: Path, **environment: str) -> int:
     return subprocess.run(words, cwd=folder, env=os.environ | environment, check=False, capture_output=True).returncode
 
 
-@pytest.mark.parametrize(("broken", "code"), [(False, 0), (True, 3)])
+@pytest.mark.parametrize(("broken", "code"), [pytest.param(False, 0, marks=pytest.mark.slow), (True, 3)])
 def test_the_check_of_the_github_workflow_runs(pull_request: Path, broken: bool, code: int) -> None:
     if broken:
         state = pull_request / "state" / "table.yaml"
@@ -137,6 +137,7 @@ def test_hooks_look_at_what_pico_reads(path: str, ours: bool) -> None:
         assert bool(re.search(HOOKS[name]["files"], path)) == ours
 
 
+@pytest.mark.slow
 def test_the_hooks_run_as_pre_commit_calls_them(pull_request: Path) -> None:
     files = [str(p.relative_to(pull_request)) for p in pull_request.rglob("*.yaml")]
     for hook in HOOKS.values():

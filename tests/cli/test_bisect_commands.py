@@ -213,7 +213,9 @@ def test_one_that_is_killed_goes_on_with_every_verdict_it_had(
     assert events(answer, "over")[0]["tried"] == len(measured) + 3
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP, signal.SIGKILL])
+@pytest.mark.parametrize(
+    "number", [*(pytest.param(n, marks=pytest.mark.slow) for n in (signal.SIGINT, signal.SIGHUP)), signal.SIGKILL]
+)
 def test_one_that_is_cut_off_in_a_move_goes_on_from_there(
     history: dict[str, str], pico: Pico, number: signal.Signals
 ) -> None:
@@ -307,7 +309,7 @@ def test_a_shallow_clone_says_how_to_get_the_rest(history: dict[str, str], pico:
     assert answer.code in (0, 1) and "--unshallow" in answer.err
 
 
-@pytest.mark.parametrize("checkout", [False, True])
+@pytest.mark.parametrize("checkout", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_git_bisect_run_finds_it_with_pico_bisect_step(
     history: dict[str, str], pico: Pico, checkout: bool
 ) -> None:  # fmt: skip

@@ -240,7 +240,7 @@ BOMBS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("bomb", BOMBS)
+@pytest.mark.parametrize("bomb", [pytest.param(b, marks=pytest.mark.slow) if b == "keys" else b for b in BOMBS])
 def test_a_manifest_that_is_a_bomb_is_named_in_the_files_and_at_a_revision(shel: Path, pico: Pico, bomb: str) -> None:
     (shel / "state/bomb.yaml").write_bytes(BOMBS[bomb])
     git(shel, "add", "-A")

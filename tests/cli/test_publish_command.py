@@ -149,6 +149,7 @@ def test_the_same_commit_gives_the_same_bytes_by_any_name_and_in_any_clone(
     assert (tmp_path / "clone" / "third.zip").read_bytes() == first
 
 
+@pytest.mark.slow
 def test_a_zip_file_holds_pictures_of_the_table(lab: Path, pico: Pico) -> None:
     assert pico("publish", "--out", "crate.zip").code == 0
     with zipfile.ZipFile(lab / "crate.zip") as archive:

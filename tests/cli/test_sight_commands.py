@@ -24,6 +24,7 @@ def seeing(shel: Path) -> Path:
     return shel
 
 
+@pytest.mark.slow
 def test_what_was_pushed_or_taken_is_seen_told_and_repaired(seeing: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
     assert "No drift" in pico("drift").out

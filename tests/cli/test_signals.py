@@ -22,9 +22,11 @@ from pico.execution.attending import attend
 from pico.model.event import Event
 from pico.runs.journal import Journal
 
-APPLY = ("apply", "e1", "--auto-approve")
+PARTS = ("lx_125", "p2")
+APPLY = ("apply", "e1", "--auto-approve", "--", *PARTS)
+PLAN = ("plan", "e1", "--detailed-exitcode", "--", *PARTS)
 SCRIPT = PROGRAM.replace("from pico_cli.main import main\nsys.exit(main(sys.argv[1:]))", "import pico\n") + (
-    "pico.open('.').apply('e1')\nprint('not to be reached')"
+    f"bench = pico.open('.')\nbench.apply(bench.plan('e1', targets={PARTS}))\nprint('not to be reached')"
 )
 
 
@@ -65,13 +67,16 @@ def require_set_down(folder: Path, pico: Pico) -> None:
     with Bench.open(folder) as bench:
         assert bench.observe().robots["arm1"].holding is None
     assert pico("status").code == 0
-    assert pico("plan", "e1", "--detailed-exitcode").code == 2
+    assert pico(*PLAN).code == 2
     assert pico(*APPLY).code == 0
-    assert pico("plan", "e1", "--detailed-exitcode").code == 0
+    assert pico(*PLAN).code == 0
+
+
+TERM, HUP = signal.SIGTERM, signal.SIGHUP
 
 
 @pytest.mark.parametrize(
-    "numbers", [(signal.SIGTERM,), (signal.SIGHUP,), (signal.SIGHUP, signal.SIGTERM, signal.SIGHUP)]
+    "numbers", [*(pytest.param((n,), marks=pytest.mark.slow) for n in (TERM, HUP)), (HUP, TERM, HUP)]
 )
 def test_term_and_hup_end_a_run_as_ctrl_c_does_however_often_they_come(
     shel: Path, pico: Pico, numbers: Sequence[int]
@@ -87,7 +92,7 @@ def test_term_and_hup_end_a_run_as_ctrl_c_does_however_often_they_come(
 
 @pytest.mark.parametrize("fidelity", ["kinematic", pytest.param("physics", marks=pytest.mark.slow)])
 def test_a_terminal_that_closes_ends_a_run_in_order(shel: Path, pico: Pico, fidelity: str) -> None:
-    process, terminal = on_a_terminal(shel, PROGRAM, *APPLY, "--fidelity", fidelity)
+    process, terminal = on_a_terminal(shel, PROGRAM, "apply", "--fidelity", fidelity, *APPLY[1:])
     moving(shel, lambda: True)
     os.close(terminal)
     assert ended(process) == 130
@@ -205,7 +210,7 @@ def test_a_run_whose_events_cannot_be_shown_is_ended_in_order(shel: Path, pico: 
             raise OSError(errno.ENOSPC, "no space left on device")
 
     with Bench.open(shel) as bench, pytest.raises(OSError, match="no space"):
-        attend(bench.run(bench.plan("e1")), full)
+        attend(bench.run(bench.plan("e1", targets=PARTS)), full)
     require_set_down(shel, pico)
 
 

@@ -62,7 +62,7 @@ def moving(folder: Path, alive: Callable[[], bool]) -> None:
     raise AssertionError("nothing moves")
 
 
-@pytest.mark.parametrize("how", [(), ("--now",)])
+@pytest.mark.parametrize("how", [pytest.param((), marks=pytest.mark.slow), ("--now",)])
 def test_stop_needs_no_lock_and_the_run_can_be_resumed_and_undone(shel: Path, pico: Pico, how: tuple[str, ...]) -> None:
     process = started(shel, "apply", "e1", "--auto-approve")
     locked = pico("apply", "e1", "--auto-approve")
@@ -81,7 +81,8 @@ def test_stop_needs_no_lock_and_the_run_can_be_resumed_and_undone(shel: Path, pi
 
 
 def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path, pico: Pico) -> None:
-    process = started(shel, "apply", "e1", "--auto-approve")
+    apply = ("apply", "e1", "--auto-approve", "--", "lx_125", "p2")
+    process = started(shel, *apply)
     process.send_signal(signal.SIGKILL)
     process.communicate(timeout=120)
     held = Bench.open(shel).observe().robots["arm1"].holding
@@ -92,7 +93,7 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert journal.unsettled() == ()
     assert any(r.kind == "resolved" and r.component == held for r in journal.records())
     journal.close()
-    assert pico("apply", "e1", "--auto-approve").code == 0
+    assert pico(*apply).code == 0
 
 
 def test_what_was_set_down_after_a_kill_is_undone_to_where_it_was_before_the_run(shel: Path, pico: Pico) -> None:

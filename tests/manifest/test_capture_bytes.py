@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from decimal import Decimal
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pico.manifest.edit import capture
@@ -143,6 +143,7 @@ def moved(draw: st.DrawFn, key: str, value: Decimal, text: str) -> tuple[Decimal
     return live, f"{new}.0" if pointed and "." not in new else new
 
 
+@settings(deadline=None, max_examples=40)
 @given(st.data())
 def test_only_what_left_its_tolerance_is_written_and_nothing_else(data: st.DataObject) -> None:
     layout = data.draw(files())

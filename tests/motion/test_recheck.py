@@ -85,11 +85,12 @@ def random_joints(rng, upright):
             return rng.choice(found)
 
 
-def test_accepted_paths_are_accepted_again():
+@pytest.mark.parametrize("count", [12, pytest.param(40, marks=pytest.mark.slow)])
+def test_accepted_paths_are_accepted_again(count):
     rng = random.Random(4)
     first, second = ArmMotion(SETUP, second_check=False), ArmMotion(SETUP)
     accepted = 0
-    while accepted < 40:
+    while accepted < count:
         poses: list[Pose] = []
         while len(poses) < 14:
             pose = Pose(rng.uniform(120, 840), rng.uniform(120, 520), rng.uniform(-180, 180))

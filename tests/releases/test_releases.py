@@ -17,6 +17,12 @@ from pico.bench.bench import Bench
 from pico.runs.journal import VERSION, Journal
 
 EACH = pytest.mark.parametrize("kept", keeping.LABS, ids=lambda path: f"{path.parent.name}-{path.name}")
+SMALL = pytest.mark.parametrize(
+    "kept",
+    [path if path.name == "shel" else pytest.param(path, marks=pytest.mark.slow) for path in keeping.LABS],
+    ids=lambda path: f"{path.parent.name}-{path.name}",
+)
+"""Each, the large ones where there is time."""
 
 
 @pytest.fixture
@@ -35,14 +41,14 @@ def test_there_is_something_to_find() -> None:
     assert {path.name for path in keeping.LABS} >= {"shel", "crowded"}
 
 
-@EACH
+@SMALL
 def test_it_is_told_as_the_version_that_made_it_told_it(kept: Path, lab: Path, pico: Pico) -> None:
     now, then = json.loads(keeping.written(keeping.facts(pico, lab))), known(kept)
     for section, facts in then.items():
         assert now[section] == facts, section
 
 
-@EACH
+@SMALL
 def test_its_goals_are_reached(kept: Path, lab: Path, pico: Pico) -> None:
     told = pico("recover", "--auto-approve")
     assert told.code == 0 or "nothing to recover" in told.err, told

@@ -297,9 +297,10 @@ def test_no_arm_moves_in_an_open_beam(
     assert check(setup, seen, wanted, made) == [] == beam_faults(setup, seen, made)
 
 
-def test_no_motor_turns_on_a_part_that_is_carried() -> None:
+@pytest.mark.parametrize("seeds", [15, pytest.param(40, marks=pytest.mark.slow)])
+def test_no_motor_turns_on_a_part_that_is_carried(seeds: int) -> None:
     beside = 0
-    for seed in range(40):
+    for seed in range(seeds):
         made = plan_case(random_case(seed, most=16))
         carried = [o for o in made.operations if o.primitive in ("move", "stow", "operator")]
         driven = [o for o in made.operations if o.primitive in ("set", "home")]
@@ -309,7 +310,7 @@ def test_no_motor_turns_on_a_part_that_is_carried() -> None:
                     assert not at_once(move, turn), (seed, move.id, turn.id)
                     assert set(move.resources) & set(turn.resources), (seed, move.id, turn.id)
                 beside += at_once(move, turn)
-    assert beside > 50, "nothing turns while arms move, so this shows nothing"
+    assert beside > seeds, "nothing turns while arms move, so this shows nothing"
 
 
 def at_once(a: Operation, b: Operation) -> bool:
