@@ -7,6 +7,7 @@ import random
 import sys
 from pathlib import Path
 
+import pytest
 from effort import counting, line
 from fuzzing import plan_case
 from kept import differs
@@ -32,7 +33,7 @@ COUNTED = {
     "planning/ordering/arm_times.py": ("timed",),
     "planning/parts/movers.py": ("turned", "with_storage"),
     "staging/feedback/clauses.py": ("Cover.solve",),
-    "staging/feedback/shrink.py": ("impossible", "_dominated", "_closes", "certain_cycle", "_take_away", "strongest"),
+    "staging/feedback/shrink.py": ("_dominated", "_take_away", "strongest"),
     "staging/feedback/lazy.py": ("solve_region", "short_cycles"),
     "staging/feedback/walk.py": ("walk", "left_cycles"),
     "staging/feedback/digraph.py": ("some_cycle", "shortest_cycle"),
@@ -66,11 +67,12 @@ def test_solvers_take_as_much_work_as_they_took() -> None:
     assert not differs("effort_of_solvers.txt", "\n".join(lines) + "\n")
 
 
-def test_plans_take_as_much_work_as_they_took() -> None:
+@pytest.mark.parametrize("part", range(3))
+def test_plans_take_as_much_work_as_they_took(part: int) -> None:
     lines = []
-    for seed in SEARCHED:
+    for seed in SEARCHED[part::3]:
         case = random_case(seed, least=4, most=8)
         with counting(COUNTED) as calls:
             made = plan_case(case)
         lines.append(line(f"{seed}, {len(made.operations)} operations", calls))
-    assert not differs("effort_of_plans.txt", "\n".join(lines) + "\n")
+    assert not differs(f"effort_of_plans_{part}.txt", "\n".join(lines) + "\n")

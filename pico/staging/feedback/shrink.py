@@ -1,14 +1,13 @@
-"""Makes a problem small before it is solved: arcs that close no cycle, options that are never better or never possible,
-and events that can be led past. Nothing of it changes the least cost of an answer.
+"""Makes a problem small before it is solved: arcs that close no cycle, options that are never better, and events that
+can be led past. Nothing of it changes the least cost of an answer.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from pico.staging.feedback.digraph import some_cycle, strong_components
+from pico.staging.feedback.digraph import strong_components
 from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
-from pico.staging.feedback.problem import Part
 
 FILL = 2
 """How many more edges than it takes away leading past an event may bring."""
@@ -26,11 +25,10 @@ def shrink(edges: Sequence[LiteralArc], table: Literals) -> tuple[list[LiteralAr
         left = on_cycles(strongest(living(left, table)))
         clauses = minimal(living_clauses(clauses, table))
         left, found = led_past(left, table)
-        clauses = minimal([*clauses, *found, *certain_cycle(left)])
+        clauses = minimal([*clauses, *found])
         if any(not c.escapes for c in clauses):
             return left, clauses
         table.alive &= ~never_better(left, clauses, table)
-        table.alive &= ~impossible(left, clauses, table)
         if (table.alive, len(left), len(clauses)) == before:
             return left, clauses
 
@@ -83,14 +81,6 @@ def on_cycles(edges: Sequence[LiteralArc]) -> list[LiteralArc]:
     """Return the edges within strong components."""
     part = {v: n for n, component in enumerate(strong_components(successors(edges))) for v in component}
     return [e for e in edges if part[e.tail] == part[e.head]]
-
-
-def certain_cycle(edges: Iterable[LiteralArc]) -> list[Clause]:
-    """Return a cycle of edges that hold whatever is chosen, if there is one."""
-    fixed = {(e.tail, e.head): e for e in edges if not e.escapes}
-    cycle = some_cycle(successors(fixed.values())) or []
-    trail = [n for a, b in zip(cycle, cycle[1:] + cycle[:1], strict=True) for n in fixed[a, b].trail]
-    return [Clause(0, tuple(trail))] if cycle else []
 
 
 def led_past(edges: Sequence[LiteralArc], table: Literals) -> tuple[list[LiteralArc], list[Clause]]:
@@ -191,41 +181,3 @@ def _dominated(literals: Sequence[int], escaped: dict[int, int]) -> int:
                 dead |= 1 << a
                 break
     return dead
-
-
-def impossible(edges: Sequence[LiteralArc], clauses: Sequence[Clause], table: Literals) -> int:
-    """Return literals that can't be chosen: the edges that then hold for certain close a cycle, or a clause stays
-    without escape. None where a part would be left without any: then a clause must say so."""
-    dead = 0
-    fixed = successors(e for e in edges if not e.escapes)
-    for i, part in enumerate(table.parts):
-        mine = table.of(i)
-        if not mine:
-            continue
-        near = [e for e in edges if e.escapes & mine]
-        tests = [c.escapes for c in clauses if c.escapes & mine]
-        for n in bits(mine):
-            possible = _then(table, part, n)
-            if any(not c & possible for c in tests if not c & ~mine) or _closes(near, possible, mine, fixed):
-                dead |= 1 << n
-        if any(not g & ~dead for g in table.groups(i)):
-            dead &= ~mine
-    return dead
-
-
-def _then(table: Literals, part: dict[Part, int], n: int) -> int:
-    """Return the literals of a component that may be chosen together with literal `n`."""
-    name = table.meaning[n][1]
-    other = part["place"] if name == "pick" else part["pick"] if name == "place" else 0
-    return (1 << n) | (other & table.alive)
-
-
-def _closes(near: Sequence[LiteralArc], possible: int, mine: int, fixed: dict[int, set[int]]) -> bool:
-    """Whether edges that hold for certain, if of `mine` only the `possible` are left, form a cycle with the fixed."""
-    certain = [e for e in near if not e.escapes & ~mine and not e.escapes & possible]
-    if not certain:
-        return False
-    succ = successors(certain)
-    for v, heads in fixed.items():
-        succ.setdefault(v, set()).update(heads)
-    return any(len(c) > 1 or c[0] in succ[c[0]] for c in strong_components(succ))
