@@ -28,7 +28,7 @@ from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, place_of
 from pico.motion.arms import ArmMotion
-from pico.planning import plan
+from pico.planning import move_one, plan
 
 SHUTTER = Tunable(datatype="choice", choices=("open", "closed"), settle=50)
 TUNABLES = {
@@ -88,10 +88,18 @@ def spiced_case(seed: int, *, least: int = 3, most: int = 7) -> Spiced:
     """Return the case that belongs to a seed, with two to four spices."""
     rng = random.Random(seed)
     made = Spiced(random_case(seed, least=least, most=most))
-    for spice in sorted(rng.sample(SPICES, rng.randint(2, 4)), key=SPICES.index):
+    chosen = {*rng.sample(SPICES, rng.randint(2, 4)), *rng.choice(((), (wider, rings), (wider, rings, regions)))}
+    for spice in sorted(chosen, key=SPICES.index):
         made.spices.append(spice.__name__)
         spice(made, rng)
     return made
+
+
+def move_alone(made: Spiced, name: str) -> Plan:
+    """Return the plan that takes one part to where it belongs, and moves nothing else."""
+    setup, (slot, pose) = made.case.setup, place_of(made.case.setup, made.case.wanted, name)
+    motion = ArmMotion(setup) if made.with_arms else None
+    return move_one(setup, made.seen, name, slot or pose, motion=motion)
 
 
 def plan_spiced(made: Spiced) -> Plan:
@@ -193,7 +201,7 @@ def beams(made: Spiced, rng: random.Random) -> None:
     own, depth = rng.random() < 0.6, made.lab.table.size[1]
     block = Geometry(footprint=Footprint(box=(40, 40)), height=100, mass=0.3)
     tunables = {"shutter": SHUTTER} if own else {"current": TUNABLES["power"]}
-    sees = {n: OpticalElement(element=n, properties={"clear_aperture": 20.0}) for n in ("source", "shutter")}
+    sees = {n: OpticalElement(element=n, properties={"clear_diameter": 20.0}) for n in ("source", "shutter")}
     kinds = {
         name: ComponentType(name=name, title=name, geometry=block, seating="bolted", tunables=has, optics=optics)
         for name, has, optics in (("laser", tunables, sees["source"]), ("gate", {"shutter": SHUTTER}, sees["shutter"]))
@@ -283,6 +291,45 @@ def shifted(made: Spiced, rng: random.Random) -> None:
             made.see(name, pose=Pose(goal.x + off, goal.y, goal.yaw + rng.choice((0.0, 0.3, 0.8))))
 
 
+def wider(made: Spiced, rng: random.Random) -> None:
+    """A larger table with everything as far apart."""
+    by, lab, wanted = rng.uniform(1.2, 1.6), made.lab, made.case.wanted
+
+    def far(pose: Pose) -> Pose:
+        return Pose(pose.x * by, pose.y * by, pose.yaw)
+
+    goals = {n: replace(p, pose=far(p.pose)) if p.pose else p for n, p in wanted.components.items()}
+    made.case = replace(made.case, wanted=replace(wanted, components=goals))
+    stand = {n: replace(p, pose=far(p.pose)) if p.pose else p for n, p in made.seen.components.items()}
+    slots = {n: replace(s, x=s.x * by, y=s.y * by) for n, s in lab.slots.items()}
+    arms = {n: replace(r, mount=replace(r.mount, x=r.mount.x * by, y=r.mount.y * by)) for n, r in lab.robots.items()}
+    size = tuple(side * by for side in lab.table.size)
+    made.change_seen(components=stand)
+    made.change_lab(table=replace(lab.table, size=size), slots=slots, robots=arms)
+
+
+def rings(made: Spiced, rng: random.Random) -> None:
+    """Parts of one type that take each other's places, in one ring or two, while the others stay where they are.
+    Storage has room for a few at a time, or for none."""
+    types = made.case.setup.catalog
+    kind = min(types, key=lambda t: types[t].geometry.footprint.radius)
+    names = [n for n in made.lab.inventory if made.seen.components[n].pose and made.case.wanted.components[n].pose]
+    for name in names:
+        made.want(name, pose=made.seen.components[name].pose)
+    rng.shuffle(names)
+    names = names[: rng.choice((2, 3, 4, 5))]
+    split = rng.choice((len(names), 2))
+    for ring in (names[:split], names[split:]):
+        for name, other in zip(ring, [*ring[1:], *ring[:1]], strict=True):
+            made.change_part(name, type=kind, seating=None, stage=rng.choice(("allowed",) * 6 + ("avoid", "never")))
+            there = made.seen.components[other].pose
+            made.want(name, slot=None, pose=Pose(there.x, there.y, there.yaw + rng.choice((0, 0, 90, 30))), values={})
+            made.see(name, values={})
+    named = {p.slot for p in made.case.wanted.components.values()} | {"s00"}
+    few = {n: s for k, (n, s) in enumerate(made.lab.slots.items()) if n in named or k < rng.choice((0, 1, 2, 3, 9))}
+    made.change_lab(slots=few)
+
+
 def crowded(made: Spiced, rng: random.Random) -> None:
     """Now and then a part that is to stand near another, or in it."""
     a, b = one(made, rng), one(made, rng)
@@ -306,6 +353,6 @@ def asked(made: Spiced, rng: random.Random) -> None:
 
 
 SPICES: tuple[Callable[[Spiced, random.Random], None], ...] = (
-    regions, keep_outs, gantries, second_arm, cables, set_points, beams, held, left_away, badly_seen, unnamed,
-    strangers, by_hand, shifted, crowded, some, asked,
+    wider, rings, regions, keep_outs, gantries, second_arm, cables, set_points, beams, held, left_away, badly_seen,
+    unnamed, strangers, by_hand, shifted, crowded, some, asked,
 )  # fmt: skip

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 from kept import differs
-from spiced_labs import Spiced, plan_spiced, spiced_case
+from spiced_labs import Spiced, move_alone, plan_spiced, spiced_case
 from test_golden_explanations import told as told_why
 
+from pico.diagnostics import PicoError
 from pico.model.plan import Plan
 from pico.planning.explaining.explain import explain, kind_of
 from pico.planning.explaining.graph import graph_of
@@ -19,7 +20,7 @@ EACH = 10
 """Labs a test."""
 
 
-def told(case: Spiced, made: Plan) -> Iterator[str]:
+def told(made: Plan) -> Iterator[str]:
     """All that a plan says, on few lines: what is done when, with what and after what, and what is said about it."""
     count = made.staging
     yield (
@@ -33,15 +34,28 @@ def told(case: Spiced, made: Plan) -> Iterator[str]:
     for o in made.operations:
         what = " ".join(f"{k} {v}" for k, v in o.arguments.items() if k not in ("from", "text"))
         yield f"  {o.id} {o.primitive} {o.component} {what}: {o.start:g}+{o.seconds:g} after {','.join(o.after)}"
-        yield f"    with {','.join(o.resources)}: {o.reason.kind} {o.reason.of} {o.reason.overlap} {o.reason.text}"
-    setup, graph = case.case.setup, graph_of(made)
-    name = sorted(case.lab.inventory)[len(made.operations) % 3]
-    yield f"  why {name}: {' '.join(kind_of(made, n) for n in sorted(case.lab.inventory))}"
-    yield from (f"  {line}" for line in told_why(explain(setup, made, name)))
+        why = o.reason
+        yield f"    with {','.join(o.resources)}: {why.kind} {why.of} {why.overlap} {why.text}"
+
+
+def told_of_one(case: Spiced, made: Plan) -> Iterator[str]:
+    """Why a plan does what it does with one part, and how that would be moved alone."""
+    setup, graph, names = case.case.setup, graph_of(made), sorted(case.lab.inventory)
+    name = names[len(made.operations) % 3]
+    yield f"  why {name}: {' '.join(kind_of(made, n) for n in names)}"
+    why = explain(setup, made, name)
+    yield from (f"  {line}" for line in (*told_why(why), *(f"  said: {d.code} {d.address}" for d in why.diagnostics)))
     edges = (f"{e.source}{e.target}{e.after:d}{e.critical:d}{e.implied:d}{e.resources}" for e in graph.edges)
     all_of_it = "\n".join([*told_why(explain(setup, made)), *edges])
     shown = hashlib.sha256(all_of_it.encode()).hexdigest()[:12]
     yield f"  path {','.join(graph.path)} in {graph.length:g} s; the whole explanation and its graph: {shown}"
+    try:
+        alone = move_alone(case, name)
+    except PicoError as refused:
+        yield f"  {name} alone: {refused}"
+        return
+    yield f"  {name} alone: {', '.join(f'{o.primitive} {o.reason.kind} {o.after}' for o in alone.operations)}"
+    yield from (f"    {d.code}: {d.summary}" for d in alone.diagnostics)
 
 
 @pytest.mark.parametrize("first", range(0, 120, EACH))
@@ -49,5 +63,5 @@ def test_plans_of_labs_of_every_kind_are_the_ones_kept(first: int) -> None:
     lines: list[str] = []
     for seed in range(first, first + EACH):
         case = spiced_case(seed)
-        lines += [f"seed {seed}: {' '.join(case.spices)}", *told(case, plan_spiced(case))]
+        lines += [f"seed {seed}: {' '.join(case.spices)}", *told(made := plan_spiced(case)), *told_of_one(case, made)]
     assert not differs(f"spiced_{first:03}.txt", "\n".join(lines) + "\n")
