@@ -25,7 +25,10 @@ def do(
 ) -> int:
     """Run one primitive of a component, through the same checks as a plan.
 
-    `pico do p2 move x=500 y=420 yaw=30`, `pico do p2 move slot=storage/b2`, `pico do p1 set angle=3`. The manifest
-    stays as it is: `pico capture` takes the result into it.
+    `pico do p2 move x=500 y=420 yaw=30`, `pico do p2 move slot=storage/b2`, `pico do p1 set angle=3`,
+    `pico do p2 measure pose`. The manifest stays as it is: `pico capture` takes the result into it.
     """
-    return single(Session.of(context), component, primitive, pairs(arguments), speed, dry_run, fidelity)
+    from pico.model.primitive import primitive as known
+
+    given = pairs(arguments, tuple(known(primitive).arguments))
+    return single(Session.of(context), component, primitive, given, speed, dry_run, fidelity)

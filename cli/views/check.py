@@ -11,7 +11,7 @@ from pico.model.plan import Plan
 from pico.model.record import as_json
 
 from .diff import lines
-from .plan import address, change_of, reason, tally, what
+from .plan import change_of, reason, tally, what
 from .style import WIDTH, columns, count, listed, pad, paint, seconds, width, wrap
 
 SIGNS = {"passed": "✓", "advised": "!", "failed": "✗", "skipped": "–"}
@@ -75,7 +75,7 @@ def why(plan: Plan, op: Operation) -> tuple[str, str, str]:
     """Return an operation as name, motion and reason."""
     change = change_of(plan, op)
     motion, because = what(op, change), reason(op.reason, change)
-    return address(op), motion, "" if because == motion else because
+    return op.address, motion, "" if because == motion else because
 
 
 def _lab(checked: CheckReport, lab: LabChecked) -> str:

@@ -9,13 +9,14 @@ from pico.model.record import as_json
 from pico.model.run import Run
 
 from .diff import lines
+from .measured import value
 from .runs import deed, moment, shown
 from .style import columns, count, paint, seconds, shorten
 
 _HASH = re.compile(r"[0-9a-f]{40,64}")
 
 if TYPE_CHECKING:
-    from pico.history.runs.comparing import Comparison, Pair
+    from pico.history.runs.comparing import Comparison, MeasuredTwice, Pair
     from pico.runs.operations import OperationRun
 
 
@@ -25,6 +26,9 @@ def text(found: Comparison) -> str:
     if found.operations:
         head = [paint("dim", cell) for cell in ("operation", "A", "B", "", "how it ended")]
         block += ["", *columns([head, *(_pair(p) for p in found.operations)], indent="  ")]
+    if found.measured:
+        head = [paint("dim", cell) for cell in ("measured", "A", "B", "")]
+        block += ["", *columns([head, *(_measured(m) for m in found.measured)], indent="  ")]
     if found.differing:
         head = [paint("dim", cell) for cell in ("otherwise", "A", "B")]
         rows = [[shown(d.name), _fact(d.a), _fact(d.b)] for d in found.differing]
@@ -32,6 +36,11 @@ def text(found: Comparison) -> str:
     else:
         block += ["", "Nothing else differs."]
     return "\n".join(block)
+
+
+def _measured(m: MeasuredTwice) -> list[str]:
+    why = paint("yellow", f"not comparable: {'; '.join(m.incomparable)}") if m.incomparable else ""
+    return [m.address, shown(value(m.a.value, m.a.unit)), shown(value(m.b.value, m.b.unit)), why]
 
 
 def _title(letter: str, d: Run) -> list[str]:
@@ -82,5 +91,6 @@ def _fact(value: Any) -> str:
 
 
 def data(found: Comparison) -> dict[str, Any]:
-    """Return schema `pico.run-comparison/v1`: `a`, `b` (documents), `same`, `changes`, `operations`, `differing`."""
+    """Return schema `pico.run-comparison/v1`: `a`, `b` (documents), `same`, `changes`, `operations`, `differing`,
+    `measured`."""
     return {"schema": "pico.run-comparison/v1", **as_json(found)}

@@ -10,7 +10,7 @@ from pico.model.record import as_json
 from pico.planning.explaining.explain import Because, ExplainedOperation, Explanation, Fewer, Wait, kind_of
 
 from . import diagnostics as diagnostics_view
-from .plan import address, header, reason, what
+from .plan import header, reason, what
 from .style import count, listed, pad, paint, place, seconds, wrap
 
 _KEY = 10
@@ -37,7 +37,7 @@ def data(plan: Plan, found: Explanation, **_: Any) -> dict[str, Any]:
 
 def _title(step: ExplainedOperation) -> str:
     op = step.operation
-    return f"{paint('bold', op.id)}  {paint('bold', address(op))}  {what(op, step.change)}"
+    return f"{paint('bold', op.id)}  {paint('bold', op.address)}  {what(op, step.change)}"
 
 
 def _why(step: ExplainedOperation) -> str:

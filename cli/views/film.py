@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.model.plan import Plan
 
-from .plan import address, change_of, what
+from .plan import change_of, what
 from .style import plain
 from .style import seconds as duration
 
@@ -16,7 +16,7 @@ def titles(plan: Plan) -> dict[str, str]:
     """Return the caption of each operation by its id: `5/12 p2 storage/b2 → (520, 420, 30°)`."""
     total = len(plan.operations)
     return {
-        op.id: plain(f"{number}/{total}  {address(op)}  {what(op, change_of(plan, op))}")
+        op.id: plain(f"{number}/{total}  {op.address}  {what(op, change_of(plan, op))}")
         for number, op in enumerate(plan.operations, 1)
     }
 

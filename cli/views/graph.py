@@ -9,7 +9,7 @@ from pico.model.plan import Plan
 from pico.model.record import as_json
 from pico.planning.explaining.graph import Dependency, PlanGraph, ScheduledOperation
 
-from .plan import address, arms, change_of, header, what
+from .plan import arms, change_of, header, what
 from .style import columns, count, paint, seconds
 
 _RED = "#c62828"
@@ -36,7 +36,7 @@ def _table(plan: Plan, nodes: list[ScheduledOperation], spare: bool) -> list[str
     rows, several = [], len(arms(plan)) > 1
     for n in nodes:
         op = n.operation
-        cells = [paint("red" if n.critical else "dim", op.id), address(op), what(op, change_of(plan, op))]
+        cells = [paint("red" if n.critical else "dim", op.id), op.address, what(op, change_of(plan, op))]
         cells += [op.robot or ""] if several else []
         cells += [f"at {seconds(op.start)}", f"{seconds(op.seconds):>6}"]
         rows.append([*cells, f"may be {seconds(n.spare)} late"] if spare else cells)
@@ -53,7 +53,7 @@ def data(plan: Plan, graph: PlanGraph, **_: Any) -> dict[str, Any]:
 
 
 def _label(plan: Plan, op: Operation) -> str:
-    return f"{address(op)} {what(op, change_of(plan, op))}"
+    return f"{op.address} {what(op, change_of(plan, op))}"
 
 
 def _times(op: Operation) -> str:

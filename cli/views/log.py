@@ -149,7 +149,7 @@ def evidence_lines(entry: CommitEntry) -> list[str]:
         found.append(f"  {paint('dim', f'run {shown(run.id)}')}: {paint(color, ended(run))} ({run.evidence})")
         for one in run.expectations:
             if not one.holds:
-                verb = "failed" if one.holds is False else "could not be told"
+                verb = "failed" if one.holds is False else "could not be told" if one.assured else "was not assured"
                 said = f"{one.message}: `{one.that}`" if one.message else f"`{one.that}`"
                 found.append(f"    {paint('red', '✗')} {shown(said)} {verb}")
     return found
@@ -159,7 +159,7 @@ def ended(run: Run) -> str:
     """Return how a run ended: `5 moves done, 31 s`."""
     words = [f"{number} {outcome}" for outcome, number in run.tally.items() if number and outcome != "done"]
     done = run.tally.get("done", 0)
-    broken = sum(not e.holds for e in run.expectations)
+    broken = sum(e.failed for e in run.expectations)
     words += [f"{count(broken, 'expectation')} failed"] if broken else []
     end = [] if run.outcome == "done" else [run.outcome]
     return ", ".join([*end, f"{count(done, 'operation')} done", *words, seconds(run.seconds)])

@@ -77,7 +77,7 @@ def symbol(op: Operation, change: Change | None = None) -> str:
     """Return + placed from storage, - stowed, ~ changed where it is, ↷ makes room, ! a person must act."""
     if op.kind.by_hand:
         return paint("red", "!")
-    if op.kind.parks:
+    if op.kind.parks or not op.kind.mutating:
         return paint("dim", "·")
     if op.reason.kind in ("staged", "in_the_way"):
         return paint("yellow", "↷")
@@ -98,12 +98,6 @@ def _start(op: Operation, change: Change | None) -> Any:
 
 def _slot(where: Any) -> str | None:
     return where.get("slot") if isinstance(where, dict) else None
-
-
-def address(op: Operation) -> str:
-    """Return `p2`, or `p1.angle` where one tunable is driven."""
-    tunable = op.arguments.get("tunable")
-    return f"{op.component}.{tunable}" if tunable else op.component
 
 
 def step(op: Operation, change: Change | None = None) -> str:
@@ -134,7 +128,7 @@ def _cells(op: Operation, change: Change | None, several: bool) -> list[str]:
     took = seconds(op.seconds) if op.seconds >= 0.05 else ""
     robot = "" if op.kind.parks else op.robot or ""
     when = [robot, f"at {seconds(op.start):>6}"] if several else []
-    return [f"{symbol(op, change)} {address(op)}", what(op, change), *when, f"{took:>6}"]
+    return [f"{symbol(op, change)} {op.address}", what(op, change), *when, f"{took:>6}"]
 
 
 def arms(plan: Plan) -> tuple[str, ...]:
@@ -219,7 +213,7 @@ def _summary(plan: Plan) -> list[str]:
     arm = sum(op.seconds for op in plan.operations if op.robot) if len(arms(plan)) == 1 else 0.0
     parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arm)}" if arm else ""))
     line = " · ".join(part for part in parts if part)
-    changed = [op for op in plan.operations if op.reason.kind != "interlock"]
+    changed = [op for op in plan.operations if op.reason.kind != "interlock" and op.kind.mutating]
     touched = {op.component for op in changed if op.component in plan.base.state}
     stay = len(plan.base.state) - len(touched)
     whole = [line] if width(line) <= WIDTH - 2 else [" · ".join(parts[:-1]), parts[-1]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
@@ -9,6 +10,7 @@ from pico.model.run import Run
 from pico.runs.operations import operations
 
 from .diff import lines
+from .measured import line
 from .report import expectations
 from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
@@ -84,11 +86,20 @@ def _place(to: Any) -> str:
         return str(to)
 
 
+def _measured(found: Mapping[str, Any]) -> str:
+    try:
+        return line(found)
+    except (KeyError, TypeError, ValueError, AttributeError):  # written by another program
+        return str(found)
+
+
 def _ended(op: OperationRun) -> str:
     said = op.outcome
     error_mm, error_deg = op.data.get("error_mm"), op.data.get("error_deg")
     if isinstance(error_mm, int | float) and isinstance(error_deg, int | float):
         said += f", {number(error_mm)} mm, {number(error_deg)}° off"
+    if isinstance(op.data.get("measurement"), Mapping):
+        said += f": {shown(_measured(op.data['measurement']))}"
     if op.settled:
         said += f", as {'the bench was seen later' if op.settled == 'observation' else shown(op.settled) + ' said'}"
     if op.error:

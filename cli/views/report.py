@@ -43,8 +43,10 @@ def expectations(found: Sequence[Expected]) -> list[str]:
     for one in found:
         if not one.holds:
             verb = "fails" if one.holds is False else "is unknown, which is a failure"
+            verb = verb if one.failed else "is not assured"
+            mark = paint("red", "✗") if one.failed else paint("yellow", "?")
             said = f"{one.message}: " if one.message else ""
-            lines += wrap(f"{paint('red', '✗')} {said}`{one.that}` {verb}{': ' if one.why else ''}{one.why}", "  ")
+            lines += wrap(f"{mark} {said}`{one.that}` {verb}{': ' if one.why else ''}{one.why}", "  ")
     holding = sum(bool(one.holds) for one in found)
     verb = "holds" if len(found) == 1 else "hold"
     return [*lines, f"{holding} of {count(len(found), 'expectation')} {verb}."]
@@ -56,6 +58,8 @@ def _bench(report: RunReport) -> list[str]:
             return [f"The bench equals {report.goal}."]
         if report.scope:
             return [_partial(report)]
+        if report.measurements:
+            return [f"As asked: `pico runs show {report.run}` has it."]
         return ["As asked. The manifest is as it was: `pico capture` takes the bench into it."]
     lines = []
     if report.remaining:

@@ -7,7 +7,8 @@ from typing import Any
 from pico.model.event import Event
 from pico.model.plan import Plan
 
-from .plan import address, change_of, what
+from . import measured
+from .plan import change_of, what
 from .style import WIDTH, pad, paint, seconds, shorten, width
 
 
@@ -17,7 +18,7 @@ class Progress:
     def __init__(self, plan: Plan) -> None:
         self.operations = {op.id: op for op in plan.operations}
         self.order = {op.id: i for i, op in enumerate(plan.operations, 1)}
-        self.titles = {op.id: f"{address(op)} {what(op, change_of(plan, op))}" for op in plan.operations}
+        self.titles = {op.id: f"{op.address} {what(op, change_of(plan, op))}" for op in plan.operations}
         self.names = max(map(width, self.titles.values()), default=0)
         self.began: float | None = None
 
@@ -60,10 +61,12 @@ class Progress:
         data = event.data
         if event.kind == "operation_done":
             took = f"{seconds(float(data['seconds'])):>7}" if "seconds" in data else ""
-            return took + (f"   {placement(data)}" if "error_mm" in data else "")
+            said = measured.line(data["measurement"]) if "measurement" in data else ""
+            said = placement(data) if "error_mm" in data else said
+            return took + (f"   {said}" if said else "")
         if event.kind == "operation_skipped":
             because = self.operations.get(str(data.get("because", "")))
-            return f"skipped: {address(because)} did not get there" if because else "not started"
+            return f"skipped: {because.address} did not get there" if because else "not started"
         found = data.get("diagnostic")
         summary = found.get("summary", "") if isinstance(found, dict) else getattr(found, "summary", "")
         if event.kind == "operation_retried":

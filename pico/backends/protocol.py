@@ -6,9 +6,10 @@ Arguments and results are model types, serializable. Capabilities are checked be
 from __future__ import annotations
 
 from collections.abc import AsyncIterator
-from typing import Any, Protocol
+from typing import Protocol
 
 from pico.model.event import Event
+from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.record import record
@@ -16,7 +17,8 @@ from pico.model.record import record
 
 @record
 class Capabilities:
-    """What a backend can do. `evidence` is what its runs count as: kinematic, physics, emulated or hardware."""
+    """What a backend can do. `evidence` is what its runs count as: kinematic, physics, emulated or hardware.
+    `measurables`: what it can measure, as addresses (`p2.pose`)."""
 
     name: str
     fidelity: str
@@ -24,6 +26,7 @@ class Capabilities:
     lab_digest: str
     primitives: frozenset[str]
     robots: tuple[str, ...]
+    measurables: frozenset[str] = frozenset()
     unmodelled: tuple[str, ...] = ()
 
 
@@ -59,8 +62,10 @@ class Backend(Protocol):
         """
         ...
 
-    async def measure(self, component: str, measurable: str) -> Any:
-        """Acquire a measurable; raises PicoError where the backend can't."""
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Acquire a measurable as the bench is, without lease, opening nothing: nothing of it is assured, and it enters
+        no trace, expectation or goal. Raises PicoError where the backend can't.
+        """
         ...
 
     def events(self) -> AsyncIterator[Event]:

@@ -17,7 +17,7 @@ from pico.model.diff import Change
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
-from pico.model.request import PrimitiveRequest, asked, read_values, require_seen
+from pico.model.request import PrimitiveRequest, asked, read_peeked, read_values, require_seen
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -237,8 +237,12 @@ class AsyncBench(Drawings):
 
     async def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
+        from pico.execution.checks import require_able
+
         seen = await self.observe()
-        return self._one(seen, asked(self.setup, seen, component, primitive, arguments or {}))
+        found = self._one(seen, asked(self.setup, seen, component, primitive, arguments or {}))
+        require_able(found, await self.backend.describe())
+        return found
 
     async def place(self, component: str, *, after: str, distance: float) -> Plan:
         """Return the plan that places a component `distance` mm after another along its beam; raises PicoError."""
@@ -260,6 +264,10 @@ class AsyncBench(Drawings):
         elif request.primitive == "home":
             assert request.tunable is not None
             found = planning.home_one(self.setup, seen, name, request.tunable, base=base, **options)
+        elif request.measurable is not None:
+            motion = DeferredMotion(self.setup)
+            wanted = [(name, request.measurable)]
+            found = planning.measure(self.setup, seen, wanted, motion=motion, base=base, **options)
         elif request.slot is None and request.pose is None:
             found = planning.do_one(self.setup, seen, name, request.primitive, request.arguments, base=base, **options)
         else:
@@ -366,7 +374,13 @@ class AsyncBench(Drawings):
         return parts_of(self.setup, self.state, await self.observe(), free=free)
 
     async def read(self, component: str, tunable: str | None = None) -> dict[str, dict[str, Any]]:
-        """Return the tunables of a component as observed: `value`, `unit`, `status` of each; raises PicoError."""
+        """Return the tunables of a component as observed: `value`, `unit`, `status` of each; raises PicoError.
+
+        A measurable, also of a camera over the bench, is peeked at: of its value nothing is assured.
+        """
+        declared = self.setup.measurables_of(component).get(tunable or "")
+        if tunable and declared and declared.datatype in ("image", "float"):
+            return {tunable: read_peeked(await self.backend.peek(component, tunable))}
         return read_values(self.setup, await self.observe(), component, tunable)
 
     async def capture(self, *only: str, write: bool = True) -> Captured:

@@ -17,6 +17,7 @@ from pico.model.drift import drift_of, uncertain
 from pico.model.event import Event
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.plan import Plan
 from pico.model.report import RunReport
@@ -78,7 +79,7 @@ class AsyncExecution:
             yield event
         evidence = (await self._backend.describe()).evidence
         wall = time.monotonic() - started
-        seen = await self._backend.observe()
+        seen = replace(await self._backend.observe(), measurements=measured(self.plan, events))
         report = run_report(self._setup, self.plan, events, seen, wall=wall, evidence=evidence)
         goal = self._named() if report.goal == self.plan.target.name else report.goal
         self._report = replace(report, goal=goal, diagnostics=(*report.diagnostics, *self._keep(report, seen)))
@@ -120,8 +121,23 @@ def run_report(
         remaining=_remaining(setup, plan, seen, whole),
         absent=_absent(setup, plan, seen) if whole else (),
         expectations=_expectations(setup, plan, seen) if whole else (),
+        measurements=seen.measurements,
         diagnostics=tuple(_diagnostics(events)),
     )
+
+
+def measured(plan: Plan, events: Sequence[Event]) -> dict[str, Measurement]:
+    """Return what was measured in a run of the bench as it then was, by address: what the bench was changed after, but
+    for parking and what is set back, counts no more."""
+    operations, found = {op.id: op for op in plan.operations}, dict[str, Measurement]()
+    for event in events:
+        op = operations.get(event.operation or "")
+        if op is not None and event.kind == "operation_started":
+            if op.kind.mutating and op.reason.kind not in ("interlock", "parked"):
+                found.clear()
+        elif op is not None and event.kind == "operation_done" and "measurement" in event.data:
+            found[op.address] = measurement_from_json(event.data["measurement"])
+    return found
 
 
 def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tuple[Change, ...]:

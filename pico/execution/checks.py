@@ -24,6 +24,11 @@ def require_applicable(plan: Plan, able: Capabilities) -> None:
     if plan.lab.digest != able.lab_digest:
         text = "the plan is stale: the lab or its component types were edited since"
         raise PicoError(error("stale", text, hint="plan again"), ExitCode.STALE)
+    require_able(plan, able)
+
+
+def require_able(plan: Plan, able: Capabilities) -> None:
+    """Raise PicoError where a plan asks for what this backend can't do."""
     found = list(_missing(plan, able))
     if found:
         raise PicoError(found)
@@ -52,9 +57,18 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
         elif op.primitive not in able.primitives:
             text = f"{able.name} ({able.fidelity}) cannot {op.primitive} {op.component}"
             yield error("capability", text, detail=f"{op.id} of the plan asks for it", address=op.component)
+        elif op.primitive == "measure" and op.address not in able.measurables:
+            yield _unmeasured(op, able)
     for name in sorted({op.robot for op in plan.operations if op.robot} - set(able.robots)):
         here = ", ".join(able.robots) or "none"
         yield error("capability", f"the plan needs the robot {name}; {able.name} has: {here}")
+
+
+def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
+    own = sorted(a.partition(".")[2] for a in able.measurables if a.partition(".")[0] == op.component)
+    why = "light is not simulated yet" if able.name == "sim" else f"{able.name} has nothing that measures it"
+    hint = f"of {op.component} it measures: {', '.join(own)}" if own else ""
+    return error("unmeasured", f"{op.address} can't be measured: {why}", hint=hint, address=op.address)
 
 
 def _for_a_person(op: Operation, able: Capabilities) -> Diagnostic:

@@ -10,7 +10,7 @@ from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.manifest.text.tree import Document, List, Scalar
 from pico.model.lab import Setup
-from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of
+from pico.model.vocabulary import POLICY_NAMES, cameras_of, functions_of, names_of
 
 _SPEAK = "expectations speak of a component's pose, slot, tunables and measurables: `p2.pose.x`, `distance(p1, p2)`"
 _RULES = "rules speak of plan, operations, components, lasers, lab, human_present and of components: `laser.shutter`"
@@ -33,7 +33,7 @@ def check_expectations(manifests: Manifests) -> list[Diagnostic]:
     setup, state = manifests.setup, manifests.state
     if setup is None or state is None or not state.expect:
         return []
-    language = Language(names_of(setup, setup.lab.inventory), functions_of(setup))
+    language = Language(names_of(setup, [*setup.lab.inventory, *cameras_of(setup)]), functions_of(setup))
     documents = manifests.documents.get("LabState", ())
     what = "this expectation can't be told"
     return [found for document in documents for found in _each(document, language, ("expect",), what, _SPEAK)]
@@ -48,7 +48,7 @@ def _rules(document: Document, setup: Setup) -> Iterator[Diagnostic]:
         if name in named[:n]:
             at = where(document, "policy", "rules", n, "name")
             yield error("duplicate", f"two rules are called `{name}`", hint="give each its own name", source=at)
-    speaking = [n for n in setup.lab.inventory if n not in POLICY_NAMES]
+    speaking = [n for n in (*setup.lab.inventory, *cameras_of(setup)) if n not in POLICY_NAMES]
     language = Language({**names_of(setup, speaking), **POLICY_NAMES}, functions_of(setup))
     yield from _each(document, language, ("policy", "rules"), "this rule can't be told, so it would deny", _RULES)
 

@@ -1,4 +1,4 @@
-"""JSON Schemas (draft-07, which editors understand) of manifests, plans, events and runs, generated from the model.
+"""JSON Schemas (draft-07, which editors understand) of manifests, plans, runs and the like, generated from the model.
 
 `python -m pico.manifest.schema` writes `schemas/*.json`; with `--check` it only says whether they are current.
 """
@@ -19,10 +19,12 @@ _QUANTITY = [{"type": "number"}, {"type": "string", "pattern": r"^\s*[-+]?[0-9.]
 
 
 def schemas() -> dict[str, dict[str, Any]]:
-    """Return the schemas by file name without its ending: one a kind, `manifest` for all, `plan`, `event`, `run`."""
+    """Return the schemas by file name without its ending: one a kind, `manifest` for all, `plan`, `event`, `run`,
+    `measurement`."""
     from pico.model.catalog import ComponentType
     from pico.model.event import Event
     from pico.model.lab import Lab
+    from pico.model.measurement import Measurement
     from pico.model.plan import Plan
     from pico.model.run import Run
 
@@ -39,6 +41,7 @@ def schemas() -> dict[str, dict[str, Any]]:
         "plan": _titled("A PICO plan, pico.plan/v1", _of(Plan)),
         "event": _titled("An event of an execution, pico.event/v1", _of(Event)),
         "run": _titled("A run as a commit carries it, pico.run/v1", _of(Run)),
+        "measurement": _titled("What was measured, pico.measurement/v1", _of(Measurement)),
     }
 
 

@@ -93,9 +93,13 @@ class PoseTunable:
 
 @record
 class Measurable:
-    """An observable. Never set, never restored, only acquired."""
+    """An observable. Never set, never restored, only acquired.
 
-    datatype: Literal["image", "float"]
+    `needs`: tunables with the values that a measurement wants, such as `shutter: open` or `gain: 0 dB`: those of the
+    component itself, else of whatever has them. Afterwards they are set back.
+    """
+
+    datatype: Literal["image", "float", "pose", "setpoint"]
     unit: str = ""
     kernel: str | None = None
     needs: Mapping[str, Value] = field(default_factory=dict)

@@ -10,13 +10,19 @@ from pico.model.record import record
 
 @record
 class Expected:
-    """One expectation against the bench. `holds`: None where that is unknown, which counts as a failure; `why`: what
-    the bench shows, or why it can't be told."""
+    """One expectation against the bench. `holds`: None where that is unknown, which counts as a failure, unless it was
+    not `assured`: then it speaks of what nobody measured. `why`: what the bench shows, or why it can't be told."""
 
     that: str
     message: str = ""
     holds: bool | None = None
     why: str = ""
+    assured: bool = True
+
+    @property
+    def failed(self) -> bool:
+        """Whether a command fails for it."""
+        return not self.holds and self.assured
 
 
 @record
@@ -40,6 +46,6 @@ class Verified:
     @property
     def exit_code(self) -> ExitCode:
         """EXPECTATION where one does not hold or is unknown, ERROR where the bench differs, else DONE."""
-        if not all(e.holds for e in self.expectations):
+        if any(e.failed for e in self.expectations):
             return ExitCode.EXPECTATION
         return ExitCode.ERROR if self.off else ExitCode.DONE

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
 
-from pico.model.catalog import Catalog, ComponentType, SeatingKind
+from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length
 from pico.model.record import digest, record
@@ -109,6 +110,8 @@ class Mount:
     yaw: Angle = 0.0
 
 
+PARKED = 0.02
+"""How far a joint may be from where it parks [rad]; of a gantry [m]."""
 XARM7_RANGES = ((-360, 360), (-117.97, 120), (-360, 360), (-11, 225), (-360, 360), (-97, 180), (-360, 360))
 """How far the joints of an xArm7 turn, from the base outward [deg]; the vendor's published URDF."""
 
@@ -134,6 +137,17 @@ class Robot:
         for number, (angle, (low, high)) in enumerate(zip(self.park, XARM7_RANGES, strict=True), 1):
             if not low <= angle <= high:
                 raise ValueError(f"joint {number} of `park` is {angle:g} deg; it turns from {low:g} to {high:g} deg")
+
+    @property
+    def park_joints(self) -> tuple[float, ...]:
+        """The joints where it waits [rad]; of a gantry x, y, z [m] over its mount at transit height, and yaw [rad]."""
+        if self.model == "gantry":
+            return (self.mount.x / 1000, self.mount.y / 1000, self.transit_height / 1000, 0.0)
+        return tuple(math.radians(angle) for angle in self.park)
+
+    def is_parked(self, joints: Sequence[float]) -> bool:
+        """Return whether it stands there, within PARKED."""
+        return all(abs(q - p) <= PARKED for q, p in zip(joints, self.park_joints, strict=False))
 
 
 @record
@@ -348,6 +362,19 @@ class Setup:
             and kind.pose.mover == "arm"
             and kind.geometry.grasp is not None
         )
+
+    def measurables_of(self, name: str) -> Mapping[str, Measurable]:
+        """Return what can be asked to be measured of a component or a camera over the bench; nothing for another name.
+
+        Besides the measurables of its type a component has its `pose`, as cameras see it, and its set-points, read
+        back; a camera has its `frame`.
+        """
+        if name in self.lab.inventory:
+            kind = self.type_of(name)
+            read = {t: Measurable(datatype="setpoint", unit=tunable.unit) for t, tunable in kind.tunables.items()}
+            return {**read, "pose": Measurable(datatype="pose", unit="mm, mm, deg"), **kind.measurables}
+        camera = self.lab.cameras.get(name)
+        return {} if camera is None or camera.robot else {"frame": Measurable(datatype="image", unit="count")}
 
     def digest(self) -> str:
         """Return the digest of the lab and its types, as a plan records it."""

@@ -9,6 +9,7 @@ from typing import Literal
 from pico.diagnostics import Diagnostic
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup, Slot
+from pico.model.measurement import Measurement
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import record
@@ -79,6 +80,8 @@ class Observation:
 
     `person`: whether somebody is at the table, None where nothing tells.
 
+    `measurements`: what was measured of it as it is, by address (`cam.image`); what was only peeked at is no such.
+
     `problems`: what could not be told, or is not as it should be; an error about a component keeps a plan from
     touching it.
     """
@@ -90,6 +93,7 @@ class Observation:
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
     robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
     person: bool | None = None
+    measurements: Mapping[str, Measurement] = field(default_factory=dict)
     problems: tuple[Diagnostic, ...] = ()
 
     @property

@@ -40,11 +40,11 @@ class Operation:
 
     Arguments of `move` and `stow`: `from` and `to`, each `{"pose": {x, y, yaw}, "slot": name or absent}`, and
     `grasp_yaw` [deg], the direction in which the jaws close in the component's frame; where the robot holds it already,
-    `from` says `"held": true` and where it then is, seen from above. Of `set`: `tunable`, `from`,
-    `to`. Of `home`: `tunable`. Of `park`: none; its `component` is the robot's name. Of `operator`: `text`, and `to`
-    where a component is to be moved. `resources` are what it holds while it runs (a robot, `motor/p1.angle`, the
-    component itself): each does one thing at a time. `after`: ids of the operations that must be done first.
-    `start`, `seconds`: predicted [s].
+    `from` says `"held": true` and where it then is, seen from above. Of `set`: `tunable`, `from`, `to`. Of `home`:
+    `tunable`. Of `measure`: `measurable`; its `component` may be a camera over the bench. Of `park`: none; its
+    `component` is the robot's name. Of `operator`: `text`, and `to` where a component is to be moved. `resources` are
+    what it holds while it runs (a robot, `motor/p1.angle`, the component itself): each does one thing at a time.
+    `after`: ids of the operations that must be done first. `start`, `seconds`: predicted [s].
     """
 
     id: str
@@ -62,6 +62,17 @@ class Operation:
     def kind(self) -> Primitive:
         """What its primitive is."""
         return primitive(self.primitive)
+
+    @property
+    def address(self) -> str:
+        """See `address_of`."""
+        return address_of(self.component, self.arguments)
+
+
+def address_of(component: str, arguments: Mapping[str, Any]) -> str:
+    """Return what an operation is about: `p2`, or `p1.angle`, `cam.image` where it is one tunable or measurable."""
+    name = arguments.get("tunable") or arguments.get("measurable")
+    return f"{component}.{name}" if name else component
 
 
 @record

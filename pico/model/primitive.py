@@ -71,7 +71,7 @@ OWN: Mapping[str, Primitive] = {
         ),
         Primitive(name="scan", changes="tunable", arguments={"tunable": None}),
         Primitive(
-            name="measure", mutating=False, repeatable=True, arguments={"measurable": None},
+            name="measure", mutating=False, repeatable=True, arguments={"measurable": None}, seconds=0.5,
             counted=("measurement", "measurements"),
         ),
         Primitive(name="operator", changes="anything", by="person", counted=("step by hand", "steps by hand")),

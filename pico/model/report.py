@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, ExitCode
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement
 from pico.model.observation import Observation, slot_at
 from pico.model.record import record
 from pico.model.state import LabState, place_of
@@ -22,8 +23,8 @@ class RunReport:
     `seconds`: on the backend's clock, `clock` says whose; `wall`: here. `remaining`: what differs from the goal beyond
     tolerance, observed after the run; `absent`: components that are missing, held or toppled; `held`: what each robot
     still has in its gripper. `whole`: the plan was for the whole bench, not for one operation or for some components;
-    `scope`: for which (`only p2`), and `left`: what else differs from the goal. `expectations`: of the
-    goal, against the bench after a whole run. `evidence`: what the run counts as.
+    `scope`: for which (`only p2`), and `left`: what else differs from the goal. `expectations`: of the goal, against
+    the bench after a whole run. `measurements`: what was measured, by address. `evidence`: what the run counts as.
     """
 
     schema: str = "pico.report/v1"
@@ -45,6 +46,7 @@ class RunReport:
     remaining: tuple[Change, ...] = ()
     absent: tuple[str, ...] = ()
     expectations: tuple[Expected, ...] = ()
+    measurements: Mapping[str, Measurement] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -59,7 +61,7 @@ class RunReport:
             return ExitCode.INTERRUPTED
         if self.outcome != "done" or not self.reached:
             return ExitCode.ERROR
-        return ExitCode.DONE if all(e.holds for e in self.expectations) else ExitCode.EXPECTATION
+        return ExitCode.EXPECTATION if any(e.failed for e in self.expectations) else ExitCode.DONE
 
 
 @record

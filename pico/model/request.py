@@ -10,6 +10,7 @@ from typing import Any
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.pose import Pose, wrap
 from pico.model.primitive import primitive
@@ -19,8 +20,8 @@ from pico.model.record import as_json, record
 
 @record
 class PrimitiveRequest:
-    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, or `home` it; of a
-    plug-in's the `arguments`, numbers in the units that it declares."""
+    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, `home` it, or `measure`
+    a `measurable`; of a plug-in's the `arguments`, numbers in the units that it declares."""
 
     component: str
     primitive: str
@@ -28,6 +29,7 @@ class PrimitiveRequest:
     slot: str | None = None
     tunable: str | None = None
     value: Value | None = None
+    measurable: str | None = None
     arguments: Mapping[str, Value] = field(default_factory=dict)
 
 
@@ -36,13 +38,15 @@ def asked(setup: Setup, seen: Observation, component: str, name: str, arguments:
 
     Raises PicoError naming what is unknown, of the wrong unit, out of range or missing.
     """
+    if name == "measure":
+        return _measure(setup, component, arguments)
     require_component(setup, component)
     allowed = setup.type_of(component).primitives
     if name not in allowed:
         hint = did_you_mean(name, allowed)
         raise _wrong(f"{component} has no primitive `{name}`", hint or f"known: {', '.join(allowed)}", component)
-    if name in ("measure", "scan"):
-        raise _wrong(f"{name} of {component}: no light is simulated yet, so there is nothing to measure", "")
+    if name == "scan":
+        raise _wrong(f"{name} of {component}: a scan is a step of recipes, which are not there yet", "")
     reader = {"move": _move, "stow": _stow, "set": _set, "home": _home}.get(name)
     return reader(setup, seen, component, dict(arguments)) if reader else _plain(component, name, arguments)
 
@@ -103,6 +107,21 @@ def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
         known = f"{name} has " + (f"the axes {', '.join(axes)}" if axes else "no axis that homes")
         raise _wrong(f"which axis of {name}?" if not tunable else f"`{tunable}` of {name} does not home", known, name)
     return PrimitiveRequest(component=name, primitive="home", tunable=tunable)
+
+
+def _measure(setup: Setup, name: str, given: Mapping[str, str]) -> PrimitiveRequest:
+    """A camera over the bench can be asked as a component can; one measurable of a type need not be named."""
+    if name not in setup.lab.cameras:
+        require_component(setup, name)
+    known = setup.measurables_of(name)
+    _only(name, "measure", given, primitive("measure").arguments)
+    own = setup.type_of(name).measurables if name in setup.lab.inventory else known
+    measurable = given.get("measurable") or (next(iter(own)) if len(own) == 1 else "")
+    if measurable not in known:
+        what = f"{name} has no measurable `{measurable}`" if measurable else f"what of {name} is to be measured?"
+        hint = did_you_mean(measurable, known) if measurable else ""
+        raise _wrong(what, hint or f"known: {', '.join(sorted(known)) or 'none'}", name)
+    return PrimitiveRequest(component=name, primitive="measure", measurable=measurable)
 
 
 def _plain(name: str, asked: str, given: Mapping[str, str]) -> PrimitiveRequest:
@@ -166,6 +185,12 @@ def require_seen(setup: Setup, seen: Observation, *names: str) -> None:
         part = seen.components.get(name)
         if part is None or part.pose is None or part.presence != "seen":
             raise _wrong(f"nobody sees {name}", "put it where it is seen", name)
+
+
+def read_peeked(measurement: Measurement) -> dict[str, Any]:
+    """Return what was peeked at as `read_values` does a tunable, with all that is known of it under `measurement`."""
+    found = as_json(measurement)
+    return {"value": found.get("value"), "unit": measurement.unit, "status": "peeked", "measurement": found}
 
 
 def read_values(

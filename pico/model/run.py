@@ -134,8 +134,8 @@ class TraceEvent:
     `t`: seconds on the bench's clock since the first operation began; `at`: the wall time, UTC; `seq` counts from 1.
     `kind` of a trace: `intent` (`data`: the operation), `started` (the component as observed before), `done`, `failed`
     and `unknown` (`outcome`, `seconds`, the component `after`), `resolved` (how an unknown one ended, and who said so);
-    `operation` and `attempt` say of what. Of measurements: `expectation`, `observation` (a component as observed after
-    the run).
+    `operation` and `attempt` say of what. Of measurements: `measurement` (`data`: a `pico.measurement`), `expectation`,
+    `observation` (a component as observed after the run).
     """
 
     t: float

@@ -7,12 +7,13 @@ anything is evaluated. A value that is not assured has none: whoever asks for it
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable
 from typing import Any
 
 from pico.expressions import Function, Kind
-from pico.model.catalog import Measurable, Tunable
+from pico.model.catalog import Tunable
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement, number_of
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.pose import Pose, angle_between
 
@@ -27,33 +28,42 @@ _KINDS: dict[str, Kind] = {"float": "number", "bool": "bool", "choice": "text"}
 _PLACE: dict[str, Kind] = {
     "": "text", ".presence": "text", ".slot": "text", ".pose.x": "number", ".pose.y": "number", ".pose.yaw": "number",
 }  # fmt: skip
-_DARK = "can't be measured: light is not simulated yet"
 
 
 def spoken_of(setup: Setup, texts: Iterable[str]) -> list[str]:
     """Return the components whose names occur in expressions."""
     words = {word for text in texts for word in re.findall(r"[A-Za-z_]\w*", text)}
-    return sorted(words & setup.lab.inventory.keys())
+    return sorted(words & (setup.lab.inventory.keys() | cameras_of(setup)))
+
+
+def cameras_of(setup: Setup) -> set[str]:
+    """Return the cameras over the bench, which expressions speak of for what they measure."""
+    return {n for n in setup.lab.cameras if n not in setup.lab.inventory and setup.measurables_of(n)}
 
 
 def names_of(setup: Setup, components: Iterable[str]) -> dict[str, Kind]:
     """Return the names that belong to components, with the kind of each."""
     names: dict[str, Kind] = {}
     for name in components:
-        kind = setup.type_of(name)
+        names |= {f"{name}.{m}": "number" for m in numbers_of(setup, name)}
+        if name not in setup.lab.inventory:
+            names[name] = "text"
+            continue
         names |= {name + end: what for end, what in _PLACE.items()}
-        names |= {f"{name}.{t}": _KINDS[tunable.datatype] for t, tunable in kind.tunables.items()}
-        names |= {f"{name}.{m}": "number" for m in measured(kind.measurables)}
+        names |= {f"{name}.{t}": _KINDS[tunable.datatype] for t, tunable in setup.type_of(name).tunables.items()}
     return names
 
 
-def measured(measurables: Any) -> Iterator[str]:
-    """Yield the numbers that can be measured: those that are measurables, and those of images."""
-    for name, measurable in measurables.items():
-        if isinstance(measurable, Measurable) and measurable.datatype == "float":
-            yield name
-        else:
-            yield from OF_AN_IMAGE
+def numbers_of(setup: Setup, component: str) -> dict[str, str]:
+    """Return the numbers that can be measured of a component or camera, each with the measurable that has it: those
+    that are measurables themselves, and those of images."""
+    found = {}
+    for name, measurable in setup.measurables_of(component).items():
+        if measurable.datatype == "float":
+            found[name] = name
+        elif measurable.datatype == "image":
+            found |= dict.fromkeys(OF_AN_IMAGE, name)
+    return found
 
 
 def values_of(setup: Setup, seen: Observation, components: Collection[str]) -> tuple[dict[str, Any], dict[str, str]]:
@@ -61,14 +71,30 @@ def values_of(setup: Setup, seen: Observation, components: Collection[str]) -> t
     values: dict[str, Any] = {}
     unknown: dict[str, str] = {}
     for name in components:
+        for number, measurable in numbers_of(setup, name).items():
+            _measured(f"{name}.{number}", number, seen.measurements.get(f"{name}.{measurable}"), values, unknown)
+        if name not in setup.lab.inventory:
+            values[name] = name
+            continue
         part = seen.components.get(name) or ObservedComponent(presence="missing")
         values |= {name: name, f"{name}.presence": part.presence}
         _place(setup, name, part, values, unknown)
         kind = setup.type_of(name)
         for tunable, declared in kind.tunables.items():
             _value(f"{name}.{tunable}", declared, part, tunable, values, unknown)
-        unknown |= {f"{name}.{m}": f"{name}.{m} {_DARK}" for m in measured(kind.measurables)}
     return values, unknown
+
+
+def _measured(
+    name: str, number: str, found: Measurement | None, values: dict[str, Any], unknown: dict[str, str]
+) -> None:  # fmt: skip
+    known = number_of(found, number) if found else None
+    if found is None or known is None:
+        unknown[name] = f"nobody measured {name}"
+    elif found.doubt:
+        unknown[name] = f"{name} was measured, but not all was assured: {found.doubt}"
+    else:
+        values[name] = known
 
 
 def _place(

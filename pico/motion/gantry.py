@@ -20,11 +20,6 @@ SPEED, ACCELERATION = 1.0, 4.0  # m/s, m/s2 at full speed; a turn of 1 rad count
 _ARM = 0.3
 
 
-def park_joints(robot: Robot) -> Joints:
-    """Return where the gantry waits: over its mount, at transit height."""
-    return (robot.mount.x / 1000, robot.mount.y / 1000, robot.transit_height / 1000, 0.0)
-
-
 def move(
     name: str,
     robot: Robot,
@@ -68,7 +63,7 @@ def move(
 
 def park(name: str, robot: Robot, joints: Joints) -> MovePath:
     """Return the way to where the gantry waits."""
-    segment = Segment("park", *_straight(robot, joints, park_joints(robot)), robot.gripper.stroke / 2)
+    segment = Segment("park", *_straight(robot, joints, robot.park_joints), robot.gripper.stroke / 2)
     return MovePath(name, None, (segment,))
 
 
@@ -78,10 +73,10 @@ def travel(robot: Robot, start: Pose | Joints | None, goal: Pose | None, start_y
     if isinstance(start, Pose):
         above = _at(start, start_yaw, high)
     else:
-        joints = start or park_joints(robot)
+        joints = start or robot.park_joints
         above = (joints[0], joints[1], max(joints[2], high), joints[3])
         rise = _seconds(robot, joints, above)
-    return rise + _seconds(robot, above, _at(goal, goal_yaw, high) if goal else park_joints(robot))
+    return rise + _seconds(robot, above, _at(goal, goal_yaw, high) if goal else robot.park_joints)
 
 
 def carry(robot: Robot, start: Pose, goal: Pose, low: float, jaws: float) -> float:

@@ -53,8 +53,7 @@ class Travel:
     @cached_property
     def parked(self) -> Joints:
         """The joints of the park pose [rad]; of a gantry [m, rad]."""
-        arm = self.robot
-        return gantry.park_joints(arm) if arm.model == "gantry" else tuple(math.radians(q) for q in arm.park)
+        return self.robot.park_joints
 
     def empty(self, start: Pose | Joints | None, goal: Pose | None, start_yaw: float, goal_yaw: float) -> float:
         """See `Motion.travel`."""

@@ -2,6 +2,6 @@
 
 from pico.planning.compile import plan
 from pico.planning.placement import place_after
-from pico.planning.single import do_one, home_one, move_one, set_one
+from pico.planning.single import do_one, home_one, measure, move_one, set_one
 
-__all__ = ["do_one", "home_one", "move_one", "place_after", "plan", "set_one"]
+__all__ = ["do_one", "home_one", "measure", "move_one", "place_after", "plan", "set_one"]

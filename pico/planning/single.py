@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
@@ -18,6 +18,7 @@ from pico.model.state import ComponentState, LabState
 from pico.motion.types import Motion
 from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.compile import compiled_plan
+from pico.planning.measuring import measuring
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.values import home_operation, value_operations
@@ -99,6 +100,18 @@ def do_one(
         seconds=primitive(name).seconds,
     )  # fmt: skip
     return _sealed(setup, seen, [operation], [], backend, fidelity, base, live_state(setup, seen), ())
+
+
+def measure(
+    setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]], *, motion: Motion | None, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that measures `wanted` and leaves the bench as it was, arms parked.
+
+    Each is a component or camera with one of its `Setup.measurables_of`.
+    """
+    operations = measuring(setup, seen, wanted, ASKED, motion)
+    return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
 
 
 def _sealed(

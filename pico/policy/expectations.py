@@ -11,7 +11,7 @@ from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.state import Expectation
-from pico.model.vocabulary import functions_of, names_of, spoken_of, values_of
+from pico.model.vocabulary import functions_of, names_of, numbers_of, spoken_of, values_of
 from pico.policy.reaching import reaching
 
 
@@ -30,7 +30,8 @@ def require_expressions(setup: Setup, texts: Iterable[str]) -> None:
 
 
 def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> tuple[Expected, ...]:
-    """Return what became of each expectation; one that can't be told is unknown, and says why."""
+    """Return what became of each expectation; one that can't be told is unknown, and says why. What speaks of what
+    nobody measured, or of which not all was assured, is not assured, and no failure."""
     if not expect:
         return ()
     names = spoken_of(setup, (e.that for e in expect))
@@ -38,16 +39,18 @@ def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expecta
     language = Language(names_of(setup, names), functions_of(setup, seen, reaching(setup, seen)))
     found = []
     for one in expect:
-        holds, why = None, ""
+        holds, why, assured = None, "", True
         try:
             holds = bool(language.compile(one.that).evaluate(values))
         except UnknownValue as exc:
             why = unknown.get(exc.name, str(exc))
+            component, _, number = exc.name.partition(".")
+            assured = number not in numbers_of(setup, component)
         except ExpressionError as exc:
             why = str(exc)
         if holds is False:
             why = shown(one.that, values)
-        found.append(Expected(that=one.that, message=one.message, holds=holds, why=why))
+        found.append(Expected(that=one.that, message=one.message, holds=holds, why=why, assured=assured))
     return tuple(found)
 
 

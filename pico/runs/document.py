@@ -9,13 +9,14 @@ from typing import Any
 from pico.diagnostics import Diagnostic
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
+from pico.model.operation import address_of
 from pico.model.plan import LabRef
 from pico.model.record import digest, record
 from pico.model.run import STRENGTH, Cause, Run, Seen, TraceEvent
 from pico.model.state import LabState, state_from_json
 from pico.runs.journal import Journal, JournalRecord, RunRecord
 from pico.runs.states import changes, digest_of, state_left, state_seen, touched
-from pico.runs.trace import busy, counted, measured, trace_events
+from pico.runs.trace import artifacts, busy, counted, measured, trace_events
 
 ASKED = ("asked", "parked", "interlock", "held")
 
@@ -76,9 +77,9 @@ def recorded(setup: Setup, journal: Journal, run: RunRecord, part: int = 0) -> R
         resumed=run.resumed,
         expectations=tuple(Expected(**e) for e in seen["expectations"]) if seen else (),
         changes=changes(setup, before, after, touched(own)),
+        artifacts=artifacts(trace),
     )
-    measurements = measured(seen, trace[-1].t)
-    return RecordedRun(document=document, after=after, trace=trace, measurements=measurements)
+    return RecordedRun(document=document, after=after, trace=trace, measurements=measured(trace, seen))
 
 
 def _resumption(r: JournalRecord) -> int:
@@ -108,10 +109,5 @@ def _goal(plan: Mapping[str, Any]) -> str:
         return str(named)
     asked = [op for op in operations if op["reason"]["kind"] == "asked"]
     if asked and all(op["reason"]["kind"] in ASKED for op in operations):
-        return ", ".join(f"{op['primitive']} {_address(op)}" for op in asked)
+        return ", ".join(f"{op['primitive']} {address_of(op['component'], op['arguments'])}" for op in asked)
     return "the manifest"
-
-
-def _address(op: Mapping[str, Any]) -> str:
-    tunable = op["arguments"].get("tunable")
-    return f"{op['component']}.{tunable}" if tunable else str(op["component"])

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
+from pico.model.operation import address_of
 from pico.model.record import record
 from pico.model.run import TraceEvent
 
@@ -38,9 +39,8 @@ class OperationRun:
 
     @property
     def address(self) -> str:
-        """`p2`, or `p1.angle` where it is about one tunable."""
-        tunable = self.arguments.get("tunable")
-        return f"{self.component}.{tunable}" if tunable else self.component
+        """`p2`, or `p1.angle` where it is about one tunable or measurable."""
+        return address_of(self.component, self.arguments)
 
 
 def operations(trace: Iterable[TraceEvent]) -> tuple[OperationRun, ...]:

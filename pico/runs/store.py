@@ -18,6 +18,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from pico.attachment import lab_place, own_folder
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import removed, unwritable
 
@@ -177,6 +178,17 @@ class Store:
                 return path.stat()
             except FileNotFoundError:
                 raise PicoError(missing(sha256, self.root)) from None
+
+
+def store_in(common: Path) -> Store:
+    """Return the store of a repository, by Git's folder that its worktrees share."""
+    return Store(common / "pico" / "cas")
+
+
+def store_of(root: Path) -> Store:
+    """Return the store of the lab in folder `root`: its repository's, outside Git one beside its bench."""
+    place = lab_place(root)
+    return store_in(place.common) if place else Store(own_folder(root) / "cas")
 
 
 def missing(sha256: str, where: Path | str) -> Diagnostic:

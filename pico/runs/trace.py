@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
-from pico.model.run import TraceEvent, tally
+from pico.model.run import Artifact, TraceEvent, tally
 from pico.runs.files import numbered
 from pico.runs.journal import JournalRecord
 
@@ -54,16 +55,35 @@ def counted(records: Sequence[JournalRecord], skipped: int) -> dict[str, int]:
     return tally(last.values()) | {"skipped": skipped}
 
 
-def measured(seen: Mapping[str, Any] | None, t: float) -> tuple[TraceEvent, ...]:
-    """Return what was observed of the bench at the end of a run: expectations first, then each component."""
+def measured(trace: Sequence[TraceEvent], seen: Mapping[str, Any] | None) -> tuple[TraceEvent, ...]:
+    """Return what was measured in a run, then what was observed of the bench at its end, expectations first."""
+    taken = [replace(e, kind="measurement", data=data) for e in trace if (data := measurement_in(e))]
     if seen is None:
-        return ()
-    at = str(seen["at"])
+        return numbered(taken)
+    at, t = str(seen["at"]), trace[-1].t
     said = [TraceEvent(t=t, at=at, seq=0, kind="expectation", data=e) for e in seen["expectations"]]
     parts = sorted(seen["components"].items())
     return numbered(
-        [*said, *(TraceEvent(t=t, at=at, seq=0, kind="observation", component=n, data=p) for n, p in parts)]
+        [*taken, *said, *(TraceEvent(t=t, at=at, seq=0, kind="observation", component=n, data=p) for n, p in parts)]
     )
+
+
+def measurement_in(event: TraceEvent) -> Mapping[str, Any] | None:
+    """Return the measurement that an operation of a trace brought, as JSON; None where it brought none."""
+    found = event.data.get("data", {}).get("measurement") if event.kind == "done" else None
+    return found if isinstance(found, Mapping) else None
+
+
+def artifacts(trace: Sequence[TraceEvent]) -> tuple[Artifact, ...]:
+    """Return the arrays that were measured in a run, as they lie in the content store."""
+    taken = [(e, m, m["array"]) for e in trace if (m := measurement_in(e)) and m.get("array")]
+    return tuple(
+        Artifact(
+            name=f"{e.operation}-{m['component']}-{m['measurable']}.npy", sha256=array["sha256"], size=array["size"],
+            component=m["component"], seq=e.seq, shape=tuple(array["shape"]), dtype=array["dtype"],
+        )
+        for e, m, array in taken
+    )  # fmt: skip
 
 
 def _spans(records: Sequence[JournalRecord]) -> dict[str, tuple[float, float]]:

@@ -279,14 +279,16 @@ def test_a_journal_without_a_simulated_run_does_not_ask_for_a_simulated_table(
 
 def test_measuring_is_refused_until_light_is_simulated(bench: SimBackend) -> None:
     with pytest.raises(PicoError, match="image of cam is not simulated yet"):
-        asyncio.run(bench.measure("cam", "image"))
+        asyncio.run(bench.peek("cam", "image"))
 
 
 def test_what_it_can_do_is_said_before(bench: SimBackend) -> None:
     able = asyncio.run(bench.describe())
     assert (able.name, able.evidence, able.robots) == ("sim", "kinematic", ("arm1",))
     assert able.lab_digest == SETUP.digest()
-    assert {"measure", "operator"}.isdisjoint(able.primitives)
+    assert "operator" not in able.primitives
+    assert {"p1.angle", "p1.pose", "left.frame", "cam.exposure"} <= able.measurables
+    assert {"cam.image", "cam.pose", "left.pose"}.isdisjoint(able.measurables)
 
 
 def test_the_real_bench_says_what_is_missing(tmp_path: Path) -> None:

@@ -81,7 +81,7 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["move", "p1"], "where to move p1?"),
         (["move", "p1", "x=1", "x=2"], "given twice"),
         (["do", "laser", "move", "x=1"], "no primitive `move`"),
-        (["do", "cam", "measure"], "no light is simulated"),
+        (["do", "cam", "measure"], "light is not simulated yet"),
         (["rotate", "p1", "x=2"], "one of `yaw=DEGREES` and `by=DEGREES`"),
         (["home", "cam"], "no primitive `home`"),
         (["home", "p1", "tilt"], "`tilt` of p1 does not home"),

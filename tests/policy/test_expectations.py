@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ from pico.diagnostics import ExitCode
 from pico.manifest.load import load_folder
 from pico.model.expectation import Expected, Verified
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, Uncertainty
 from pico.model.pose import Pose
 from pico.model.report import RunReport
@@ -49,7 +51,6 @@ def test_a_failing_expectation_shows_what_the_bench_shows(shel: Setup) -> None:
 
 
 @pytest.mark.parametrize(("that", "part", "why"), [
-    ("cam.peak > 200", None, "light is not simulated yet"),
     ("p2.pose.x > 0", ObservedComponent(presence="missing"), "p2 is missing"),
     ("distance(p1, p2) > 0", ObservedComponent(presence="toppled", pose=Pose(1, 1, 0)), "p2 is toppled"),
     ("p2.pose.x > 0", ObservedComponent(pose=Pose(520, 420, 0), uncertainty=Uncertainty(position=3)), "seen to 3 mm"),
@@ -65,6 +66,36 @@ def test_what_is_not_assured_is_unknown_and_says_why(
     found = expected(shel, that, **({"p2": part} if part else {}))
     assert found.holds is None
     assert why in found.why
+
+
+def image(**about: Any) -> dict[str, Measurement]:
+    taken = {"component": "cam", "measurable": "image", "value": {"peak": 231.0, "mean": 4.0}, "assured": ("settled",)}
+    return {"cam.image": Measurement(**taken | about)}
+
+
+@pytest.mark.parametrize(("that", "taken", "holds", "why"), [
+    ("cam.peak > 200", image(), True, ""),
+    ("cam.mean > 200", image(), False, "cam.mean is 4"),
+    ("left.peak > 1", {"left.frame": replace(image()["cam.image"], component="left", measurable="frame")}, True, ""),
+    ("cam.peak > 200", {}, None, "nobody measured cam.peak"),
+    ("cam.peak > 200 && p1.angle == 90", {}, None, "nobody measured cam.peak"),
+    ("cam.peak > 200", image(not_assured={"shutter": "laser is open"}), None, "shutter: laser is open"),
+    ("cam.peak > 200", image(value=None), None, "nobody measured cam.peak"),
+])  # fmt: skip
+def test_what_was_measured_can_be_expected_and_what_was_not_is_not_assured(
+    shel: Setup, that: str, taken: dict[str, Measurement], holds: bool | None, why: str
+) -> None:
+    parts = {"p1": ObservedComponent(values={"angle": ObservedValue(value=90.0)})}
+    seen = Observation(backend="sim", components=parts, measurements=taken)
+    (found,) = check_expectations(shel, seen, [Expectation(that=that)])
+    assert (found.holds, found.assured, found.failed) == (holds, holds is not None, holds is False)
+    assert why in found.why
+
+
+def test_what_is_not_assured_is_no_failure() -> None:
+    found = (Expected(that="x", holds=True), Expected(that="y", holds=None, assured=False))
+    assert Verified(goal="e1", expectations=found).exit_code == ExitCode.DONE
+    assert RunReport(run="r", goal="e1", outcome="done", expectations=found).exit_code == ExitCode.DONE
 
 
 @pytest.mark.parametrize(("holds", "code"), [(True, 0), (False, 6), (None, 6)])

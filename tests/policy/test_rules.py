@@ -86,7 +86,7 @@ def test_rules_see_plan_bench_and_parts(that: str) -> None:
     ("components.p1.parameters.laser_class == '3R'", "there is no `laser_class` in it"),
     ("p1.angel > 1", "nothing is called `p1.angel`"),
     ("laser.shuter == 'open'", "did you mean `laser.shutter`?"),
-    ("cam.peak > 1", "light is not simulated yet"),
+    ("cam.peak > 1", "nobody measured cam.peak"),
 ])  # fmt: skip
 def test_what_cannot_be_told_denies_and_says_why(that: str, said: str) -> None:
     found = verdict(that)

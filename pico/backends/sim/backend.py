@@ -6,18 +6,20 @@ import asyncio
 from collections.abc import AsyncGenerator, Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pico.attachment import bench_folder
 from pico.backends.lease import BenchLock, utc_now
 from pico.backends.protocol import Capabilities, Lease
 from pico.backends.sim import checks
 from pico.backends.sim.plugins import plugged_in
+from pico.backends.sim.readings import simulated
 from pico.backends.sim.store import load_world
 from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.event import Event
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement
 from pico.model.observation import Observation, Uncertainty
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
     from pico.runs.journal import Journal
     from pico.twin.snapshot import Snapshot
 
-PRIMITIVES = frozenset({"move", "stow", "set", "home", "park"})
+PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure"})
 
 OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
@@ -95,6 +97,7 @@ class SimBackend:
             lab_digest=self.setup.digest(),
             primitives=PRIMITIVES | plugged_in().keys(),
             robots=tuple(sorted(self.setup.lab.robots)),
+            measurables=frozenset(simulated(self.setup)),
         )
 
     async def observe(self) -> Observation:
@@ -151,9 +154,16 @@ class SimBackend:
             self.diagnostics = (*self.diagnostics, *exc.diagnostics)
             return seen
 
-    async def measure(self, component: str, measurable: str) -> Any:
-        """Raises PicoError: light is not simulated yet."""
-        raise PicoError(checks.not_simulated(component, measurable))
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Return what a measurement would give now, of which nothing is assured; raises PicoError, for light above all:
+        that is not simulated yet."""
+        from pico.backends.attempt import Failed
+        from pico.backends.sim.measuring import measured
+
+        try:
+            return measured(self.setup, self.root, self._world(), component, measurable, None)
+        except Failed as exc:
+            raise PicoError(exc.diagnostic) from exc
 
     def events(self) -> AsyncGenerator[Event, None]:
         """Yield start and progress of the operations in execution, from now on until the backend is closed."""

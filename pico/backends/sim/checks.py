@@ -144,7 +144,8 @@ def refused(operation: Operation) -> MoveFailed:
 def not_simulated(component: str, what: str) -> Diagnostic:
     """Return why nothing can be measured."""
     text = f"{what} of {component} is not simulated yet: light is not traced"
-    return error("not-simulated", text, hint="poses and set-points are simulated", address=component)
+    hint = "poses, set-points and the frames of the cameras over the bench are"
+    return error("not-simulated", text, hint=hint, address=component)
 
 
 def require_dark(setup: Setup, world: World, operation: Operation) -> None:

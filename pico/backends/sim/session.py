@@ -17,6 +17,7 @@ from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
 from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
+from pico.backends.sim.measuring import measured, require_simulated
 from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.store import save_world
@@ -41,6 +42,9 @@ PROGRESS = 0.25
 
 WATCHED = 0.05
 """Simulated seconds between two looks at a run that is recorded, at most."""
+
+SETTLING = 0.5
+"""Simulated seconds in which a table comes to rest before something is measured."""
 
 KEPT = 0.05
 """Seconds of wall time after which the world is stored again while something moves."""
@@ -146,8 +150,18 @@ class WorldSession:
         self._tell("operation_started", operation, key, data)
 
     def act(self, operation: Operation, key: str) -> InProgress:
-        own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set}
+        own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
+               "measure": self._measure}  # fmt: skip
         return (yield from own.get(operation.primitive, self._plugged_in)(operation, key))
+
+    def _measure(self, operation: Operation, key: str) -> InProgress:
+        """Wait until the table has settled, and measure it as it then is."""
+        name = str(operation.arguments.get("measurable"))
+        require_simulated(self._setup, operation.component, name)
+        yield SETTLING
+        busy = sorted(other.split("/")[1] for other in self._running if other != key)
+        found = measured(self._setup, self._root, self.world(), operation.component, name, busy)
+        return {"measurement": as_json(found)}
 
     def _plugged_in(self, operation: Operation, key: str) -> InProgress:
         """Do what a plug-in brought, in the time that the plan reckons with."""

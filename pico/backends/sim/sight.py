@@ -38,6 +38,11 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
     return look(setup, pictures, read_calibration(root), observe(world, backend, observed_at), last)
 
 
+def picture(setup: Setup, world: World, name: str) -> Frame:
+    """Return what one camera sees of `world`; black where it was asked often enough."""
+    return _picture(eyes_of(setup, world, *scene_of(setup, world)), name)
+
+
 def _picture(eyes: Eyes, name: str) -> Frame:
     frame = eyes.frame(name)
     for _ in range(TRIES - 1):

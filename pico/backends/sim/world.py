@@ -5,7 +5,6 @@ A new world starts from the homes of the inventory, never from a laboratory stat
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import Any
@@ -18,7 +17,6 @@ from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import Format, record
 from pico.model.state import home_state, place_of
-from pico.motion import gantry
 
 FORMAT = Format("pico.world")
 
@@ -106,10 +104,7 @@ def new_body(setup: Setup, name: str, pose: Pose | None) -> WorldBody:
 
 def parked(setup: Setup, robot: str) -> ObservedRobot:
     """Return the robot at its park pose with an empty gripper."""
-    mounted = setup.lab.robots[robot]
-    if mounted.model == "gantry":
-        return ObservedRobot(joints=gantry.park_joints(mounted))
-    return ObservedRobot(joints=tuple(math.radians(angle) for angle in mounted.park))
+    return ObservedRobot(joints=setup.lab.robots[robot].park_joints)
 
 
 def shapes_of(setup: Setup) -> dict[str, RememberedShape]:

@@ -12,7 +12,7 @@ from pico.bench.publishing.write import write
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.lab.folder import LabFolder
 from pico.model.record import record
-from pico.runs.store import Store
+from pico.runs.store import store_in
 
 
 @record
@@ -45,7 +45,7 @@ def publish(
     """
     if out:
         _require_outside(folder, out)
-    store = Store(folder.history().common / "pico" / "cas")
+    store = store_in(folder.history().common)
     found = gather(folder, store, revision, runs, pictures=pictures)
     path = out or beside / f"{found.setup.lab.name}-{found.commit.short}.zip"
     files = (*_described(found), *found.files)

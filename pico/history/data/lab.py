@@ -12,7 +12,7 @@ from pico.history.data.pointers import Pointed, write_pointers
 from pico.history.data.transfer import Holdings, Moved, Shared, holdings, pull, push
 from pico.history.data.upkeep import Garbage, StoreCheck, check, garbage, remove
 from pico.history.repository.repository import Repository
-from pico.runs.store import Store
+from pico.runs.store import store_in
 
 GRACE = 14 * 86400.0
 """Seconds for which what nothing needs is kept: a run that is recorded right now has no commit yet."""
@@ -31,7 +31,7 @@ class LabData:
 
     def __init__(self, repository: Repository) -> None:
         self.repository = repository
-        self.store = Store(repository.common / "pico" / "cas")
+        self.store = store_in(repository.common)
 
     @classmethod
     def discover(cls, path: Path) -> LabData:

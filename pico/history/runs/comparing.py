@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from typing import Any
 
 from pico.model.diff import Change, show_value
 from pico.model.lab import Setup
+from pico.model.measurement import Measurement, incomparable, measurement_from_json
 from pico.model.record import as_json, record
 from pico.model.run import Run
 from pico.runs.document import RecordedRun
@@ -36,9 +38,20 @@ class Differing:
 
 
 @record
+class MeasuredTwice:
+    """A measurable that was measured in both runs, and why these must not be compared, where they must not."""
+
+    address: str
+    a: Measurement
+    b: Measurement
+    incomparable: tuple[str, ...] = ()
+
+
+@record
 class Comparison:
     """Two runs. `same`: they led to the same state. `changes`: from where the first ended to where the second did, as
-    observed, None where one of them was not observed; `differing`: outcome, goal, evidence, calibration, versions..."""
+    observed, None where one of them was not observed; `differing`: outcome, goal, evidence, calibration, versions...
+    `measured`: what was measured in both."""
 
     a: Run
     b: Run
@@ -46,12 +59,30 @@ class Comparison:
     changes: tuple[Change, ...] | None = None
     operations: tuple[Pair, ...] = ()
     differing: tuple[Differing, ...] = ()
+    measured: tuple[MeasuredTwice, ...] = ()
+
+
+def _taken(run: RecordedRun) -> dict[str, Measurement]:
+    """Return the last measurement of each measurable in a run, by address; what is odd is passed over."""
+    found = {}
+    for event in run.measurements:
+        if event.kind == "measurement":
+            with suppress(ValueError):
+                taken = measurement_from_json(event.data)
+                found[taken.address] = taken
+    return found
+
+
+def _both_measured(a: Mapping[str, Measurement], b: Mapping[str, Measurement]) -> Iterator[MeasuredTwice]:
+    for address in sorted(a.keys() & b.keys()):
+        one, other = a[address], b[address]
+        yield MeasuredTwice(address=address, a=one, b=other, incomparable=incomparable(one, other))
 
 
 def compare_runs(setup: Setup, a: RecordedRun, b: RecordedRun) -> Comparison:
     """Return two runs side by side; `setup`: the bench as it is now, whose tolerances count."""
     found = None
-    if a.measurements and b.measurements and a.after and b.after:  # else somebody did not look afterwards
+    if _looked(a) and _looked(b) and a.after and b.after:  # else somebody did not look afterwards
         found = changes(setup, a.after, b.after, a.after.components.keys() | b.after.components.keys())
     return Comparison(
         a=a.document,
@@ -60,7 +91,12 @@ def compare_runs(setup: Setup, a: RecordedRun, b: RecordedRun) -> Comparison:
         changes=found,
         operations=tuple(_pairs(operations(a.trace), operations(b.trace))),
         differing=tuple(_differing(_facts(a.document), _facts(b.document))),
+        measured=tuple(_both_measured(_taken(a), _taken(b))),
     )
+
+
+def _looked(run: RecordedRun) -> bool:
+    return any(event.kind == "observation" for event in run.measurements)
 
 
 def _pairs(a: Iterable[OperationRun], b: Iterable[OperationRun]) -> Iterator[Pair]:

@@ -17,7 +17,7 @@ from pico.runs.document import RecordedRun
 from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
 from pico.runs.reading import read_events
 from pico.runs.states import state_seen
-from pico.runs.store import Store
+from pico.runs.store import Store, store_in
 
 LARGEST = 256 << 20
 """Bytes above which no packed file of a run is unpacked."""
@@ -67,7 +67,7 @@ def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> tup
     document = read_place(repository, place)
     if isinstance(document, Diagnostic):
         raise PicoError(error(document.code, document.summary, detail=document.detail, hint=document.hint))
-    store = Store(repository.common / "pico" / "cas")
+    store = store_in(repository.common)
     files = files_at(repository, place)
     intact(document, files, wrong)
     trace, measurements = (_events(document, files, store, name, wrong) for name in (TRACE, MEASUREMENTS))

@@ -119,9 +119,9 @@ def _committed(folder: LabFolder, run: RecordedRun, seen: Observation, state: La
 
 def _keep(folder: LabFolder) -> Keep | None:
     """Return what takes large data: the store that all worktrees of the repository share."""
-    from pico.runs.store import Store
+    from pico.runs.store import store_in
 
-    return Store(folder.repository.common / "pico" / "cas").put if folder.repository else None
+    return store_in(folder.repository.common).put if folder.repository else None
 
 
 def _goes_on(root: Path, run: RunRecord) -> bool:

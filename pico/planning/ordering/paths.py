@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -12,7 +11,6 @@ from pico.motion.zones import MARGIN, enters, shared_zones, within
 from pico.planning.ordering.conflicts import Conflicts, Spot
 from pico.planning.ordering.order import Closure, precedence
 from pico.planning.ordering.search import OrderedMove
-from pico.planning.parts.setdown import PARKED
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,9 +82,9 @@ class Arms:
         joints, arm = self.joints[robot], self._table.setup.lab.robots.get(robot)
         if not joints or arm is None or arm.model != "xarm7":
             return False
-        parked = all(abs(q - math.radians(p)) < PARKED for q, p in zip(joints, arm.park, strict=True))
         zones = (z for z in self._zones if robot in z.robots)
-        return not parked and any(within(self._table.setup, z, robot, joints, margin=MARGIN) for z in zones)
+        astray = not arm.is_parked(joints)
+        return astray and any(within(self._table.setup, z, robot, joints, margin=MARGIN) for z in zones)
 
     def moved(self, k: int, path: MovePath) -> None:
         """Take step `k` for done."""

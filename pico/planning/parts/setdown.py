@@ -3,7 +3,6 @@ in a free storage slot."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -21,8 +20,6 @@ SET_DOWN_SECONDS = 6.0
 """What setting a part down takes where no motion is asked for [s]."""
 PARK_SECONDS = 3.0
 """What a park takes where no motion is asked for [s]."""
-PARKED = 0.02
-"""Up to so far from its park pose an arm counts as parked [rad]."""
 TRIES = 12
 """How many places are tried for a part that is held."""
 
@@ -139,7 +136,9 @@ def after_set_downs(
     shifted = [replace(o, after=tuple(str(int(e) + count) for e in o.after) or (last,)) for o in rest]
     idle = sorted({o.robot or "" for o in first} - {o.robot for o in rest})
     waits = [last, *(str(count + len(rest) + i) for i in range(len(idle)))]  # one at a time: they may meet
-    parks = (_park(setup, settled.seen, robot, wait, motion) for robot, wait in zip(idle, waits, strict=False))
+    parks = (
+        park_operation(setup, settled.seen, robot, (wait,), motion) for robot, wait in zip(idle, waits, strict=False)
+    )
     return [*first, *shifted, *parks]
 
 
@@ -147,24 +146,34 @@ def left_standing(setup: Setup, seen: Observation, operations: Sequence[Operatio
     """Yield a warning for each arm with an empty hand that stands away from its park pose and that no operation uses:
     one that was stopped on its way, where nothing is left to move."""
     used = {o.robot for o in operations}
-    for name, state in sorted(seen.robots.items()):
-        arm = setup.lab.robots.get(name)
-        if arm is None or arm.model != "xarm7" or not state.joints or state.holding or name in used:
-            continue
-        if any(abs(q - math.radians(p)) > PARKED for q, p in zip(state.joints, arm.park, strict=False)):
+    for name in astray(setup, seen):
+        if name not in used:
             hint = f"mind the beam and your hands; the next plan that moves a part with {name} parks it"
             yield warning(
                 "not-parked", f"{name} stands where it was stopped, not at its park pose", hint=hint, address=name
             )
 
 
-def _park(setup: Setup, seen: Observation, robot: str, after: str, motion: Motion | None) -> Operation:
+def astray(setup: Setup, seen: Observation) -> Iterator[str]:
+    """Yield the arms with an empty hand that stand away from their park pose."""
+    for name, state in sorted(seen.robots.items()):
+        arm = setup.lab.robots.get(name)
+        if arm is None or arm.model != "xarm7" or not state.joints or state.holding:
+            continue
+        if not arm.is_parked(state.joints):
+            yield name
+
+
+def park_operation(
+    setup: Setup, seen: Observation, robot: str, after: Sequence[str], motion: Motion | None
+) -> Operation:
+    """Return the operation that parks an arm, after those at some indices, as text."""
     obstacles = standing_obstacles(setup, seen, {})
     others = {n: r.joints for n, r in seen.robots.items() if n != robot}
     standing: dict[str, StandingObject] = {o.name: o.standing for o in obstacles}
     path = motion.park(robot, seen.robots[robot].joints, standing, others) if motion else None
     return Operation(
-        id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=(after,),
+        id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=tuple(after),
         reason=Reason(kind="parked", text="out of the beam"),
         seconds=path.seconds if isinstance(path, MovePath) else PARK_SECONDS,
     )  # fmt: skip

@@ -1,0 +1,30 @@
+"""What was measured, in a line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from .style import number, paint
+
+
+def line(found: Mapping[str, Any]) -> str:
+    """Return value, unit and array of a measurement (as JSON), and what of it was not assured."""
+    parts = [value(found.get("value"), found.get("unit", ""))]
+    if array := found.get("array"):
+        shape = " x ".join(str(n) for n in array["shape"])
+        parts.append(f"array {shape} {array['dtype']} {array['sha256'][:12]}")
+    doubts = "; ".join(f"{what} ({why})" for what, why in found.get("not_assured", {}).items())
+    return ", ".join(part for part in parts if part) + (paint("yellow", f", not assured: {doubts}") if doubts else "")
+
+
+def value(found: Any, unit: str = "") -> str:
+    """Return `x 520 mm, yaw 30 deg`, or what it is; `unit`: one for all, or one for each name."""
+    if isinstance(found, Mapping):
+        units = unit.split(", ")
+        each = units if len(units) == len(found) else [unit] * len(found)
+        return ", ".join(f"{name} {value(one, of)}" for (name, one), of in zip(found.items(), each, strict=True))
+    if isinstance(found, bool):
+        return str(found).lower()
+    said = number(found, 3) if isinstance(found, int | float) else str(found or "")
+    return f"{said} {unit}".strip()

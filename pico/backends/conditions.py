@@ -1,0 +1,50 @@
+"""What is assured of a measurement: read back when it is taken, whatever a plan did before. For every device."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from pico.model.catalog import Measurable
+from pico.model.lab import Setup
+from pico.model.measurement import Condition
+from pico.model.observation import Observation
+from pico.planning.measuring import needed
+
+WANTED: tuple[Condition, ...] = ("shutter", "illumination")
+"""What a measurable may need of the bench, and not of its own component: that is a setting."""
+
+
+def conditions(
+    setup: Setup, seen: Observation, component: str, measurable: Measurable, busy: Sequence[str] = ()
+) -> Mapping[Condition, str]:
+    """Return what counts for a measurable on the bench as it is, each with why it is not assured; empty where it is.
+
+    `busy`: the operations that are under way beside the measurement.
+    """
+    found: dict[Condition, str] = {"settled": f"{', '.join(busy)} was under way" if busy else ""}
+    found["arm parked"] = ", ".join(_standing_out(setup, seen))
+    for condition in WANTED:
+        if condition in measurable.needs:
+            found[condition] = ", ".join(_unmet(setup, seen, component, measurable, condition))
+    return found
+
+
+def _standing_out(setup: Setup, seen: Observation) -> Iterator[str]:
+    for name, robot in sorted(seen.robots.items()):
+        if robot.holding:
+            yield f"{name} holds {robot.holding}"
+        elif name in setup.lab.robots and not setup.lab.robots[name].is_parked(robot.joints):
+            yield f"{name} is not at its park pose"
+
+
+def _unmet(
+    setup: Setup, seen: Observation, component: str, measurable: Measurable, condition: Condition
+) -> Iterator[str]:
+    wants = [need for need in needed(setup, seen, component, measurable) if need.tunable == condition]
+    if not wants:
+        yield f"no part of this bench has `{condition}`"
+    for need in wants:
+        if need.live is None:
+            yield f"nobody knows {need.address}"
+        elif need.live != need.value:
+            yield f"{need.address} is {need.live}, not {need.value}"

@@ -1,0 +1,61 @@
+"""A measurement of the simulated table, with what was assured while it was taken."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from pico.backends.attempt import Failed
+from pico.backends.conditions import conditions
+from pico.backends.lease import utc_now
+from pico.backends.sim.checks import not_simulated
+from pico.backends.sim.readings import Measurer, Table, measurer_of
+from pico.backends.sim.world import World, observe
+from pico.model.catalog import Measurable
+from pico.model.lab import Setup
+from pico.model.measurement import PEEKED, Condition, Measurement
+from pico.runs.arrays import keep_array
+from pico.runs.store import store_of
+
+
+def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurable, Measurer]:
+    """Return a measurable, and what reads it; raises `Failed` where it is not simulated."""
+    known = setup.measurables_of(component).get(name)
+    measurer = measurer_of(setup, component, name) if known else None
+    if known is None or measurer is None:
+        raise Failed(not_simulated(component, name))
+    return known, measurer
+
+
+def measured(
+    setup: Setup, root: Path, world: World, component: str, name: str, busy: Sequence[str] | None = ()
+) -> Measurement:
+    """Return what is measured of `component` on the table as it is; an array goes to the content store.
+
+    `busy`: the operations under way beside it; None where it is only peeked at. Raises `Failed` where it is not
+    simulated or can't be read now, PicoError where an array can't be kept.
+    """
+    known, measurer = require_simulated(setup, component, name)
+    reading = measurer.read(Table(setup, root, world), component, name)
+    seen = observe(world, "sim", "")
+    said: dict[Condition, str] = {**conditions(setup, seen, component, known, busy or ())}
+    if reading.saturated is not None:
+        said["not saturated"] = reading.saturated
+    if busy is None:
+        said = dict.fromkeys(said, PEEKED)
+    own = {n: v for n, v in seen.known_values.get(component, {}).items() if n != name}
+    return Measurement(
+        component=component,
+        measurable=name,
+        value=reading.value,
+        array=None if reading.array is None else keep_array(store_of(root), reading.array),
+        unit=known.unit,
+        sigma=reading.sigma,
+        settings={**own, **reading.settings},
+        time=world.clock,
+        at=utc_now(),
+        kernel=reading.kernel,
+        kernel_version=reading.kernel_version,
+        assured=tuple(condition for condition, why in said.items() if not why),
+        not_assured={condition: why for condition, why in said.items() if why},
+    )

@@ -1,0 +1,119 @@
+"""A measurement as data, `pico.measurement/v1`: what was measured, how, and what was assured while it was."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import field, fields
+from typing import Any, Literal, get_args
+
+from pico.model.quantities import Value
+from pico.model.record import Format, record
+
+FORMAT = Format("pico.measurement")
+
+Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated"]
+"""What may be assured of a measurement; `shutter` and `illumination` where the measurable declares what it needs."""
+CONDITIONS: tuple[Condition, ...] = get_args(Condition)
+PEEKED = "it was only peeked at, without the lease"
+
+
+@record
+class ArrayRef:
+    """An array in the content store: the SHA-256 of its file (.npy, 64 digits), the bytes of that, shape and dtype."""
+
+    sha256: str
+    size: int
+    shape: tuple[int, ...]
+    dtype: str
+
+
+@record
+class Measurement:
+    """One measurement of a `measurable` of a component, or of a camera over the bench.
+
+    `value`: a number, a word, numbers by name (of a pose, of an image), or None; `array`: where there is more than goes
+    into a line. `unit`; where numbers by name have several, in their order. `sigma`: one standard deviation, as the
+    value. `settings`: what it depends on, such as exposure, gain and background. `time` on the bench's clock [s], `at`
+    by the wall, UTC. `kernel` and its version: what made the value of what a device gave. `assured`: what was seen to
+    hold; `not_assured`: what was not, and why.
+    """
+
+    schema: str = FORMAT.schema
+    component: str
+    measurable: str
+    value: Value | Mapping[str, Value] | None = None
+    array: ArrayRef | None = None
+    unit: str = ""
+    sigma: float | Mapping[str, float] | None = None
+    settings: Mapping[str, Value] = field(default_factory=dict)
+    time: float = 0.0
+    at: str = ""
+    kernel: str | None = None
+    kernel_version: str | None = None
+    assured: tuple[Condition, ...] = ()
+    not_assured: Mapping[Condition, str] = field(default_factory=dict)
+
+    @property
+    def address(self) -> str:
+        """`cam.image`."""
+        return f"{self.component}.{self.measurable}"
+
+    @property
+    def doubt(self) -> str:
+        """What was not assured, and why: `shutter: laser is open`; empty where all was."""
+        return "; ".join(f"{condition}: {why}" for condition, why in self.not_assured.items())
+
+
+def incomparable(a: Measurement, b: Measurement) -> tuple[str, ...]:
+    """Return why two measurements must not be compared, a reason each; none where they may.
+
+    They must be of the same thing, in the same unit, by the same kernel, with the same settings, and the same must
+    have been assured of both: what was not is never compared as if it were.
+    """
+    return tuple(_differing(a, b))
+
+
+def _differing(a: Measurement, b: Measurement) -> Iterator[str]:
+    if a.address != b.address:
+        yield f"one is of {a.address}, the other of {b.address}"
+    for name in ("unit", "kernel", "kernel_version"):
+        one, other = getattr(a, name), getattr(b, name)
+        if one != other:
+            yield f"{name.replace('_', ' ')}: {one or 'none'}, then {other or 'none'}"
+    for name in sorted(a.settings.keys() | b.settings.keys()):
+        one, other = a.settings.get(name), b.settings.get(name)
+        if one != other:
+            yield f"{name}: {_said(one)}, then {_said(other)}"
+    for which, measured in (("first", a), ("second", b)):
+        for condition, why in measured.not_assured.items():
+            yield f"not assured of the {which}: {condition} ({why})"
+    for condition in CONDITIONS:
+        if (condition in a.assured) != (condition in b.assured) and condition not in {*a.not_assured, *b.not_assured}:
+            yield f"assured of the {'first' if condition in a.assured else 'second'} only: {condition}"
+
+
+def _said(value: Value | None) -> str:
+    return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def measurement_from_json(data: Any) -> Measurement:
+    """Return the measurement whose `as_json` gave `data`, in this version of the format or an older one; keys that this
+    version does not know are passed over. Raises ValueError where it is none."""
+    from pydantic import TypeAdapter, ValidationError
+
+    content = FORMAT.lifted(data)
+    known = {f.name for f in fields(Measurement)}
+    try:
+        found: Measurement = TypeAdapter(Measurement).validate_python({k: v for k, v in content.items() if k in known})
+    except ValidationError as exc:
+        first = exc.errors()[0]
+        raise ValueError(f"no measurement: {'.'.join(str(word) for word in first['loc'])}: {first['msg']}") from None
+    return found
+
+
+def number_of(measurement: Measurement, name: str) -> float | None:
+    """Return a number that was measured: the measurable itself, or one by `name` of an image or pose; else None."""
+    value = measurement.value.get(name) if isinstance(measurement.value, Mapping) else measurement.value
+    if isinstance(measurement.value, Mapping) or name == measurement.measurable:
+        return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+    return None

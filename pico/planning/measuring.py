@@ -1,0 +1,92 @@
+"""Measuring: arms park, what the measurable needs is set, and set back when it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from pico.model.catalog import Measurable
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, Reason
+from pico.model.primitive import primitive
+from pico.model.quantities import Value
+from pico.model.record import record
+from pico.model.setpoint import set_seconds
+from pico.motion.types import Motion
+from pico.planning.checks.interlocks import CLOSED
+from pico.planning.parts.setdown import astray, park_operation
+
+
+@record
+class Need:
+    """A tunable that a measurement wants at a `value`; `live`: as it was read back, None where nobody knows."""
+
+    component: str
+    tunable: str
+    value: Value
+    live: Value | None
+
+    @property
+    def address(self) -> str:
+        """`laser.shutter`."""
+        return f"{self.component}.{self.tunable}"
+
+    @property
+    def opens(self) -> bool:
+        """Whether it lets a beam through."""
+        return self.tunable == "shutter" and self.value != CLOSED
+
+
+def needed(setup: Setup, seen: Observation, component: str, measurable: Measurable) -> Iterator[Need]:
+    """Yield what a measurable needs: of its component where that has such a tunable, else of all on the bench."""
+    for tunable, value in measurable.needs.items():
+        having = [n for n in sorted(setup.lab.inventory) if tunable in setup.type_of(n).tunables]
+        for name in [component] if component in having else having:
+            part = seen.components.get(name)
+            if part is not None and part.presence != "missing":
+                live = part.values.get(tunable)
+                known = live.value if live is not None and live.status == "known" else None
+                yield Need(component=name, tunable=tunable, value=value, live=known)
+
+
+def measuring(
+    setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]], reason: Reason, motion: Motion | None
+) -> list[Operation]:
+    """Return the operations that measure each of `wanted`, a component and a measurable, one after the other: `after`
+    holds indices as text, ids are given later.
+
+    Arms that stand out park first, and what is needed is set, shutters opened when they have parked; afterwards that is
+    set back, in so far as it is known.
+    """
+    out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
+    parks = [*map(str, range(len(out)))]
+    waits: list[str] = []
+    for component, name in wanted:
+        needs = needed(setup, seen, component, setup.measurables_of(component)[name])
+        closed = bool(parks) and not waits  # while an arm parks
+        wants = [n for n in needs if n.live != n.value or (closed and n.opens)]
+        text = f"to measure {component}.{name}"
+        out += [_set(setup, n, n.live, n.value, [*waits, *(parks if n.opens else ())], text) for n in wants]
+        measured = str(len(out))
+        out.append(_measure(setup, component, name, [*map(str, range(len(out)))], reason))
+        text = f"as it was before {component}.{name} was measured"
+        back = [(n, n.live) for n in wants if n.live != n.value]
+        out += [_set(setup, n, n.value, live, [measured], text) for n, live in back if live is not None]
+        waits = [measured, *map(str, range(int(measured) + 1, len(out)))]
+    return out
+
+
+def _measure(setup: Setup, component: str, name: str, after: Sequence[str], reason: Reason) -> Operation:
+    return Operation(
+        id="", primitive="measure", component=component, arguments={"measurable": name}, after=tuple(after),
+        resources=(component, *sorted(setup.lab.robots)), reason=reason, seconds=primitive("measure").seconds,
+    )  # fmt: skip
+
+
+def _set(setup: Setup, need: Need, before: Value | None, after: Value, waits: Sequence[str], text: str) -> Operation:
+    kind = setup.type_of(need.component).tunables[need.tunable]
+    return Operation(
+        id="", primitive="set", component=need.component, reason=Reason(kind="interlock", text=text),
+        arguments={"tunable": need.tunable, "from": before, "to": after}, after=tuple(waits),
+        resources=(need.address, need.component), seconds=set_seconds(kind, before, after),
+    )  # fmt: skip
