@@ -25,15 +25,19 @@ if TYPE_CHECKING:
 
 _CONTROL_STEPS = 2
 """Steps of the simulation between two set-points of the servos."""
+_PRESSING_STEPS = 50
+"""Steps of the simulation in which pads come to press on what they hold: some time constants of contact and finger."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Arm:
-    """Where an arm's numbers are in the model: addresses of joints, servos, fingers; ids of pads; its servos' lag."""
+    """Where an arm's numbers are in the model: addresses of joints, servos, fingers and how fast they slide; ids of
+    pads; its servos' lag."""
 
     qpos: Array
     servos: Array
     fingers: Array
+    slides: Array
     gripper: int | None
     pads: tuple[int, ...]
     lag: Array
@@ -77,6 +81,7 @@ class Twin:
         self._time = 0.0
         self.handles = dict(holding or {})
         self.after_step: Callable[[], None] | None = None
+        closed = []
         for name in self._arms:
             width = self._width(things, (holding or {}).get(name))
             parked = tuple(math.radians(angle) for angle in setup.lab.robots[name].park)
@@ -85,6 +90,8 @@ class Twin:
             )
             if width is not None:
                 self.grip(name)
+                closed.append(name)
+        self._press(closed)
         mujoco.mj_forward(self.model, self.data)
 
     @staticmethod
@@ -102,6 +109,24 @@ class Twin:
         self.data.ctrl[arm.servos] = joints
         if arm.gripper is not None:
             self.data.ctrl[arm.gripper] = opening / 2000
+
+    def _press(self, closed: list[str]) -> None:
+        """Let the pads of these robots press on what they hold, before time begins: all but their fingers keeps still.
+
+        What is stored of a grip is where arm and part are, not the forces between them: without these a part falls
+        until the pads have come together again.
+        """
+        import mujoco
+
+        fingers = [int(i) for name in closed for i in self._arms[name].fingers]
+        slides = [int(i) for name in closed for i in self._arms[name].slides]
+        still = self.data.qpos.copy()
+        for _ in range(_PRESSING_STEPS if fingers else 0):
+            mujoco.mj_step(self.model, self.data)
+            still[fingers], speeds = self.data.qpos[fingers], self.data.qvel[slides]
+            self.data.qpos[:], self.data.qvel[:] = still, 0.0
+            self.data.qvel[slides] = speeds
+        self.data.time = 0.0
 
     @property
     def arms(self) -> tuple[str, ...]:
@@ -176,8 +201,12 @@ class Twin:
         return min(both, default=None)
 
     def placement(self, name: str) -> Placement:
-        """Return where a component is."""
-        return placement_of(self.data.xpos[self._body[name]], self.data.xquat[self._body[name]])
+        """Return where a component is, at the same instant as `joints`: MuJoCo's own `xpos` is a step older."""
+        address = int(self.model.body(name).jntadr[0])
+        if address < 0:
+            return placement_of(self.data.xpos[self._body[name]], self.data.xquat[self._body[name]])
+        first = int(self.model.jnt_qposadr[address])
+        return placement_of(self.data.qpos[first : first + 3], self.data.qpos[first + 3 : first + 7])
 
     def pull(self, name: str, dx: float, dy: float, dyaw: float) -> None:
         """Shift a free component by (dx, dy) [mm] and turn it about the vertical by dyaw [deg], as its seat does when
@@ -220,6 +249,7 @@ def _arm(model: Any, name: str) -> _Arm:
         qpos=np.array([address(f"joint{i}") for i in range(1, 8)]),
         servos=servos,
         fingers=np.array([address(f"{side}_slide") for side in sides], dtype=int),
+        slides=np.array([model.joint(f"{name}/{side}_slide").dofadr[0] for side in sides], dtype=int),
         gripper=gripper if gripper >= 0 else None,
         pads=tuple(find(mujoco.mjtObj.mjOBJ_GEOM, f"{side}_pad") for side in sides),
         lag=model.actuator_biasprm[servos, 2] / model.actuator_biasprm[servos, 1],

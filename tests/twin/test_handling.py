@@ -6,17 +6,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from physical import bench, finish, fresh, path_to, to
+from physical import bench, carry, finish, fresh, path_to, to
 
 from pico.backends.sim.checks import standing
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld, seeing
-from pico.backends.sim.world import new_world
+from pico.backends.sim.world import World, new_world
 from pico.manifest.catalog import packaged_type
 from pico.model.lab import Setup, SimErrors
 from pico.model.observation import Uncertainty
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
+from pico.motion.kinematics import tool_pose
 from pico.motion.types import MovePath
 from pico.twin.sight import Exact, InHand
 
@@ -140,11 +141,41 @@ def test_a_part_that_is_in_the_hand_is_set_down(setup: Setup) -> None:
         physics.advance(next(work))
     work.close()
     physics.advance(0.5)
-    now, held = physics.world(world), physics.carried("arm1")
-    assert held is not None
-    joints = now.robots["arm1"].joints
-    path = ArmMotion(setup).set_down("arm1", PART, held, GOAL, standing(setup, now), joints)
-    assert isinstance(path, MovePath), path
-    data = finish(physics, physics.move(to(PART, GOAL), path))
+    now = physics.world(world)
+    data = finish(physics, physics.move(to(PART, GOAL), way_down(setup, now)))
     assert data["error_mm"] < 0.5
     assert physics.world(now).robots["arm1"].holding is None
+
+
+def way_down(setup: Setup, world: World) -> MovePath:
+    """Return how the part that the arm holds comes to its goal."""
+    held, joints = world.components[PART].pose, world.robots["arm1"].joints
+    assert held is not None
+    path = ArmMotion(setup).set_down("arm1", PART, held, GOAL, standing(setup, world), joints)
+    assert isinstance(path, MovePath), path
+    return path
+
+
+def in_hand(physics: PhysicsWorld) -> tuple[Pose, float]:
+    """Return where the part is in the hand, and its base above the tool center point [mm]."""
+    place = physics.twin.placement(PART)
+    x, y, z, yaw = tool_pose(bench().lab.robots["arm1"], physics.twin.joints("arm1"))
+    return Pose(x, y, yaw).inverse().compose(place.pose), place.position[2] * 1000 - z
+
+
+@pytest.mark.parametrize("seconds", [3.2, 3.5, 3.8, 4.1, 4.6])
+def test_a_hand_that_stops_dead_in_mid_motion_holds_its_part_as_before_and_sets_it_down(
+    setup: Setup, seconds: float
+) -> None:
+    world, physics = fresh(setup)
+    carry(physics, physics.move(to(PART, GOAL), path_to(setup, world, PART, GOAL)), seconds)
+    before, left = in_hand(physics), physics.world(world)
+    later = PhysicsWorld(setup, left)
+    assert physics.carried("arm1") is not None
+    assert later.carried("arm1") == physics.carried("arm1")
+    later.advance(0.3)
+    assert in_hand(later)[0].distance(before[0]) < 0.2
+    assert in_hand(later)[1] == pytest.approx(before[1], abs=0.05)
+    at_once = PhysicsWorld(setup, left)
+    data = finish(at_once, at_once.move(to(PART, GOAL), way_down(setup, left)))
+    assert data["error_mm"] < 0.5
