@@ -22,7 +22,7 @@ def actors(request: Request, situation: Situation) -> tuple[tuple[Mover, ...], l
         names = [n for n in names if n not in held]
         put_off += [warning("blocked", f"{n} is not moved: no gripper is free", address=n) for n in held]
     while True:
-        movers = {n: _mover(request, situation, n) for n in names}
+        movers = {n: _mover(request, situation, n, right=False) for n in names}
         obstacles = standing_obstacles(setup, seen, movers)
         pulled = _pulled_in(request, situation, movers, obstacles) - {d.address for d in put_off}
         if pulled:
@@ -36,7 +36,7 @@ def actors(request: Request, situation: Situation) -> tuple[tuple[Mover, ...], l
         names = [n for n in names if n not in {d.address for d in lost}]
 
 
-def _mover(request: Request, situation: Situation, name: str, right: bool = False) -> Mover:
+def _mover(request: Request, situation: Situation, name: str, *, right: bool) -> Mover:
     return mover(request.setup, request.seen, request.wanted, name, situation.robots, right=right)
 
 

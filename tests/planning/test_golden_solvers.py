@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from kept import differs
-from test_together import some_work
+from test_together import orders, some_work
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent / "staging"))
@@ -60,3 +60,15 @@ def test_arms_at_work_end_when_they_ended() -> None:
             f"{seed}: {timed(work, first)[0]:.4f} {order} {end:.4f} {total:.4f} {least(work, [3.0], free):.4f}"
         )
     assert not differs("solved_arms.txt", "\n".join(lines) + "\n")
+
+
+def test_bounds_and_times_of_arms_at_work_are_the_ones_kept() -> None:
+    """In every tenth order that keeps what comes before, and with moves that another arm may make as well."""
+    lines = []
+    for seed in range(200, 260):
+        work = some_work(seed, 3 + seed % 3)
+        times = [f"{end:.4f} {total:.4f}" for end, total in (timed(work, order) for order in orders(work)[::10])]
+        frees = ({}, {0: 2.5}, {0: 1.0, 1: 4.0}, dict.fromkeys(range(len(work.arm)), 0.1))
+        bounds = [f"{least(work, tours, free):.4f}" for tours in ([], [9.0, 30.0]) for free in frees]
+        lines.append(f"{seed}: {', '.join(times)}; at least {' '.join(bounds)}")
+    assert not differs("arms_at_work.txt", "\n".join(lines) + "\n")

@@ -25,7 +25,7 @@ def told(made: Plan) -> Iterator[str]:
     count = made.staging
     yield (
         f"  staged {count.count} of at least {count.lower_bound}{'' if count.proven else ', not proven'}; "
-        f"{made.makespan:g} s of at least {made.bound}; absent {made.absent}; exit {made.exit_code}"
+        f"{made.makespan:.9g} s of at least {made.bound}; absent {made.absent}; exit {made.exit_code}"
     )
     yield from (f"  {rule['text']}" for rule in made.policy)
     yield from (f"  changes {c.component}.{c.tunable}: {c.text}{' tolerated' * c.tolerated}" for c in made.changes)
@@ -33,7 +33,7 @@ def told(made: Plan) -> Iterator[str]:
         yield f"  {d.severity} {d.code} {d.address}: {d.summary} | {d.detail} | {d.hint}"
     for o in made.operations:
         what = " ".join(f"{k} {v}" for k, v in o.arguments.items() if k not in ("from", "text"))
-        yield f"  {o.id} {o.primitive} {o.component} {what}: {o.start:g}+{o.seconds:g} after {','.join(o.after)}"
+        yield f"  {o.id} {o.primitive} {o.component} {what}: {o.start:.9g}+{o.seconds:.9g} after {','.join(o.after)}"
         why = o.reason
         yield f"    with {','.join(o.resources)}: {why.kind} {why.of} {why.overlap} {why.text}"
 

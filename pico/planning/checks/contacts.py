@@ -19,7 +19,7 @@ class Contact:
 
     kind: Literal["base", "slot", "finger"]
     overlap: float
-    margin: float = 0.0
+    margin: float
 
     @property
     def text(self) -> str:

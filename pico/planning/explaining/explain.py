@@ -49,8 +49,8 @@ class ExplainedOperation:
     change: Change | None = None
     waits_for: tuple[Wait, ...] = ()
     holds_up: tuple[Wait, ...] = ()
-    critical: bool = False
-    spare: float = 0.0
+    critical: bool
+    spare: float
 
 
 @record
@@ -58,9 +58,9 @@ class Fewer:
     """Why a plan has no fewer moves. `moved`: components that move at all, each of which needs one; `staging`: how
     many are put down on the way; `rings`: who blocks whom in rings that only such a stop breaks."""
 
-    moved: int = 0
-    moves: int = 0
-    staging: Staging = Staging()
+    moved: int
+    moves: int
+    staging: Staging
     rings: tuple[tuple[Block, ...], ...] = ()
 
 
@@ -75,11 +75,11 @@ class Explanation:
 
     plan: str
     component: str | None = None
-    makespan: float = 0.0
-    bound: float | None = None
+    makespan: float
+    bound: float | None
     changes: tuple[Change, ...] = ()
     steps: tuple[ExplainedOperation, ...] = ()
-    fewer: Fewer = Fewer()
+    fewer: Fewer
     clashes: tuple[Clash, ...] = ()
     blocks: tuple[Block, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()

@@ -21,10 +21,10 @@ class Dependency:
 
     source: str
     target: str
-    after: bool = False
-    resources: tuple[str, ...] = ()
-    critical: bool = False
-    implied: bool = False
+    after: bool
+    resources: tuple[str, ...]
+    critical: bool
+    implied: bool
 
 
 @record
@@ -33,9 +33,9 @@ class ScheduledOperation:
     without the plan ending later [s]. `critical`: it lies on the critical path."""
 
     operation: Operation
-    earliest: float = 0.0
-    spare: float = 0.0
-    critical: bool = False
+    earliest: float
+    spare: float
+    critical: bool
 
 
 @record
@@ -47,11 +47,11 @@ class PlanGraph:
     """
 
     plan: str
-    makespan: float = 0.0
-    length: float = 0.0
-    path: tuple[str, ...] = ()
-    nodes: tuple[ScheduledOperation, ...] = ()
-    edges: tuple[Dependency, ...] = ()
+    makespan: float
+    length: float
+    path: tuple[str, ...]
+    nodes: tuple[ScheduledOperation, ...]
+    edges: tuple[Dependency, ...]
 
 
 def graph_of(plan: Plan) -> PlanGraph:

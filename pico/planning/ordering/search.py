@@ -194,7 +194,7 @@ def search(
     closest, fewest = start, len(searched.pending(start))
     costs: dict[Configuration, float] = {start: 0.0}
     parents: dict[Configuration, tuple[Configuration, OrderedMove]] = {}
-    heap: list[tuple[float, int, int, Configuration, float]] = [(effort.weight * fewest, fewest, 0, start, 0.0)]
+    heap: list[tuple[float, int, int, Configuration, float]] = [(0.0, fewest, 0, start, 0.0)]
     expanded = pushed = 0
     while heap:
         _, left, _, places, cost = heapq.heappop(heap)

@@ -29,8 +29,8 @@ class OrderedMoves:
     table: Conflicts
     tour: ArmTour
     paths: Paths | None
-    least: int = 0
-    slots: int = 0
+    least: int
+    slots: int
 
     @property
     def steps(self) -> tuple[OrderedMove, ...]:

@@ -53,9 +53,9 @@ class Mover:
     goals: tuple[int, ...]
     staging: tuple[int, ...]
     holds: tuple[Hold, ...]
-    right: bool = False
-    penalty: float = 0.0
-    stages: bool = False
+    right: bool
+    penalty: float
+    stages: bool
 
     @property
     def start(self) -> Place:
@@ -93,7 +93,7 @@ def turned(setup: Setup, slot: str, footprint: Footprint) -> list[Place]:
 
 
 def mover(
-    setup: Setup, seen: Observation, wanted: LabState, name: str, robots: tuple[str, ...], *, right: bool = False
+    setup: Setup, seen: Observation, wanted: LabState, name: str, robots: tuple[str, ...], *, right: bool
 ) -> Mover:
     """Return what may be done with a component that is `seen`; `robots` are those with a free gripper."""
     part, kind, pose = setup.lab.inventory[name], setup.type_of(name), seen.components[name].pose
