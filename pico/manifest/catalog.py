@@ -12,7 +12,7 @@ from pico.manifest.files import decode, shown_path
 from pico.manifest.records import read_record
 from pico.manifest.text.kinds import kind_of
 from pico.manifest.text.tree import Document, parse
-from pico.model.catalog import Catalog, ComponentType
+from pico.model.catalog import Catalog, ComponentType, lifted
 from pico.resources import catalog_dir
 
 
@@ -85,4 +85,4 @@ def read_type(document: Document) -> tuple[ComponentType | None, list[Diagnostic
     record, found = read_record(document, "ComponentType", ComponentType)
     if record:
         found = found + check_type(document, record)
-    return record, found
+    return record and lifted(record), found

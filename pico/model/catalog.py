@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Literal
 
 from pico.model.body import Body, grooved
-from pico.model.quantities import Angle, Length, Mass, Milliseconds, Value
+from pico.model.quantities import Angle, Length, Mass, Milliseconds, QuantityError, Value, convert
 from pico.model.record import record
 
 Mover = Literal["arm", "motor", "electronics", "person", "none"]
@@ -213,7 +213,11 @@ class Frames:
 
 @record
 class OpticalElement:
-    """What a component does to light; the properties are named after the element and light reads them."""
+    """What a component does to light; by how much its type's parameters say.
+
+    `properties`: those parameters once more, as types of the first release have them. They are lifted on load, see
+    `lifted`, and nothing reads them but the digest of a lab.
+    """
 
     element: Literal[
         "source", "lens", "mirror", "polarizer", "waveplate", "beam_splitter", "iris", "filter", "shutter",
@@ -254,6 +258,71 @@ class ComponentType:
         for name in (name for group in self.coupled for name in group):
             if name not in self.tunables:
                 raise ValueError(f"`coupled` names `{name}`, which is none of the tunables")
+
+    def number(self, parameter: str, unit: str) -> float | None:
+        """Return a parameter that is a number, in `unit`; None where it has none, or not in such a unit."""
+        found = self.parameters.get(parameter)
+        if found is None or isinstance(found.value, bool | str):
+            return None
+        try:
+            return float(found.value if found.unit in ("", unit) else convert(f"{found.value} {found.unit}", unit))
+        except QuantityError:
+            return None
+
+
+LIFTED = "from `optics.properties`"
+"""What a parameter is described as that a file has there alone."""
+_WRITTEN_TWICE: Mapping[str, tuple[str, ...]] = {
+    "source": ("wavelength", "power", "waist_radius", "polarization", "polarization_ratio"),
+    "lens": ("focal_length", "clear_diameter", "transmission"),
+    "mirror": ("reflectance", "clear_diameter"),
+    "polarizer": ("extinction", "transmission", "clear_diameter"),
+    "waveplate": ("retardance", "design_wavelength", "transmission", "clear_diameter"),
+    "beam_splitter": ("reflectance", "transmittance", "polarizing", "extinction", "fold", "clear_diameter"),
+    "iris": ("outer_diameter",),
+    "filter": ("optical_density", "clear_diameter"),
+    "shutter": ("clear_diameter",),
+    "detector": (
+        "active_diameter", "responsivity", "transimpedance", "saturation", "least_power", "greatest_power",
+        "uncertainty", "pixels_across", "pixels_up", "pixel_size", "bit_depth", "full_well", "read_noise",
+        "quantum_efficiency",
+    ),
+    "block": ("reflectance", "diameter"),
+    "none": ("clear_diameter",),
+}  # fmt: skip
+_THERE_ALONE = {
+    ("beam_splitter", "polarizing"),
+    ("beam_splitter", "fold"),
+    ("block", "diameter"),
+    ("none", "clear_diameter"),
+}
+_SCALES = {"nW": 1e-6}  # to mW
+
+
+def lifted(kind: ComponentType) -> ComponentType:
+    """Return a type with all that its file has under `optics.properties` as parameters; those that it has stay."""
+    more = {n: Parameter(value=v, description=LIFTED) for n, v in kind.optics.properties.items()}
+    return replace(kind, parameters={**more, **kind.parameters}) if more else kind
+
+
+def as_first_written(kind: ComponentType) -> ComponentType:
+    """Return a type as the first release wrote it, with parameters of its element under `optics.properties` too.
+
+    The digest of a lab is taken of that, so that the plans which that release saved are not stale: see decision 11.
+    """
+    element, written = kind.optics.element, dict(kind.optics.properties)
+    alone = {n for n, p in kind.parameters.items() if p.description == LIFTED and n in written}
+    if not written:
+        found = {n: kind.parameters[n] for n in _WRITTEN_TWICE[element] if n in kind.parameters}
+        written = {n: _plain(parameter) for n, parameter in found.items()}
+        alone = {n for n in written if (element, n) in _THERE_ALONE}
+    own = {n: p for n, p in kind.parameters.items() if n not in alone}
+    return replace(kind, parameters=own, optics=replace(kind.optics, properties=written))
+
+
+def _plain(parameter: Parameter) -> Value:
+    scale = _SCALES.get(parameter.unit)
+    return parameter.value if scale is None else float(parameter.value) * scale
 
 
 Catalog = Mapping[str, ComponentType]

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
 
-from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind
+from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind, as_first_written
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length
 from pico.model.record import digest, record
@@ -377,5 +377,5 @@ class Setup:
         return {} if camera is None or camera.robot else {"frame": Measurable(datatype="image", unit="count")}
 
     def digest(self) -> str:
-        """Return the digest of the lab and its types, as a plan records it."""
-        return digest({"lab": self.lab, "catalog": dict(self.catalog)})
+        """Return the digest of the lab and its types as the first release wrote them, as a plan records it."""
+        return digest({"lab": self.lab, "catalog": {n: as_first_written(kind) for n, kind in self.catalog.items()}})

@@ -152,7 +152,8 @@ def _optic(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]
     opening = values.get("opening") if element == "iris" else None
     if element == "beam_splitter":
         # what comes along +x is divided to `fold` degrees from it: the coating stands half way
-        tip = math.radians(float(kind.optics.properties.get("fold", 90.0)) / 2 + 90.0)
+        fold = kind.number("fold", "deg")
+        tip = math.radians((90.0 if fold is None else fold) / 2 + 90.0)
     facing = math.radians(pose.yaw) + tip + (math.pi if element == "mirror" else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2]) if aperture else None
@@ -167,8 +168,8 @@ def _aperture(kind: ComponentType) -> ClearAperture | None:
     """Return where light passes a component: as its geometry says, else as wide as the element is, around its axis."""
     if kind.geometry.clear_aperture:
         return kind.geometry.clear_aperture
-    width = kind.optics.properties.get("clear_diameter")
-    return ClearAperture(center=kind.frames.optical, diameter=width) if isinstance(width, int | float) else None
+    width = kind.number("clear_diameter", "mm")
+    return None if width is None else ClearAperture(center=kind.frames.optical, diameter=width)
 
 
 def _turn(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:

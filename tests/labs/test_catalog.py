@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 
 import pytest
 
-from pico.manifest.catalog import catalog_names, load_catalog
+from pico.manifest.catalog import catalog_names, load_catalog, read_type
+from pico.manifest.files import decode
+from pico.manifest.text.tree import parse
 from pico.model.body import Body
-from pico.model.catalog import ComponentType
+from pico.model.catalog import ComponentType, Parameter, as_first_written, lifted
 from pico.model.lab import Fingers
 from pico.model.quantities import dimension
+from pico.resources import catalog_dir
 
 CATALOG = load_catalog()
 HELD = [name for name, kind in CATALOG.items() if kind.geometry.grasp]
@@ -41,7 +45,7 @@ def test_every_file_is_a_type_that_loads() -> None:
 @pytest.mark.parametrize("focal_length", LENSES)
 def test_lenses_carry_their_focal_length_exactly(focal_length: int) -> None:
     lens = CATALOG[f"plano_convex_{focal_length}"]
-    assert lens.parameters["focal_length"].value == lens.optics.properties["focal_length"] == focal_length
+    assert lens.parameters["focal_length"].value == lens.number("focal_length", "mm") == focal_length
     curved, index = lens.parameters["radius_of_curvature"].value, lens.parameters["refractive_index"].value
     assert isinstance(curved, float) and isinstance(index, float)
     assert curved / (index - 1) == pytest.approx(focal_length, rel=0.002)  # lensmaker, one side flat
@@ -49,22 +53,47 @@ def test_lenses_carry_their_focal_length_exactly(focal_length: int) -> None:
 
 def test_lenses_differ_in_nothing_but_their_glass() -> None:
     def bare(kind: ComponentType) -> ComponentType:
-        return replace(kind, name="", title="", parameters={}, optics=replace(kind.optics, properties={}))
+        return replace(kind, name="", title="", parameters={})
 
     assert len({repr(bare(CATALOG[f"plano_convex_{f}"])) for f in LENSES}) == 1
 
 
 @pytest.mark.parametrize("name", CATALOG)
-def test_light_reads_what_the_parameters_say(name: str) -> None:
+def test_a_type_says_each_parameter_once_and_lifts_to_itself_from_how_it_was_first_written(name: str) -> None:
     kind = CATALOG[name]
-    for key in kind.optics.properties.keys() & kind.parameters.keys():
-        assert kind.optics.properties[key] == pytest.approx(_in_mm_and_mw(kind, key)), key
+    then = as_first_written(kind)
+    assert not kind.optics.properties and then.optics.properties
+    assert as_first_written(lifted(then)) == then
+    for key, was in then.optics.properties.items():
+        now, parameter = lifted(then).parameters[key], kind.parameters[key]
+        assert (now.value == parameter.value) and was == pytest.approx(_in_mm_and_mw(kind, key)), key
 
 
 def _in_mm_and_mw(kind: ComponentType, key: str) -> object:
     parameter = kind.parameters[key]
     scale = {"nW": 1e-6}.get(parameter.unit, 1)
     return parameter.value * scale if isinstance(parameter.value, int | float) else parameter.value
+
+
+def test_a_file_of_the_first_release_is_lifted_and_keeps_its_digest() -> None:
+    text = (catalog_dir() / "beam_splitter_50_50.yaml").read_text()
+    text = re.sub(r"  fold: .*\n", "", text) + "\n"
+    text = text.replace(
+        "  element: beam_splitter\n", "  element: beam_splitter\n  properties: {fold: 60, clear_diameter: 20}\n"
+    )
+    source, found = decode("own.yaml", text.encode())
+    assert source is not None and not found
+    kind, found = read_type(parse(source)[0][0])
+    assert kind is not None and not found
+    assert (kind.number("fold", "deg"), kind.number("clear_diameter", "mm")) == (60, 20)
+    then = as_first_written(kind)
+    assert then.optics.properties == {"fold": 60, "clear_diameter": 20} and "fold" not in then.parameters
+
+
+def test_a_parameter_is_read_in_the_unit_that_is_asked_for() -> None:
+    wide = {"a": Parameter(value=2.2, unit="cm"), "b": Parameter(value=22.0), "c": Parameter(value="wide", unit="mm")}
+    kind = replace(CATALOG["iris"], parameters={**wide, "d": Parameter(value=3.0, unit="s")})
+    assert [kind.number(name, "mm") for name in "abcde"] == [pytest.approx(22), 22, None, None, None]
 
 
 @pytest.mark.parametrize("name", CATALOG)

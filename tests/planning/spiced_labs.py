@@ -13,7 +13,7 @@ from typing import Any
 from random_labs import Case, random_case
 
 from pico.diagnostics import error, warning
-from pico.model.catalog import Axis, ComponentType, Footprint, Geometry, OpticalElement, PoseTunable, Tunable
+from pico.model.catalog import Axis, ComponentType, Footprint, Geometry, OpticalElement, Parameter, PoseTunable, Tunable
 from pico.model.lab import Box2, Gripper, KeepOut, Lab, Mount, Part, Policy, Region, Robot, Setup, Tether
 from pico.model.observation import (
     Observation,
@@ -201,9 +201,12 @@ def beams(made: Spiced, rng: random.Random) -> None:
     own, depth = rng.random() < 0.6, made.lab.table.size[1]
     block = Geometry(footprint=Footprint(box=(40, 40)), height=100, mass=0.3)
     tunables = {"shutter": SHUTTER} if own else {"current": TUNABLES["power"]}
-    sees = {n: OpticalElement(element=n, properties={"clear_diameter": 20.0}) for n in ("source", "shutter")}
+    sees = {n: OpticalElement(element=n) for n in ("source", "shutter")}
+    wide = {"clear_diameter": Parameter(value=20.0, unit="mm")}
     kinds = {
-        name: ComponentType(name=name, title=name, geometry=block, seating="bolted", tunables=has, optics=optics)
+        name: ComponentType(
+            name=name, title=name, geometry=block, seating="bolted", parameters=wide, tunables=has, optics=optics
+        )
         for name, has, optics in (("laser", tunables, sees["source"]), ("gate", {"shutter": SHUTTER}, sees["shutter"]))
     }
     setup, lines = made.case.setup, [rng.uniform(40, depth) for _ in range(rng.choice((1, 2)))]

@@ -14,7 +14,7 @@ from planning_benches import TALL, TYPES, bench, part, planned, see, want
 from random_labs import random_case
 
 from pico.execution.graph import Graph
-from pico.model.catalog import ComponentType, OpticalElement, Tunable
+from pico.model.catalog import ComponentType, OpticalElement, Parameter, Tunable
 from pico.model.lab import Mount, Policy, Robot, Setup
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation
@@ -189,10 +189,11 @@ def test_the_shutter_is_closed_while_a_person_works_at_the_table() -> None:
 def gated(gate: tuple[float, ...], *more: tuple[float, float]) -> tuple[Setup, Observation]:
     """A laser without a shutter at (100, 420) that shines along x, and a shutter on the table."""
     setup = lit()
-    optics = OpticalElement(element="shutter", properties={"clear_diameter": 12.7})
+    optics, wide = OpticalElement(element="shutter"), {"clear_diameter": Parameter(value=12.7, unit="mm")}
+    shutter = {"shutter": SHUTTER}
     kinds = {
         "laser": replace(LASER, tunables={}),
-        "gate": replace(TYPES["block"], name="gate", optics=optics, tunables={"shutter": SHUTTER}),
+        "gate": replace(TYPES["block"], name="gate", optics=optics, parameters=wide, tunables=shutter),
     }
     others = {f"m{n}": where for n, where in enumerate(more)}
     parts = {"gate": part("gate", home="s1")} | {name: part(home="s2") for name in others}
