@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+import pytest
 from fuzzing import plan_case
 from kept import differs
 from planning_benches import TALL, TYPES, Places, bench, part, planned, see, want
@@ -14,13 +15,19 @@ from test_golden import told
 from pico.model.body import Body
 from pico.model.catalog import Footprint
 from pico.model.lab import Box2, KeepOut, Margins, Mount, Region, Robot, Setup, Slot, Table
-from pico.model.observation import ObservedRobot, UnknownObject
+from pico.model.observation import ObservedComponent, ObservedRobot, UnknownObject
 from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
 
 REFUSED = (315, 320, 321, 333, 368, 402, 447, 452, 500, 580, 693, 726)
 """Seeds of random labs for which there is no plan."""
+RARE = (
+    5001, 5019, 5022, 5029, 5032, 5043, 5090, 5138, 5144, 5163, 5182, 5197, 5221, 5239, 5260, 5320, 5344, 5362, 5400,
+    5431, 5461, 5476, 5536, 5546, 5562, 5579, 5655, 5664,
+)  # fmt: skip
+"""Seeds of random labs where the search has to go far: storage has no room for the fewest stagings, no one grasp will
+do, three block one another whatever the others do, what is right must make way."""
 FREE = Region(area=Box2(x=(30, 770), y=(200, 470)), staging=True)
 STEM = replace(TALL, bodies=(
     Body(name="base", shape="box", size=(60, 60, 12), at=(0, 0, 6)),
@@ -95,6 +102,22 @@ def refusals() -> Iterator[tuple[str, Plan]]:
     yield "a person's part", made(bench({"a": part(seating="bolted"), "b": "block"}), SWAP)
 
 
+def stocked(seed: int) -> Plan:
+    """With more free slots than are looked at, some of them taken by parts that stay."""
+    case = random_case(seed, least=8 if seed % 2 else 5, most=9 if seed % 2 else 7)
+    lab = case.setup.lab
+    more = {f"t{n:02}": Slot(x=60 + 110 * (n % 8), y=lab.table.size[1] + 60 + 110 * (n // 8)) for n in range(72)}
+    still = {f"z{n}": part("block", seating="bolted", home=f"t{7 * n:02}") for n in range(8)}
+    seen = {n: ObservedComponent(pose=more[p.home or ""].pose) for n, p in still.items()}
+    lab = replace(
+        lab, table=Table(size=(960, lab.table.size[1] + 1100)), slots={**lab.slots, **more},
+        inventory={**lab.inventory, **still},
+    )  # fmt: skip
+    setup = Setup(lab=lab, catalog={**case.setup.catalog, "block": TYPES["block"]})
+    seen = {**case.seen.components, **seen}
+    return plan_case(replace(case, setup=setup, seen=replace(case.seen, components=seen)))
+
+
 def arms() -> Iterator[tuple[str, Plan]]:
     """With the motion of arms: reach, paths, what stands in their way, who waits for whom."""
     arm, there = Robot(mount=Mount(x=480, y=760, yaw=-90)), Robot(mount=Mount(x=480, y=40, yaw=90))
@@ -135,3 +158,15 @@ def test_refusals_say_what_they_said() -> None:
 
 def test_plans_with_arms_are_the_ones_kept() -> None:
     assert not kept_as("plans_arms.txt", arms())
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_plans_that_take_much_search_are_the_ones_kept(part: int) -> None:
+    rare = ((f"seed {seed}", plan_case(random_case(seed, least=3, most=7))) for seed in RARE[part::4])
+    assert not kept_as(f"plans_rare_{part}.txt", rare)
+
+
+def test_plans_with_many_free_slots_are_the_ones_kept() -> None:
+    assert not kept_as(
+        "plans_stocked.txt", ((f"seed {seed}", stocked(seed)) for seed in (5090, 5091, 5400, 5401, 5655))
+    )
