@@ -2,23 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated
+
 import typer
 
-from ..arguments import Revision
+from ..arguments import LockTimeout, Revision, Yes
+from ..runs.approving import declined, show
+from ..runs.running import ran
 from ..session import Session
 from ..views import verified as view
 
+if TYPE_CHECKING:
+    from pico.model.measurement import Measurement
 
-def verify(context: typer.Context, revision: Revision = None) -> int:
-    """Check that the bench is as the manifest says, and that its expectations hold. Moves nothing.
+
+Measure = Annotated[bool, typer.Option("--measure", help="Measure first what the expectations speak of.")]
+
+
+def verify(
+    context: typer.Context,
+    revision: Revision = None,
+    measure: Measure = False,
+    auto_approve: Yes = False,
+    lock_timeout: LockTimeout = None,
+) -> int:
+    """Check that the bench is as the manifest says, and that its expectations hold. Moves nothing without --measure.
 
     Says as well whether any bench ever stood as that commit (HEAD without one) says: which run led there, and whether
     that was simulated. It exits the same either way.
 
+    With --measure it takes the bench, parks its arms and measures, as `pico do COMPONENT measure` does; without, what
+    speaks of a measurable is not assured.
+
     Exits with 6 where an expectation fails or can't be told, with 1 where something stands elsewhere than it should.
     """
     session = Session.of(context)
-    found = session.bench().verify(revision)
+    bench = session.bench(writing=measure)
+    taken: Mapping[str, Measurement] = {}
+    plan = bench.to_measure(revision) if measure else None
+    if plan and plan.operations:
+        if code := show(session, plan, auto_approve, goal="measurements") or declined(session, plan, auto_approve):
+            return code
+        report = ran(session, bench, plan)
+        if report.exit_code:
+            return report.exit_code
+        taken = report.measurements
+    found = bench.verify(revision, taken)
     session.show(view, found)
     if found.standing and not session.json:
         session.report(found.standing.diagnostics)

@@ -27,11 +27,18 @@ def approve(
     if not plan.operations:
         bench.settle()
         return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
-    session.say("")
-    if not session.confirm(question(plan), auto_approve):
-        session.say("Nothing moved.")
-        return ExitCode.ERROR
+    if code := declined(session, plan, auto_approve):
+        return code
     return execute(session, bench, plan, record, **options)
+
+
+def declined(session: Session, plan: Plan, auto_approve: bool) -> ExitCode:
+    """Ask whether a plan is to be run; return ERROR where somebody says no, else DONE."""
+    session.say("")
+    if session.confirm(question(plan), auto_approve):
+        return ExitCode.DONE
+    session.say("Nothing moved.")
+    return ExitCode.ERROR
 
 
 def single(

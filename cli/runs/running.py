@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pico.execution.blocking import Execution
     from pico.model.event import Event
     from pico.model.plan import Plan
+    from pico.model.report import RunReport
 
 
 class Screen:
@@ -57,7 +58,14 @@ class Screen:
 def execute(
     session: Session, bench: Bench, plan: Plan, record: Path | None = None, *, after: str | None = None, **options: Any
 ) -> int:
-    """Run a plan, show how it goes and what became of it; return the exit code.
+    """Run a plan, show how it goes and what became of it; return the exit code: see `ran`."""
+    return int(ran(session, bench, plan, record, after=after, **options).exit_code)
+
+
+def ran(
+    session: Session, bench: Bench, plan: Plan, record: Path | None = None, *, after: str | None = None, **options: Any
+) -> RunReport:
+    """Run a plan, show how it goes and what became of it; return that.
 
     `record`: where a film of it goes; `after`: what to do once it is done; `options` are those of `AsyncBench.run`.
     """
@@ -82,7 +90,7 @@ def execute(
         from .filming import film
 
         film(session, bench, plan, recording, events, record)
-    return int(run.report.exit_code)
+    return run.report
 
 
 def _after(plan: Plan) -> str:

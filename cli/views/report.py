@@ -49,7 +49,9 @@ def expectations(found: Sequence[Expected]) -> list[str]:
             lines += wrap(f"{mark} {said}`{one.that}` {verb}{': ' if one.why else ''}{one.why}", "  ")
     holding = sum(bool(one.holds) for one in found)
     verb = "holds" if len(found) == 1 else "hold"
-    return [*lines, f"{holding} of {count(len(found), 'expectation')} {verb}."]
+    doubtful = sum(not one.assured for one in found)
+    rest = f", {doubtful} {'is' if doubtful == 1 else 'are'} not assured" if doubtful else ""
+    return [*lines, f"{holding} of {count(len(found), 'expectation')} {verb}{rest}."]
 
 
 def _bench(report: RunReport) -> list[str]:

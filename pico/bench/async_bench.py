@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pico.history.restoring.selected import SelectedParts
     from pico.manifest.load import Manifests
     from pico.model.expectation import Verified
+    from pico.model.measurement import Measurement
     from pico.model.report import Captured, Committed, PartRow, RunReport
     from pico.model.state import LabState
     from pico.model.status import Status
@@ -343,15 +344,32 @@ class AsyncBench(Drawings):
         """Return where the bench differs from HEAD: `before` is live, `after` committed; raises PicoError."""
         return drift_of(self.setup, await self.observe(), self.state_at("HEAD"))
 
-    async def verify(self, revision: str | None = None) -> Verified:
+    async def to_measure(self, revision: str | None = None) -> Plan:
+        """Return the plan that measures what the expectations of a revision, or of the manifest, speak of, as far as
+        this bench can; it has no operations where that is nothing."""
+        from pico import planning
+        from pico.model.vocabulary import measured_in
+
+        state, able = self.state_at(revision) if revision else self.state, await self.backend.describe()
+        seen, spoken = await self.observe(), measured_in(self.setup, [one.that for one in state.expect])
+        found = planning.measure(
+            self.setup, seen, [(name, m) for name, m in spoken if f"{name}.{m}" in able.measurables],
+            motion=DeferredMotion(self.setup), backend=self.backend_name, fidelity=self.fidelity, base=self.base(seen),
+        )  # fmt: skip
+        return self.judged(found, seen)
+
+    async def verify(
+        self, revision: str | None = None, measurements: Mapping[str, Measurement] = MappingProxyType({})
+    ) -> Verified:
         """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
-        whether any bench ever stood as that commit (HEAD for the manifest) says."""
+        whether any bench ever stood as that commit (HEAD for the manifest) says. `measurements`: what was measured just
+        now, by address."""
         from pico.history import runs as recording
         from pico.model.expectation import Verified
         from pico.policy.expectations import check_expectations
 
         wanted = self.state_at(revision) if revision else self.state
-        seen = await self.observe()
+        seen = replace(await self.observe(), measurements=measurements)
         return Verified(
             goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(self.setup, seen, wanted),
             expectations=check_expectations(self.setup, seen, wanted.expect),

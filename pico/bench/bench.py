@@ -8,6 +8,7 @@ from __future__ import annotations
 import signal
 from collections.abc import Collection, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pico.bench.async_bench import AsyncBench, CommitMode
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from pico.history.restoring.transplant import Transplanted
     from pico.history.runs.comparing import Comparison
     from pico.model.expectation import Verified
+    from pico.model.measurement import Measurement
     from pico.model.report import Captured, Committed, PartRow, RunReport
     from pico.model.run import Run
     from pico.model.status import Status
@@ -278,9 +280,15 @@ class Bench(Reader):
             drift.require_heal(self.setup)
         return watch(self.look, self.heal if heal else None, interval, looks)
 
-    def verify(self, revision: str | None = None) -> Verified:
+    def to_measure(self, revision: str | None = None) -> Plan:
+        """Return the plan that measures what expectations speak of; see `AsyncBench.to_measure`."""
+        return self._thread.wait(self._bench.to_measure(revision))
+
+    def verify(
+        self, revision: str | None = None, measurements: Mapping[str, Measurement] = MappingProxyType({})
+    ) -> Verified:
         """Return how the bench stands against a revision, or the manifest, and its expectations."""
-        return self._thread.wait(self._bench.verify(revision))
+        return self._thread.wait(self._bench.verify(revision, measurements))
 
     def expected(self, plan: Plan) -> Verified:
         """Return what became of the expectations of a plan's goal, which the bench has reached already."""

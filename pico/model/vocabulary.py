@@ -66,6 +66,13 @@ def numbers_of(setup: Setup, component: str) -> dict[str, str]:
     return found
 
 
+def measured_in(setup: Setup, texts: Iterable[str]) -> list[tuple[str, str]]:
+    """Return what expressions speak of that must be measured: components or cameras, each with its measurable."""
+    spoken = {word for text in texts for word in re.findall(r"[A-Za-z_]\w*\.[A-Za-z_]\w*", text)}
+    found = ((name, numbers_of(setup, name).get(number)) for name, number in (word.split(".") for word in spoken))
+    return sorted({(name, measurable) for name, measurable in found if measurable})
+
+
 def values_of(setup: Setup, seen: Observation, components: Collection[str]) -> tuple[dict[str, Any], dict[str, str]]:
     """Return the values of `names_of` as observed, and why each of the others has none."""
     values: dict[str, Any] = {}

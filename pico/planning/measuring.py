@@ -58,7 +58,7 @@ def measuring(
     Arms that stand out park first, and what is needed is set, shutters opened when they have parked; afterwards that is
     set back, in so far as it is known.
     """
-    out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
+    out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen) if wanted]
     parks = [*map(str, range(len(out)))]
     waits: list[str] = []
     for component, name in wanted:

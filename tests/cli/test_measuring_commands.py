@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -147,3 +148,45 @@ def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: 
     ]
     found = measured(pico("do", "cam", "measure", "exposure", "--json"))
     assert found["assured"] == ["settled", "arm parked", "shutter"]
+
+
+def expecting(lab: Path, *those: str) -> None:
+    listed = "".join(f"  - {{that: '{that}'}}\n" for that in those)
+    head = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: shel}\n"
+    (lab / "state/expected.yaml").write_text(f"{head}expect:\n{listed}")
+
+
+def test_verify_measures_what_expectations_speak_of(shel: Path, pico: Pico) -> None:
+    expecting(shel, "left.peak > 200 && left.mean < 250", "cam.peak > 200", "p2.pose.x > 0")
+    assert pico("apply", "--auto-approve").code == 0
+    plain = {e["that"]: e for e in pico("verify", "--json").data["expectations"]}
+    assert [e.get("holds") for e in plain.values()] == [None, None, True]
+    answer = pico("verify", "--measure", "--auto-approve", "--json")
+    assert answer.code == 0, answer
+    told = [json.loads(line) for line in answer.out.splitlines()]
+    (did,) = told[0]["operations"]
+    assert (did["primitive"], did["component"]) == ("measure", "left")
+    measured = {e["that"]: e for e in told[-1]["expectations"]}
+    assert [e.get("holds") for e in measured.values()] == [True, None, True]
+    assert measured["cam.peak > 200"]["why"] == "nobody measured cam.peak"
+    expecting(shel, "left.peak < 100")
+    assert pico("verify").code == 0
+    failed = pico("verify", "--measure", "--auto-approve")
+    assert failed.code == 6 and "`left.peak < 100` fails: left.peak is" in failed.out
+
+
+def test_verify_with_nothing_to_measure_takes_no_bench(shel: Path, pico: Pico) -> None:
+    expecting(shel, "cam.peak > 200")
+    pico("apply", "--auto-approve")
+    before = len(pico("runs", "list", "--all", "--json").data["runs"])
+    assert pico("verify", "--measure", "--json").code == 0
+    assert len(pico("runs", "list", "--all", "--json").data["runs"]) == before
+
+
+def test_a_rule_that_speaks_of_what_nobody_measured_denies(shel: Path, pico: Pico) -> None:
+    rule = "policy:\n  rules:\n    - {name: seen, that: left.mean > 1}\n"
+    lab = (shel / "lab.yaml").read_text()
+    assert "policy:" in lab
+    (shel / "lab.yaml").write_text(re.sub(r"policy:\n(  .*\n)+", rule, lab))
+    answer = pico("set", "p1", "angle=3")
+    assert answer.code == 7 and "can't be told: nobody measured left.mean" in " ".join(answer.out.split())

@@ -18,11 +18,14 @@ from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import change_world
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.execution.async_execution import measured
 from pico.execution.run import run
 from pico.model.event import Event
-from pico.model.operation import Operation
-from pico.model.plan import Plan
+from pico.model.measurement import Measurement
+from pico.model.operation import Operation, Reason, ReasonKind
+from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
+from pico.model.record import as_json
 from pico.model.state import LabState
 
 SETUP, C3 = shel("gantry")
@@ -351,3 +354,25 @@ def test_a_run_whose_journal_breaks_stops_and_says_so(bench: SimBackend, monkeyp
     assert result.outcome == "interrupted"
     assert result.done == 0
     assert result.unknown > 0
+
+
+def test_what_the_bench_was_changed_after_was_not_measured_of_it() -> None:
+    def op(id: str, primitive: str, kind: ReasonKind = "asked", **arguments: str) -> Operation:
+        return Operation(id=id, primitive=primitive, component="p1", arguments=arguments, reason=Reason(kind=kind))
+
+    operations = (
+        op("op1", "measure", measurable="pose"), op("op2", "set", "interlock"),
+        op("op3", "measure", measurable="angle"),
+        op("op4", "park", "parked"), op("op5", "set", tunable="angle"), op("op6", "measure", measurable="angle"),
+    )  # fmt: skip
+    ref = LabRef(name="shel", digest="")
+    plan = Plan(lab=ref, backend="sim", fidelity="kinematic", base=Base(), target=Target(), operations=operations)
+    events = []
+    for n, one in enumerate(operations):
+        taken = Measurement(component="p1", measurable=str(one.arguments.get("measurable")), value=n)
+        data = {"measurement": as_json(taken)} if one.primitive == "measure" else {}
+        about: dict[str, Any] = {"run": "r", "seq": n, "time": 0.0, "operation": one.id}
+        events += [Event(kind="operation_started", **about), Event(kind="operation_done", data=data, **about)]
+        if one.id == "op4":
+            assert {a: m.value for a, m in measured(plan, events).items()} == {"p1.pose": 0, "p1.angle": 2}
+    assert {a: m.value for a, m in measured(plan, events).items()} == {"p1.angle": 5}

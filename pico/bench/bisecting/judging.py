@@ -13,7 +13,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.state import Expectation, LabState
-from pico.model.vocabulary import numbers_of, spoken_of, values_of
+from pico.model.vocabulary import measured_in, spoken_of, values_of
 from pico.policy.expectations import check_expectations, shown
 
 UNSURE = frozenset({"missing", "toppled", "held", "uncertain", "hand-full"})
@@ -62,10 +62,8 @@ def not_as_called(setup: Setup, seen: Observation, state: LabState | None, tried
 def decisive(setup: Setup, expect: Sequence[Expectation]) -> frozenset[str]:
     """Return the components whose poses and set-points decide; none where something measured does, for that may depend
     on everything."""
-    names = spoken_of(setup, (one.that for one in expect))
-    words = {word for one in expect for word in re.findall(r"[A-Za-z_]\w*\.[A-Za-z_]\w*", one.that)}
-    numbers = {f"{name}.{m}" for name in names for m in numbers_of(setup, name)}
-    return frozenset() if words & numbers else frozenset(names)
+    texts = [one.that for one in expect]
+    return frozenset() if measured_in(setup, texts) else frozenset(spoken_of(setup, texts))
 
 
 def require_known(setup: Setup, seen: Observation, plan: Plan) -> None:
