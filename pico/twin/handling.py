@@ -227,7 +227,7 @@ class Handling:
         """Open the hand, bring it up, wait until the part rests, and say where it is."""
         self._carrying = False
         self.twin.hold(self.path.robot)
-        self.twin.grip(self.path.robot, self.robot.gripper.stroke)
+        self.twin.grip(self.path.robot, self.path.segments[-1].opening)
         yield from self._rest()
         yield from self._rise(self.robot.transit_height)
         where, hint = whereabouts(self.component, self.twin.placement(self.component))

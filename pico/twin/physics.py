@@ -54,7 +54,8 @@ class _Drive:
 
 
 class Twin:
-    """A bench in motion, with `things` by name and arms at `joints` (parked where missing).
+    """A bench in motion, with `things` by name, arms at `joints` (parked where missing) and the pads of grippers
+    `openings` apart (all the way where missing).
 
     `holding`: what a gripper is closed on, by robot. `handles`: the component that a robot last was told to take.
     `after_step` is called after every step where it is set.
@@ -65,6 +66,7 @@ class Twin:
         setup: Setup,
         things: Mapping[str, SceneBody],
         joints: Mapping[str, Joints],
+        openings: Mapping[str, float] | None = None,
         *,
         holding: Mapping[str, str] | None = None,
         pad_friction: float | None = None,
@@ -83,11 +85,11 @@ class Twin:
         self.after_step: Callable[[], None] | None = None
         closed = []
         for name in self._arms:
+            robot = setup.lab.robots[name]
+            parked, stroke = tuple(math.radians(angle) for angle in robot.park), robot.gripper.stroke
             width = self._width(things, (holding or {}).get(name))
-            parked = tuple(math.radians(angle) for angle in setup.lab.robots[name].park)
-            self._start(
-                name, joints.get(name) or parked, setup.lab.robots[name].gripper.stroke if width is None else width
-            )
+            opening = min(stroke, (openings or {}).get(name, stroke)) if width is None else width
+            self._start(name, joints.get(name) or parked, opening)
             if width is not None:
                 self.grip(name)
                 closed.append(name)
@@ -189,6 +191,10 @@ class Twin:
         actuator = self._arms[robot].gripper
         if actuator is not None:
             self.data.ctrl[actuator] = 0.0 if opening is None else opening / 2000
+
+    def opening(self, robot: str) -> float:
+        """Return how far the pads of an arm's gripper are apart [mm]; zero where it has none."""
+        return float(self.data.qpos[self._arms[robot].fingers].sum()) * 1000
 
     def gripped(self, robot: str) -> str | None:
         """Return the component that both pads touch, or None."""

@@ -105,7 +105,12 @@ def worlds(draw: st.DrawFn) -> World:
         joints=tuple(draw(st.lists(numbers, max_size=7))), holding=draw(st.sampled_from([None, "p1"]))
     )
     return replace(
-        world, components=bodies, unknown={"unknown/9": unknown}, robots={"arm1": robot}, clock=draw(numbers)
+        world,
+        components=bodies,
+        unknown={"unknown/9": unknown},
+        robots={"arm1": robot},
+        openings=draw(st.dictionaries(st.just("arm1"), numbers)),
+        clock=draw(numbers),
     )
 
 

@@ -88,7 +88,7 @@ class KinematicWorld:
         }
         for robot, (name, _) in self._held.items():
             components[name] = replace(components[name], presence="held", pose=self.carried(robot), free=None)
-        return replace(world, components=components, robots=robots)
+        return replace(world, components=components, robots=robots, openings={})
 
     def _tool(self, robot: str) -> Pose:
         mounted, joints = self._setup.lab.robots[robot], self._joints[robot]

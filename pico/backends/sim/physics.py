@@ -60,7 +60,7 @@ class PhysicsWorld:
             things[name] = SceneBody(shape, upright(stranger.pose))
         joints = {name: robot.joints for name, robot in world.robots.items()}
         holding = {name: robot.holding for name, robot in world.robots.items() if robot.holding}
-        self.twin = Twin(setup, things, joints, holding=holding, pad_friction=friction)
+        self.twin = Twin(setup, things, joints, world.openings, holding=holding, pad_friction=friction)
         self._sight = sight(self.twin) if sight else None
 
     def advance(self, seconds: float) -> None:
@@ -81,8 +81,10 @@ class PhysicsWorld:
         return found
 
     def park(self, path: MovePath) -> InProgress:
-        """Bring `path.robot` along `path`, its gripper as it is."""
+        """Bring `path.robot` along `path`, its gripper as it is, or open where it was stopped while it closed."""
         self._require_fingers(path.robot)
+        if self.twin.opening(path.robot) < path.segments[0].opening:
+            self.twin.grip(path.robot, path.segments[0].opening)
         yield from self._guarded(path.robot, walk(self.twin, path.robot, path.segments))
         return {}
 
@@ -101,7 +103,8 @@ class PhysicsWorld:
             name: ObservedRobot(joints=self.twin.joints(name), holding=held[name]) if name in self.twin.arms else robot
             for name, robot in world.robots.items()
         }
-        return replace(world, components=components, robots=robots)
+        openings = {name: self.twin.opening(name) for name in self.twin.arms}
+        return replace(world, components=components, robots=robots, openings=openings)
 
     def _seat(self, component: str) -> None:
         """A seat takes hold of a part that was let go: it comes to rest within the repeatability of its type, one

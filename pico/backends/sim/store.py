@@ -124,6 +124,7 @@ def world_from_json(data: Any) -> World:
         clock=_number(data["clock"]),
         components=components,
         robots={k: _robot(v) for k, v in data["robots"].items()},
+        openings={k: _number(v) for k, v in data.get("openings", {}).items()},
         unknown={k: _unknown(v) for k, v in data["unknown"].items()},
         shapes=shapes,
         cameras={k: _shift(v) for k, v in data.get("cameras", {}).items()},

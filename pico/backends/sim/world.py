@@ -59,8 +59,8 @@ class WorldBody:
 class World:
     """The simulated table. `clock`: simulated seconds since it was new. `robots`: joints [rad] and what each holds.
 
-    `cameras`: how far those were bumped that are not where they were when the world was new. `person`: somebody is at
-    the table.
+    `openings`: how far the pads of grippers are apart [mm], all the way where it is not told. `cameras`: how far those
+    were bumped that are not where they were when the world was new. `person`: somebody is at the table.
     """
 
     schema: str = FORMAT.schema
@@ -69,6 +69,7 @@ class World:
     clock: float = 0.0
     components: Mapping[str, WorldBody] = field(default_factory=dict)
     robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
+    openings: Mapping[str, float] = field(default_factory=dict)
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
     shapes: Mapping[str, RememberedShape] = field(default_factory=dict)
     cameras: Mapping[str, CameraShift] = field(default_factory=dict)
