@@ -15,7 +15,8 @@ class Graph:
     """Operations and their status. An operation may start when what it comes after is done, and every earlier one in
     the plan that needs one of its resources is over: each resource takes its operations in the plan's order.
 
-    A robot parks when what comes before is over, done or not: it does not stay in the beam because a move failed."""
+    A robot parks and a shutter closes when what comes before is over, done or not: neither does an arm stay in the beam
+    nor the beam open because something failed."""
 
     def __init__(self, operations: Sequence[Operation]) -> None:
         """Raises PicoError where an operation comes after itself or after one that the plan does not have."""
@@ -37,7 +38,7 @@ class Graph:
         return found
 
     def _may_follow(self, op: Operation) -> bool:
-        if op.kind.parks:
+        if op.makes_safe:
             return all(self.status[a] not in ("waiting", "running") for a in op.after)
         return all(self.status[a] == "done" for a in op.after)
 
@@ -56,7 +57,7 @@ class Graph:
             return []
         lost, skipped = {op.id}, []
         for other in self.operations:
-            waits = self.status[other.id] == "waiting" and not other.kind.parks
+            waits = self.status[other.id] == "waiting" and not other.makes_safe
             if waits and not lost.isdisjoint(other.after):
                 lost.add(other.id)
                 skipped.append(other)

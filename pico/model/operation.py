@@ -64,6 +64,12 @@ class Operation:
         return primitive(self.primitive)
 
     @property
+    def makes_safe(self) -> bool:
+        """Whether it is done whatever became of what it comes after: an arm parks, and a shutter closes."""
+        closes = self.primitive == "set" and self.arguments.get("tunable") == "shutter"
+        return self.kind.parks or (closes and self.arguments.get("to") == "closed")
+
+    @property
     def address(self) -> str:
         """See `address_of`."""
         return address_of(self.component, self.arguments)

@@ -132,6 +132,18 @@ def test_what_a_measurable_needs_is_set_first_and_set_back_afterwards(needing: P
     assert pico("get", "laser", "shutter", "--json").data["values"]["shutter"]["value"] == "closed"
 
 
+def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(needing: Path, pico: Pico) -> None:
+    pico("set", "cam", "exposure=3")
+    world = needing / ".pico/sim/world.json"
+    there = json.loads(world.read_text())
+    there["components"]["cam"]["values"]["exposure"] = {"status": "unknown"}
+    world.write_text(json.dumps(there))
+    answer = pico("do", "cam", "measure", "exposure")
+    assert answer.code == 1 and "cam.exposure can't be read back" in answer.err
+    assert "laser.shutter open → closed" in answer.out and "2 of 3 operations done, 1 failed" in answer.out
+    assert pico("get", "laser", "shutter", "--json").data["values"]["shutter"]["value"] == "closed"
+
+
 def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: Path, pico: Pico) -> None:
     world = needing / ".pico/sim/world.json"
     pico("set", "laser", "shutter=open")

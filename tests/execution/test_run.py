@@ -60,12 +60,14 @@ def test_a_plan_with_errors_is_refused_as_impossible(bench: SimBackend) -> None:
 
 def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench: SimBackend) -> None:
     def ask(planned: Plan) -> Plan:
-        first, second, *rest = planned.operations
-        return replace(planned, operations=(replace(first, robot="arm2"), replace(second, primitive="measure"), *rest))
+        first, second, third, *rest = planned.operations
+        dark = replace(third, primitive="measure", component="cam", arguments={"measurable": "image"})
+        wrong = (replace(first, robot="arm2"), replace(second, primitive="scan"), dark)
+        return replace(planned, operations=(*wrong, *rest))
 
     found = refusal(bench, replanned(bench, C3, ask))
-    assert [d.code for d in found.diagnostics] == ["capability", "capability"]
-    assert "measure" in str(found)
+    assert [d.code for d in found.diagnostics] == ["capability", "unmeasured", "capability"]
+    assert "cannot scan" in str(found) and "cam.image can't be measured: light is not simulated yet" in str(found)
     assert "arm2" in str(found)
 
 
