@@ -15,7 +15,7 @@ from pico.model.lab import Setup
 from pico.motion.engine import require_mujoco
 from pico.motion.types import Joints
 from pico.twin.placement import Placement, placement_of
-from pico.twin.scene import TIMESTEP, SceneBody, build_scene
+from pico.twin.scene import TIMESTEP, SceneBody, build_scene, lull
 
 if TYPE_CHECKING:
     import numpy as np
@@ -75,6 +75,7 @@ class Twin:
         import mujoco
 
         self.model = build_scene(setup, things, pad_friction=pad_friction).compile()
+        lull(self.model, things)
         self.data = mujoco.MjData(self.model)
         self._body = {name: self.model.body(name).id for name in things}
         self._name = {number: name for name, number in self._body.items()}

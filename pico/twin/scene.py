@@ -64,6 +64,26 @@ def build_scene(setup: Setup, things: Mapping[str, SceneBody], *, pad_friction: 
     return spec
 
 
+def lull(model: mujoco.MjModel, things: Mapping[str, SceneBody]) -> None:
+    """Let every component begin asleep that stands on the table and touches nothing that is awake.
+
+    MuJoCo warns of what is to begin asleep and cannot: on the terminal, and in a file where the command was started.
+    """
+    import mujoco
+
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    touching = model.body_treeid[model.geom_bodyid[data.contact.geom]]
+    asleep = {int(model.body_treeid[model.body(name).id]) for name, thing in things.items() if _rests(thing)}
+    while awake := {int(t) for pair in touching for t in pair if t in asleep and set(pair) - asleep - {-1}}:
+        asleep -= awake
+    model.tree_sleep_policy[list(asleep)] = mujoco.mjtSleepPolicy.mjSLEEP_INIT
+
+
+def _rests(thing: SceneBody) -> bool:
+    return thing.free and abs(thing.placement.position[2]) < 1e-6 and thing.placement.tilt < 1e-3
+
+
 def _set_options(spec: Any) -> None:
     import mujoco
 
@@ -115,19 +135,13 @@ def _add_arms(spec: Any, setup: Setup, friction: float) -> None:
 
 
 def _add_thing(spec: Any, name: str, thing: SceneBody) -> None:
-    import mujoco
 
     body = spec.worldbody.add_body(name=name, pos=list(thing.placement.position), quat=list(thing.placement.quaternion))
     if thing.free:
         body.add_freejoint(name=name)
-        body.sleep = mujoco.mjtSleepPolicy.mjSLEEP_INIT if _rests(thing.placement) else body.sleep
     shapes = bodies_of(thing.geometry)
     for shape, mass in zip(shapes, masses(thing.geometry, shapes), strict=True):
         _add_shape(spec, body, f"{name}/{shape.name}", shape, mass)
-
-
-def _rests(placement: Placement) -> bool:
-    return abs(placement.position[2]) < 1e-6 and placement.tilt < 1e-3
 
 
 def _add_shape(spec: Any, body: Any, name: str, shape: Body, mass: float) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from physical import bench, carry, finish, fresh, moved_by_hand, path_to, to
 
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld
-from pico.backends.sim.world import new_world
+from pico.backends.sim.world import FreePose, new_world
 from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
 
@@ -101,8 +103,6 @@ def test_a_stopped_arm_keeps_what_it_holds_also_in_the_next_session(setup: Setup
 
 
 def test_a_part_that_lies_on_its_side_still_does_in_the_next_session(setup: Setup) -> None:
-    from pico.backends.sim.world import FreePose
-
     c = 0.5**0.5
     free = FreePose(position=(700.0, 300.0, 40.0), quaternion=(c, c, 0.0, 0.0))
     world = new_world(setup).with_body("p1", presence="toppled", pose=Pose(700, 300, 0), free=free)
@@ -112,6 +112,25 @@ def test_a_part_that_lies_on_its_side_still_does_in_the_next_session(setup: Setu
     assert body.presence == "toppled"
     assert body.free is not None
     assert body.free.position[2] < 40.0
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_part_that_leans_on_another_is_nothing_to_warn_of(
+    setup: Setup, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    c, world = 0.5**0.5, new_world(setup)
+    standing = world.components["p1"].pose
+    assert standing is not None
+    free = FreePose(position=(standing.x + 100, standing.y, 30.0), quaternion=(c, 0.0, -c, 0.0))
+    leaning = world.with_body("p2", presence="toppled", pose=standing, free=free)
+    physics = PhysicsWorld(setup, leaning)
+    physics.advance(2.0)
+    after = physics.world(leaning)
+    assert after.components["p1"].pose != standing  # it was touched
+    PhysicsWorld(setup, after)
+    assert "".join(capfd.readouterr()) == ""
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_part_pushed_off_the_table_is_missing(setup: Setup) -> None:
