@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import sys
 import traceback
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
@@ -69,9 +70,12 @@ class Commands(TyperGroup):
         return list(files())
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """Return a command with the options that all commands take; None where there is no such file."""
-        if cmd_name not in files():
-            return None
+        """Return a command with the options that all commands take, made once; None where there is no such file."""
+        if cmd_name not in self.commands and cmd_name in files():
+            self.commands[cmd_name] = self._made(cmd_name)
+        return self.commands.get(cmd_name)
+
+    def _made(self, cmd_name: str) -> Any:
         name = stem(files()[cmd_name])
         module = import_module(f"{commands.__name__}.{name}")
         app = getattr(module, "app", None)
@@ -96,8 +100,9 @@ class Commands(TyperGroup):
         formatter.write(help_text() + "\n")
 
 
+@cache
 def build() -> Any:
-    """Return the command line."""
+    """Return the command line; a program that runs several commands makes it once."""
     app = typer.Typer(name="pico", cls=Commands, no_args_is_help=True, **PLAIN)
     app.callback()(root)
     return typer.main.get_command(app)

@@ -90,3 +90,10 @@ def test_garbage_is_looked_for_once_all_is_loaded_and_never_among_that(bench: Pa
 
 def test_a_command_within_a_program_leaves_its_garbage_collector_alone(bench: Path) -> None:
     assert collected("['plan']", bench) == "True False"
+
+
+def test_a_program_that_runs_several_commands_makes_each_once() -> None:
+    from pico_cli.app import build
+
+    assert build() is build() and build().get_command(None, "plan") is build().get_command(None, "plan")
+    assert build().get_command(None, "plam") is None

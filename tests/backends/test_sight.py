@@ -79,6 +79,7 @@ def test_every_part_is_found_within_what_is_said_of_it(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_the_same_table_looks_the_same_again(tmp_path: Path) -> None:
     assert observe(tmp_path).components == observe(tmp_path).components
 
@@ -176,7 +177,8 @@ def test_a_frame_that_is_lost_now_and_then_is_taken_again(tmp_path: Path) -> Non
     assert not observe(tmp_path, seeing(SimErrors(lost_frames=0.2))).problems
 
 
-@pytest.mark.parametrize("camera", ["left", pytest.param(None, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("camera", ["left", None])
 def test_cameras_that_moved_are_not_parts_that_moved(tmp_path: Path, camera: str | None) -> None:
     calibrated(tmp_path)
     assert not observe(tmp_path).problems

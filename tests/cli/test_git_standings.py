@@ -110,11 +110,16 @@ STANDINGS: dict[str, Callable[[Path], None]] = {
 }
 REFUSED = {(s, w) for s in ("dirty", "staged") for w in ("checkout", "checkout files", "revert", "cherry-pick")}
 MOVERS = ("apply", "apply the manifest", "checkout", "bisect")
-CASES = [
-    pytest.param(s, w, marks=[pytest.mark.slow] if w in MOVERS and s not in ("detached", "dirty", "merging") else [])
-    for s in STANDINGS
-    for w in WRITERS
-]
+LIKE_OTHERS = ("staged", "reverting")
+"""Stand as `dirty` and `picking` do."""
+
+
+def takes_long(standing: str, writer: str) -> bool:
+    """Return whether a case is left to the slow tests: where arms move, and where another standing is like it."""
+    return standing in LIKE_OTHERS or (writer in MOVERS and standing not in ("detached", "dirty", "merging"))
+
+
+CASES = [pytest.param(s, w, marks=[pytest.mark.slow] if takes_long(s, w) else []) for s in STANDINGS for w in WRITERS]
 
 
 @pytest.mark.parametrize(("standing", "writer"), CASES)

@@ -91,7 +91,7 @@ def test_an_unknown_marker_is_a_stranger_with_its_place(poses: dict[str, Pose]) 
     assert [f.marker for f in seen.of("unknown")] == [77]
 
 
-@pytest.mark.parametrize("cover", [-8.0, -3.0, 0.0, 5.0])
+@pytest.mark.parametrize("cover", [*(pytest.param(c, marks=pytest.mark.slow) for c in (-8.0, 5.0)), -3.0, 0.0])
 def test_a_marker_that_is_covered_in_part_is_never_guessed(poses: dict[str, Pose], cover: float) -> None:
     plates = [replace(p, covered=cover) if p.number == 3 else p for p in scene(BENCH, poses)]
     seen = look(plates)
@@ -100,7 +100,7 @@ def test_a_marker_that_is_covered_in_part_is_never_guessed(poses: dict[str, Pose
     assert any(f.component == "part_3" for f in seen.of("hidden"))
 
 
-@pytest.mark.parametrize("angle", [4.0, 20.0, 50.0])
+@pytest.mark.parametrize("angle", [4.0, pytest.param(20.0, marks=pytest.mark.slow), 50.0])
 def test_a_part_that_leans_has_no_pose(poses: dict[str, Pose], angle: float) -> None:
     plates = scene(BENCH, poses)
     leaning = next(p for p in plates if p.number == 4)

@@ -77,7 +77,7 @@ def plain(leaf: str | None) -> Any:
     return tuple(value.values()) if isinstance(value, dict) else value
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(histories())
 def test_every_leaf_of_random_histories_is_blamed_as_by_the_reference(versions: list[Version]) -> None:
     ids = names(len(versions))
