@@ -90,13 +90,13 @@ class Run:
         """Yield the moves as they are made."""
         for number in range(count):
             self.world = self.physics.world(self.world)
-            found = self._draw()
+            found = self.draw()
             if found is None:
                 return
             operation, path = found
             yield self._run(Operation(id=f"op{number}", primitive="move", robot=self.robot, **operation), path)
 
-    def _draw(self) -> tuple[dict, MovePath] | None:
+    def draw(self) -> tuple[dict, MovePath] | None:
         """Return a move that has a path, or None where no component can be moved any more."""
         rnd, setup, world = self.random, self.setup, self.world
         names = [n for n, body in sorted(world.components.items()) if setup.movable(n) and body.presence == "seen"]

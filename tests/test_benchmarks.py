@@ -42,6 +42,7 @@ SMALLEST = {
     "size": "",
     "staging": "INSTANCES --tables 1",
     "startup": "--sizes 10 --repeat 1",
+    "taken_up": "--moves 3",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
     "undo": "--cycles 2 --held 1",
