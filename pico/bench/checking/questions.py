@@ -155,6 +155,8 @@ def _name(change: Change) -> str:
 
 def _judged(expected: tuple[Expected, ...], how: str, places: Sequence[SourceRange | None]) -> Check:
     said = f"{sum(e.holds is True for e in expected)} of {len(expected)} hold" if expected else "nothing is expected"
+    doubtful = sum(not e.assured for e in expected)
+    said += f", {doubtful} not assured" if doubtful else ""
     failing = tuple(_failure(e, at) for e, at in zip(expected, places, strict=True) if e.failed)
     verdict: Verdict = "failed" if failing else "passed"
     return Check(question="expectations", verdict=verdict, text=f"{said}; {how}", diagnostics=failing)
