@@ -104,8 +104,8 @@ def moved(top: Path, objects: int, size: float) -> None:
 
 def killed(top: Path, kills: int) -> int:
     """Kill pushes at random instants and return how often something was wrong afterwards."""
+    from pico.content.store import Store
     from pico.history.data.lab import LabData
-    from pico.runs.store import Store
 
     draw, wrong = random.Random(1), 0
     contents = [draw.randbytes(200_000) for _ in range(30)]

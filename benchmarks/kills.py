@@ -81,7 +81,7 @@ def command(folder: Path, *words: str, kill_after: float = 0.0) -> int | None:
 
 def repeated(folder: Path) -> list[str]:
     """Return the operations that began though what they were to bring about was so, by the journal."""
-    from pico.backends.recovery import arrived
+    from pico.edge.recovery import arrived
     from pico.history.lab.folder import LabFolder
     from pico.model.pose import Pose
     from pico.runs.journal import Journal, operation_from_json

@@ -29,7 +29,7 @@ class Bug:
     wrong: str
 
 
-JOURNAL, ATTEMPT, RECOVERY = "runs/journal.py", "backends/attempt.py", "backends/recovery.py"
+JOURNAL, ATTEMPT, ATTEMPTS, RECOVERY = "runs/journal.py", "backends/attempt.py", "edge/attempts.py", "edge/recovery.py"
 EXECUTOR, GRAPH, RESUME = "execution/executor.py", "execution/graph.py", "execution/resume.py"
 
 BUGS = (
@@ -43,12 +43,12 @@ BUGS = (
     Bug("an unknown is settled by not knowing", JOURNAL, 'if outcome != "unknown":', 'if outcome != "":'),
     Bug("the first pick, not the last", JOURNAL, "ORDER BY s.seq DESC LIMIT 1", "ORDER BY s.seq LIMIT 1"),
     Bug("a set-down counts as a pick", JOURNAL, "AND json_extract(i.data, '$.arguments.from.held') IS NULL ", ""),
-    Bug("the start is not written", ATTEMPT, "self._journal.started(key, before, self._token)", "pass"),
-    Bug("the end is not written", ATTEMPT, "self._journal.ended(result, self._token)", "pass"),
+    Bug("the start is not written", ATTEMPTS, "self._journal.started(key, before, self._token)", "pass"),
+    Bug("the end is not written", ATTEMPTS, "self._journal.ended(result, self._token)", "pass"),
     Bug("a failure is told as done", ATTEMPT, 'outcome=failure.outcome if failure else "done",', 'outcome="done",'),
     Bug("an unknown outcome is told as failed", ATTEMPT, "outcome=failure.outcome if failure", 'outcome="failed" if failure'),
-    Bug("nobody is fenced off", ATTEMPT, "journal.fence(token)", "pass"),
-    Bug("the intent is not written", ATTEMPT, "return self._journal.intend(key, operation, self._token)", "return None"),
+    Bug("nobody is fenced off", ATTEMPTS, "journal.fence(token)", "pass"),
+    Bug("the intent is not written", ATTEMPTS, "return self._journal.intend(key, operation, self._token)", "return None"),
     Bug("nothing is settled after a crash", RECOVERY, "for open in journal.unsettled():", "for open in ():"),
     Bug("what began counts as done", RECOVERY, 'return "done" if there else "failed"', 'return "done"'),
     Bug("what began counts as not done", RECOVERY, 'return "done" if there else "failed"', 'return "failed"'),

@@ -21,7 +21,6 @@ import tempfile
 import time
 from collections import Counter
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -194,10 +193,10 @@ def pairs(trials: int) -> int:
 
 def journal_cost(operations: int) -> None:
     """Print what the records of an operation cost, beside the same walk without them."""
-    from crashing import Chaos, CutJournal
+    from crashing import Chaos, CutJournal, Toy
     from killing import Table
 
-    from pico.backends.attempt import Attempts
+    from pico.edge.attempts import Attempts
     from pico.model.operation import Operation, Reason
     from pico.model.pose import Pose
     from pico.runs.journal import Journal
@@ -223,7 +222,7 @@ def journal_cost(operations: int) -> None:
     def seconds(journal: Journal) -> list[float]:
         chaos = Chaos(random.Random(1), healed=True)
         table = Still(chaos, {"p1": Pose(0, 0)}, {"p1": 0.0, "p2": 0.0})
-        attempts, found = Attempts(journal, table, 1), []
+        attempts, found = Attempts(journal, Toy(table), 1), []
         for n in range(operations):
             op = Operation(
                 id=f"op{n}", primitive="set", component="p1", arguments={"tunable": "angle", "to": n % 90},
@@ -231,8 +230,10 @@ def journal_cost(operations: int) -> None:
             )  # fmt: skip
             began = time.perf_counter()
             attempts.known(op, f"r/op{n}/1")
-            for _ in attempts.perform(op, f"r/op{n}/1"):
-                pass
+            work = attempts.perform(op, f"r/op{n}/1")
+            with suppress(StopIteration):
+                while True:
+                    work.send(None)
             found.append(time.perf_counter() - began)
         return found
 
@@ -249,10 +250,10 @@ def journal_cost(operations: int) -> None:
 
 def scheduler(trials: int) -> None:
     """Print how much longer than the ideal 200 operations of 0.1 s on 10 resources take, journal included."""
+    from benches import run
     from crashing import SETUP, Chaos
-    from killing import DIGEST, InstantBench, KilledJournal, Table, lay_out
+    from killing import DIGEST, InstantDevice, KilledJournal, Table, instant, lay_out
 
-    from pico.execution.run import run
     from pico.model.observation import live_state
     from pico.model.operation import Operation, OperationResult, Reason
     from pico.model.plan import Base, LabRef, Plan, Target
@@ -266,16 +267,13 @@ def scheduler(trials: int) -> None:
         for n in range(200)
     )  # fmt: skip
 
-    class Slow(InstantBench):
-        """Each operation takes 0.1 s, and is journalled."""
+    class Slow(InstantDevice):
+        """Each operation takes 0.1 s."""
 
-        async def execute(self, operation: Operation, key: str, lease: Any) -> OperationResult:
-            self.journal.intend(key, operation, lease.token)
-            self.journal.started(key, None, lease.token)
+        async def execute(self, operation: Operation, key: str, began: Any) -> OperationResult:
+            began(None)
             await asyncio.sleep(0.1)
-            result = OperationResult(key=key, outcome="done")
-            self.journal.ended(result, lease.token)
-            return result
+            return OperationResult(key=key, outcome="done")
 
     async def once() -> tuple[float, float]:
         with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR", ROOT)) as folder:
@@ -283,14 +281,15 @@ def scheduler(trials: int) -> None:
             lay_out(root, 1)
             table = Table.load(root / "table.json", Chaos(random.Random(1), healed=True))
             journal = KilledJournal(root / "journal.sqlite")
-            bench = Slow(root, table, journal)
+            bench = instant(root, table, journal)
+            bench.device = Slow(table)  # type: ignore[assignment]
             state = live_state(SETUP, table.observe()).as_json()
             plan = Plan(
                 lab=LabRef(name="toy", digest=DIGEST), backend="toy", fidelity="toy", base=Base(state=state),
                 target=Target(), operations=operations,
             ).sealed()  # fmt: skip
             began, spent = 0.0, time.process_time()
-            async for event in run(plan, bench, run_id="r", holder="test", setup=replace(SETUP)):
+            async for event in run(plan, bench, run_id="r"):
                 began = began or (time.perf_counter() if event.kind == "run_started" else 0.0)
             return time.perf_counter() - began, time.process_time() - spent
 

@@ -19,8 +19,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from pico.backends.sim.backend import SimBackend  # noqa: E402
 from pico.backends.sim.world import new_world  # noqa: E402
+from pico.edge.local import embedded  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.model.lab import SimErrors  # noqa: E402
 from pico.model.pose import angle_between  # noqa: E402
@@ -43,7 +43,7 @@ def main() -> None:
         here = replace(setup, lab=replace(setup.lab, sim=sim))
         with tempfile.TemporaryDirectory() as folder:
             begun = time.process_time()
-            seen = asyncio.run(SimBackend(here, Path(folder)).scan()).observation
+            seen = asyncio.run(embedded(here, Path(folder), "sim", "kinematic").look()).observation
             seconds.append(time.process_time() - begun)
         for name, body in new_world(here).components.items():
             part = seen.components[name]

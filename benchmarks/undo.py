@@ -115,12 +115,13 @@ def spot(bench: Bench, name: str) -> Pose:
 def scatter(bench: Bench) -> None:
     """Put every part somewhere by hand, and draw the values of its tunables; what has no room there stays."""
     from pico.backends.sim.hand import nudge
-    from pico.backends.sim.store import reset_world, save_world
+    from pico.backends.sim.store import save_world
+    from pico.backends.sim.world import new_world
     from pico.diagnostics import PicoError
     from pico.model.observation import ObservedValue
 
     setup = bench.setup
-    reset_world(setup, bench.folder, "benchmark")
+    save_world(bench.folder, new_world(setup))
     world = bench.world()
     for name in bench.movable():
         start, goal = world.components[name].pose, spot(bench, name)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
+from pico.backends.devices import SIMULATOR
 from pico.diagnostics import PicoError, error
 
 from .garbage import loaded
@@ -45,7 +46,7 @@ class Session:
     folder: Path = Path()
     json: bool = False
     debug: bool = False
-    backend: str = "sim"
+    backend: str = SIMULATOR
     lock_timeout: float = 0.0
 
     @classmethod

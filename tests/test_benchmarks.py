@@ -27,6 +27,7 @@ SMALLEST = {
     "eyes": "--scenes 1 --renderer raycast",
     "identical": "",
     "kills": "--kills 50 --applies 1 --git 9",
+    "links": "--kills 1",
     "locks": "--trials 1",
     "makespan": "--labs shel",
     "merges": "--cases 20 --git 2 --failing 2 --impossible 2 --moves 10 --moves-by-git 2",

@@ -11,9 +11,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
-    "diagnostics", "disk", "expressions", "resources", "attachment", "model", "geometry", "manifest", "optics",
-    "vision", "motion", "staging", "planning", "twin", "cameras", "drawing", "runs", "backends", "policy", "execution",
-    "history", "bench",
+    "diagnostics", "disk", "expressions", "resources", "attachment", "model", "content", "geometry", "manifest",
+    "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing", "backends", "policy",
+    "execution", "runs", "edge", "history", "bench",
 )  # fmt: skip
 LOOSE = 6
 """How many modules may lie beside the rooms."""

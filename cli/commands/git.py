@@ -29,7 +29,7 @@ def attach(context: typer.Context) -> None:
 
     A repository's first worktree that moves something is attached by itself.
     """
-    from pico.backends.lease import attach
+    from pico.edge.lease import attach
 
     session = Session.of(context)
     root = session.history().root

@@ -12,7 +12,7 @@ from ..session import Session
 from ..views import simulated as said
 
 if TYPE_CHECKING:
-    from pico.backends.sim.table import SimulatedTable
+    from pico.backends.world import World
 
 app = typer.Typer(
     rich_markup_mode=None,
@@ -109,11 +109,11 @@ def faults(
     """
     session = Session.of(context)
     found = session.bench().sim.faults(words or ())
-    rates = ", ".join(f"{kind} {100 * rate:g} %" for kind, rate in found.rates.items() if rate)
-    session.show(said, f"faults: {rates} of the operations, seed {found.seed}" if rates else "nothing goes wrong")
+    rates = ", ".join(f"{kind} {100 * rate:g} %" for kind, rate in found["rates"].items() if rate)
+    session.show(said, f"faults: {rates} of the operations, seed {found['seed']}" if rates else "nothing goes wrong")
 
 
-def _act(context: typer.Context, act: Callable[[SimulatedTable], object], text: str) -> None:
+def _act(context: typer.Context, act: Callable[[World], object], text: str) -> None:
     """Do something to the simulated world, and say what."""
     session = Session.of(context)
     act(session.bench().sim)

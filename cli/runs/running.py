@@ -19,7 +19,7 @@ from ..views.run import Progress
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
-    from pico.execution.blocking import Execution
+    from pico.bench.running.blocking import Execution
     from pico.model.event import Event
     from pico.model.plan import Plan
     from pico.model.report import RunReport
@@ -106,7 +106,7 @@ def _after(plan: Plan) -> str:
 
 def watched(run: Execution, show: Callable[[Event], None]) -> tuple[int, ...]:
     """Show a run until it is over, and say what a signal leads to; return the signals that ended it."""
-    from pico.execution.attending import attend
+    from pico.bench.running.attending import attend
 
     return attend(run, show, lambda text: _say(f"\n{text}\n"))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.backends.lease import Holder
+from pico.edge.protocol import Holder
 from pico.model.record import as_json
 from pico.runs.journal import RunRecord
 

@@ -1,20 +1,17 @@
-"""One attempt at an operation, from its first record to its last: the order of records and motion that all rests on.
+"""One attempt at an operation, as a device makes it: looked at before, done, stored, looked at again.
 
-Intent before anything, `started` before motion, the end before anyone hears of it. Generators, without clock or I/O of
-their own, so that every backend runs them and a test can cut them anywhere.
+A generator, without clock or I/O of its own, so that a test can cut it anywhere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Generator, Mapping
+from typing import Any, Protocol
 
+from pico.backends.device import Began
 from pico.diagnostics import Diagnostic
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Outcome
-
-if TYPE_CHECKING:
-    from pico.runs.journal import Journal
 
 Progress = Generator[float, None, Mapping[str, Any]]
 """Something in progress: yields the seconds until it wants to be resumed, returns the data of its result."""
@@ -45,50 +42,31 @@ class AttemptTable(Protocol):
         ...
 
     def store(self) -> None:
-        """Make durable what the table is like now; called before an end is recorded."""
+        """Make durable what the table is like now; called before anyone hears of an end."""
         ...
 
 
-class Attempts:
-    """Executes operations on a table, each key once. `token` is that of the lease; `tell` hears of each start."""
-
-    def __init__(
-        self,
-        journal: Journal,
-        table: AttemptTable,
-        token: int,
-        tell: Callable[[Operation, str], None] = lambda *_: None,
-    ) -> None:
-        """Raises PicoError (exit code LOCKED) where somebody took the bench since this token was given."""
-        self._journal, self._table, self._token, self._tell = journal, table, token, tell
-        journal.fence(token)
-
-    def known(self, operation: Operation, key: str) -> OperationResult | None:
-        """Record the intent and return None, or return what became of this key before; then nothing must move."""
-        return self._journal.intend(key, operation, self._token)
-
-    def perform(self, operation: Operation, key: str) -> Generator[float, None, OperationResult]:
-        """Do one operation whose intent is recorded, and return its result, which then is in the journal."""
-        table, component = self._table, operation.component
-        before, begun = table.look(component), table.now
-        self._journal.started(key, before, self._token)
-        self._tell(operation, key)
-        data: Mapping[str, Any] = {}
-        failure: Failed | None = None
-        try:
-            data = yield from table.act(operation, key)
-        except Failed as exc:
-            failure = exc
-        table.store()
-        result = OperationResult(
-            key=key,
-            outcome=failure.outcome if failure else "done",
-            error=failure.diagnostic if failure else None,
-            before=before,
-            after=table.look(component),
-            seconds=table.now - begun,
-            ended=table.now,
-            data=data,
-        )
-        self._journal.ended(result, self._token)
-        return result
+def attempt(
+    table: AttemptTable, operation: Operation, key: str, began: Began
+) -> Generator[float, None, OperationResult]:
+    """Do one operation and return its result; `began` is called before anything moves."""
+    component = operation.component
+    before, begun = table.look(component), table.now
+    began(before)
+    data: Mapping[str, Any] = {}
+    failure: Failed | None = None
+    try:
+        data = yield from table.act(operation, key)
+    except Failed as exc:
+        failure = exc
+    table.store()
+    return OperationResult(
+        key=key,
+        outcome=failure.outcome if failure else "done",
+        error=failure.diagnostic if failure else None,
+        before=before,
+        after=table.look(component),
+        seconds=table.now - begun,
+        ended=table.now,
+        data=data,
+    )

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
+from pico.backends.devices import SIMULATOR, opener
 from pico.bench.pictures.pictures import Drawings
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.history.lab.folder import LabFolder
@@ -22,10 +23,10 @@ from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
 if TYPE_CHECKING:
-    from pico.backends.protocol import Backend
-    from pico.backends.sim.table import SimulatedTable
+    from pico.backends.world import World
+    from pico.bench.running.async_execution import AsyncExecution
     from pico.drawing.film.film import Caption
-    from pico.execution.async_execution import AsyncExecution
+    from pico.edge.protocol import Edge
     from pico.history.restoring.selected import SelectedParts
     from pico.manifest.load import Manifests
     from pico.model.expectation import Verified
@@ -42,18 +43,23 @@ CommitMode = Literal["strict", "capture", "planned"]
 
 
 class AsyncBench(Drawings):
-    """One bench: its lab's folder, and the backend that sees and moves it. Open it with `AsyncBench.open`."""
+    """One bench: its lab's folder, and the edge that sees and moves it. Open it with `AsyncBench.open`."""
 
-    def __init__(self, folder: LabFolder, fidelity: str | None = None) -> None:
+    def __init__(self, folder: LabFolder, fidelity: str | None = None, backend: str = SIMULATOR) -> None:
         self.folder = folder
-        self.backend_name = "sim"
+        self.backend_name = backend
         self.fidelity = fidelity or folder.setup.lab.sim.fidelity
-        self._backend: Backend | None = None
+        self._edge: Edge | None = None
         self.lock_timeout = 0.0
 
     @classmethod
     def open(
-        cls, path: str | Path = ".", *, backend: str = "sim", fidelity: str | None = None, speed: float | None = None
+        cls,
+        path: str | Path = ".",
+        *,
+        backend: str = SIMULATOR,
+        fidelity: str | None = None,
+        speed: float | None = None,
     ) -> AsyncBench:
         """Open the lab that `path` lies in. Nothing is contacted yet.
 
@@ -62,49 +68,47 @@ class AsyncBench(Drawings):
         """
         _require_backend(backend, fidelity, speed)
         folder = LabFolder(Path(path))
-        if backend == "hardware":
-            from pico.backends.hardware import HardwareBackend
-
-            HardwareBackend(folder.setup, folder.root)  # says what is missing
         if speed is not None:
             robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
             folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
-        return cls(folder, fidelity)
+        bench = cls(folder, fidelity, backend)
+        if backend != SIMULATOR:
+            _ = bench.edge  # says what is missing
+        return bench
 
     def _adopt(self, plan: Plan) -> None:
         """Run a saved plan in the fidelity that it was made for."""
         if plan.backend == self.backend_name and plan.fidelity != self.fidelity:
-            self.fidelity, self._backend = plan.fidelity, None
+            self.fidelity, self._edge = plan.fidelity, None
 
     @property
-    def backend(self) -> Backend:
-        """The backend, made when it is first needed."""
-        if self._backend is None:
-            from pico.backends.sim.backend import SimBackend
+    def edge(self) -> Edge:
+        """The edge, made when it is first needed; raises PicoError where its device can't be had."""
+        if self._edge is None:
+            from pico.edge.link.opening import opened
 
-            self._backend = SimBackend(self.setup, self.root, self.fidelity)
-            self._backend.lock_timeout = self.lock_timeout
-        return self._backend
+            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity)
+        return self._edge
 
     async def wait_until_free(self, seconds: float) -> None:
         """Wait until nobody moves the bench, at most so long here and again when it is taken.
 
         Raises PicoError (exit code LOCKED), naming who has it.
         """
-        from pico.backends.lease import wait_until_free
+        from pico.edge.lease import wait_until_free
 
         self.lock_timeout = seconds
         await wait_until_free(self.root, seconds)
 
     async def close(self) -> None:
-        """Let go of the backend."""
-        if self._backend is not None:
-            await self._backend.close()
-            self._backend = None
+        """Let go of the edge."""
+        if self._edge is not None:
+            await self._edge.close()
+            self._edge = None
 
     async def observe(self) -> Observation:
         """Look, and return what was seen."""
-        return await self.backend.observe()
+        return await self.edge.observe()
 
     async def plan(
         self,
@@ -242,7 +246,7 @@ class AsyncBench(Drawings):
 
         seen = await self.observe()
         found = self._one(seen, asked(self.setup, seen, component, primitive, arguments or {}))
-        require_able(found, await self.backend.describe())
+        require_able(found, await self.edge.describe())
         return found
 
     async def place(self, component: str, *, after: str, distance: float) -> Plan:
@@ -287,19 +291,17 @@ class AsyncBench(Drawings):
     ) -> AsyncExecution:
         """Return the run of a plan: iterate over it for its events, then read its `report`.
 
-        `recording`: keeps what a film of the run shows, see `film`; raises PicoError where nothing is simulated.
+        `recording`: gets what a film of the run shows, see `film`.
         `resumes`: the run that goes on under its id. `stop_on_error`: the first failure lets nothing more start.
         """
-        from pico.execution.async_execution import AsyncExecution
+        from pico.bench.running.async_execution import AsyncExecution
 
         self._adopt(plan)
-        watch = getattr(self.backend, "watch", None)
-        if watch is not None:
-            watch(recording.look if recording else None)
-        elif recording is not None:
-            raise PicoError(error("not-simulated", "only what is simulated can be recorded"))
         named = partial(self.goal_now, plan)
-        return AsyncExecution(self.setup, plan, self.backend, named, resumes=resumes, stop_on_error=stop_on_error)
+        return AsyncExecution(
+            plan, self.edge, named, recording=recording, resumes=resumes, stop_on_error=stop_on_error,
+            wait=self.lock_timeout,
+        )  # fmt: skip
 
     def goal_now(self, plan: Plan) -> str:
         """Return what a plan leads to as a person calls it, and that it is not that any more where it was edited since
@@ -350,7 +352,7 @@ class AsyncBench(Drawings):
         from pico import planning
         from pico.model.vocabulary import measured_in
 
-        state, able = self.state_at(revision) if revision else self.state, await self.backend.describe()
+        state, able = self.state_at(revision) if revision else self.state, await self.edge.describe()
         seen, spoken = await self.observe(), measured_in(self.setup, [one.that for one in state.expect])
         found = planning.measure(
             self.setup, seen, [(name, m) for name, m in spoken if f"{name}.{m}" in able.measurables],
@@ -398,7 +400,7 @@ class AsyncBench(Drawings):
         """
         declared = self.setup.measurables_of(component).get(tunable or "")
         if tunable and declared and declared.datatype in ("image", "float"):
-            return {tunable: read_peeked(await self.backend.peek(component, tunable))}
+            return {tunable: read_peeked(await self.edge.peek(component, tunable))}
         return read_values(self.setup, await self.observe(), component, tunable)
 
     async def capture(self, *only: str, write: bool = True) -> Captured:
@@ -443,14 +445,12 @@ class AsyncBench(Drawings):
         return await self.plan(revision)
 
     def _in_space(self) -> Mapping[str, Placement]:
-        return self.sim.placements() if self.backend_name == "sim" else {}
+        return self.sim.placements() if self.backend_name == SIMULATOR else {}
 
     @property
-    def sim(self) -> SimulatedTable:
-        """The simulated world, to be changed as a hand would; raises PicoError for another backend."""
-        from pico.backends.sim.table import SimulatedTable
-
-        return SimulatedTable(self.setup, self.root)
+    def sim(self) -> World:
+        """The simulated world, to be changed as a hand would; raises PicoError where nothing is simulated."""
+        return self.edge.world
 
 
 def _require_sense(what: Literal["expect", "rules"], manifests: Manifests) -> None:
@@ -463,10 +463,7 @@ def _require_sense(what: Literal["expect", "rules"], manifests: Manifests) -> No
 
 
 def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:
-    if backend not in ("sim", "hardware"):
-        raise PicoError(
-            error("backend", f"there is no backend `{backend}`", hint=did_you_mean(backend, ["sim", "hardware"]))
-        )
+    opener(backend)
     if fidelity not in (None, "kinematic", "physics"):
         known = ["kinematic", "physics"]
         raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))

@@ -11,10 +11,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from pico.backends.devices import SIMULATOR
 from pico.bench.async_bench import AsyncBench, CommitMode
+from pico.bench.running.attending import attend
+from pico.bench.running.blocking import Execution, LoopThread
 from pico.diagnostics import Diagnostic
-from pico.execution.attending import attend
-from pico.execution.blocking import Execution, LoopThread
 from pico.history.reader import Reader
 from pico.model.diff import Change
 from pico.model.observation import Observation
@@ -22,7 +23,7 @@ from pico.model.plan import Plan
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
-    from pico.backends.sim.table import SimulatedTable
+    from pico.backends.world import World
     from pico.bench.bisecting import Bisection
     from pico.bench.drift import Drifted
     from pico.bench.importing import Imported
@@ -61,7 +62,12 @@ class Bench(Reader):
 
     @classmethod
     def open(
-        cls, path: str | Path = ".", *, backend: str = "sim", fidelity: str | None = None, speed: float | None = None
+        cls,
+        path: str | Path = ".",
+        *,
+        backend: str = SIMULATOR,
+        fidelity: str | None = None,
+        speed: float | None = None,
     ) -> Bench:
         """Open the lab that `path` lies in; see `AsyncBench.open`."""
         return cls(AsyncBench.open(path, backend=backend, fidelity=fidelity, speed=speed))
@@ -80,7 +86,7 @@ class Bench(Reader):
         self.close()
 
     @property
-    def sim(self) -> SimulatedTable:
+    def sim(self) -> World:
         """The simulated world, to be changed as a hand would."""
         return self._bench.sim
 
@@ -230,7 +236,7 @@ class Bench(Reader):
         """Record what a person says of an operation that only a person can tell the end of; raises PicoError."""
         from pico.bench import resuming
 
-        resuming.answer(self._bench, key, "done" if done else "failed")
+        self._thread.wait(resuming.answer(self._bench, key, "done" if done else "failed"))
 
     def film(
         self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0

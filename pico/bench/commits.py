@@ -12,6 +12,7 @@ from datetime import datetime
 from typing import Literal
 
 from pico.diagnostics import PicoError, error
+from pico.edge.link.opening import remembered
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
 from pico.history.lab.contents import commit as committed
@@ -99,9 +100,11 @@ def _refuse(folder: LabFolder, seen: Observation, asked: CommitRequest, named: N
         return
     components = contents(folder, named).components if named else None
     refuse_unapplied(folder.setup, folder.committed(), folder.state, seen, components)
+    with remembered(folder.root) as memory:
+        found = never_here(folder.setup, memory, seen, folder.state, stood=_stood(folder))
     never = sorted(
         component if tunable == "pose" else f"{component}.{tunable}"
-        for component, tunable in never_here(folder.setup, folder.root, seen, folder.state, stood=_stood(folder))
+        for component, tunable in found
         if components is None or component in components
     )
     if never:
@@ -141,7 +144,8 @@ def _evidence(
     documents = [data for path, data in runs.items() if path.endswith("/run.json")]
     changed = {(c.component, c.tunable) for c in changes} | changed_by(documents)
     before = _before(folder)
-    return evidence(folder.setup, folder.root, seen, state, changed, observed=observed, before=before)
+    with remembered(folder.root) as memory:
+        return evidence(folder.setup, memory, seen, state, changed, observed=observed, before=before)
 
 
 def _before(folder: LabFolder) -> str:

@@ -6,7 +6,6 @@ import statistics
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from pico.attachment import bench_folder
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
 from pico.model.drift import drift_of
@@ -76,7 +75,7 @@ async def look(bench: AsyncBench) -> Drifted:
     return Drifted(
         head=bench.head_name(), observed_at=seen.observed_at, beyond=beyond,
         within=tuple(d for d in found if d.change.tolerated),
-        ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=_held(bench, seen, beyond),
+        ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=await _held(bench, seen, beyond),
     )  # fmt: skip
 
 
@@ -115,11 +114,9 @@ def require_heal(setup: Setup) -> None:
         )
 
 
-def _held(bench: AsyncBench, seen: Observation, beyond: Sequence[Drift]) -> str:
+async def _held(bench: AsyncBench, seen: Observation, beyond: Sequence[Drift]) -> str:
     """Return why nothing may be brought back now."""
-    from pico.backends.lease import BenchLock
-
-    holder = BenchLock(bench.root).holder()
+    holder = await bench.edge.holder()
     if holder is not None:
         return f"a run goes on: {holder.user} (process {holder.pid}): {holder.what}"
     if seen.person is not False:
@@ -228,17 +225,8 @@ def _as_left(setup: Setup, change: Change, part: ObservedComponent, after: Mappi
 
 
 def _records(bench: AsyncBench) -> Sequence[JournalRecord]:
-    """Return what the journal knows; nothing where there is none, or it can't be read: looking must not fail for it."""
-    from pico.runs.journal import Journal
-
-    path = bench_folder(bench.root) / "journal.sqlite"
-    if not path.exists():
-        return ()
+    """Return what the bench remembers; nothing where that can't be read: looking must not fail for it."""
     try:
-        journal = Journal(path, looking=True)
-        try:
-            return journal.records()
-        finally:
-            journal.close()
+        return memory.records() if (memory := bench.edge.memory) else ()
     except PicoError:
         return ()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic
 from pico.model.request import require_component
 
 if TYPE_CHECKING:
@@ -20,11 +20,7 @@ async def scan(bench: AsyncBench) -> Look:
 
     Observes by sight, whether or not the lab otherwise observes exactly.
     """
-    look = getattr(bench.backend, "scan", None)
-    if look is None:
-        raise PicoError(error("capability", f"{bench.backend_name} has no cameras that PICO can look through"))
-    found: Look = await look()
-    return found
+    return await bench.edge.look()
 
 
 def picture(bench: AsyncBench, look: Look, out: Path | None = None, component: str | None = None) -> Image:

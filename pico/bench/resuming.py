@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.attachment import bench_folder
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
@@ -19,7 +18,8 @@ from pico.planning.parts.phrases import listed
 if TYPE_CHECKING:
     from pico.bench.async_bench import AsyncBench
     from pico.model.operation import Outcome
-    from pico.runs.journal import Journal, RunRecord
+    from pico.runs.journal import RunRecord
+    from pico.runs.memory import Memory
 
 
 async def resume_plan(bench: AsyncBench) -> tuple[Plan, str]:
@@ -29,13 +29,13 @@ async def resume_plan(bench: AsyncBench) -> tuple[Plan, str]:
     """
     from pico.execution.resume import renumbered
 
-    journal = _journal(bench)
-    _refuse_while_held(bench)
-    last = _last(journal)
+    memory = _memory(bench)
+    await _refuse_while_held(bench)
+    last = _last(memory)
     if last.outcome == "done":
         text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
         raise PicoError(error("nothing-to-resume", text, hint="`pico plan` shows what differs now"))
-    began = _document(journal, last)
+    began = _document(memory, last)
     only = began.target.only or _asked(began)
     seen = await bench.observe()
     wanted = state_from_json(began.lab.name, began.target.state)
@@ -50,14 +50,15 @@ async def undo_plan(bench: AsyncBench) -> Plan:
     began goes to where it stood before that. What nobody knew before it is left as it is; where something else has
     changed since, the plan is for what the run changed alone. Raises PicoError where no run has moved anything.
     """
-    journal = _journal(bench)
-    _refuse_while_held(bench)
-    runs = [run for run in reversed(journal.runs()) if run.run in journal.moving()]
-    last = next((n for n, run in enumerate(runs) if _document(journal, run).target.cause != "recover"), None)
+    memory = _memory(bench)
+    await _refuse_while_held(bench)
+    moving = memory.moving()
+    runs = [run for run in reversed(memory.runs()) if run.run in moving]
+    last = next((n for n, run in enumerate(runs) if _document(memory, run).target.cause != "recover"), None)
     if last is None:
         raise PicoError(_no_run())
-    done = {one for run in runs[: last + 1] for one in _begun(journal, run)}
-    before, held = _before(bench, journal, runs[last:], {component for component, _ in done})
+    done = {one for run in runs[: last + 1] for one in _begun(memory, run)}
+    before, held = _before(bench, memory, runs[last:], {component for component, _ in done})
     looked = await bench.observe()
     seen = _emptied(bench, looked)
     live = live_state(bench.setup, seen)
@@ -72,9 +73,9 @@ async def undo_plan(bench: AsyncBench) -> Plan:
     return _planned(bench, looked, wanted, target, only)
 
 
-def _begun(journal: Journal, run: RunRecord) -> Iterator[tuple[str, str]]:
+def _begun(memory: Memory, run: RunRecord) -> Iterator[tuple[str, str]]:
     """Yield the components with their tunables that the operations change which a run began."""
-    records = journal.records(run=run.run)
+    records = memory.records(run=run.run)
     begun = {r.key for r in records if r.kind == "started"}
     for record in records:
         if record.kind == "intent" and record.key in begun and primitive(record.data["primitive"]).changes != "nothing":
@@ -82,12 +83,12 @@ def _begun(journal: Journal, run: RunRecord) -> Iterator[tuple[str, str]]:
 
 
 def _before(
-    bench: AsyncBench, journal: Journal, runs: Sequence[RunRecord], touched: Collection[str]
+    bench: AsyncBench, memory: Memory, runs: Sequence[RunRecord], touched: Collection[str]
 ) -> tuple[LabState, list[str]]:
     """Return the bench before the first of some runs, the newest first, and which of the components that were `touched`
     a hand held then: they are where the run before found them."""
     setup = bench.setup
-    states = (state_from_json(setup.lab.name, _document(journal, run).base.state) for run in runs)
+    states = (state_from_json(setup.lab.name, _document(memory, run).base.state) for run in runs)
     parts = dict(next(states).components)
     held = [name for name in sorted(touched) if name not in parts]
     for state in states:
@@ -106,7 +107,7 @@ def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, st
 
 async def recover_plan(bench: AsyncBench) -> Plan:
     """Return the plan that sets down what hands still hold, and changes nothing else."""
-    _refuse_while_held(bench)
+    await _refuse_while_held(bench)
     seen = await bench.observe()
     wanted = live_state(bench.setup, _emptied(bench, seen))
     target = Target(title="the bench with empty hands", cause="recover", state=wanted.as_json())
@@ -118,32 +119,22 @@ async def settle(bench: AsyncBench) -> None:
 
     Raises PicoError for what only a person can tell.
     """
-    if (bench_folder(bench.root) / "journal.sqlite").exists() and _journal(bench).unsettled():
-        await bench.backend.release(await bench.backend.acquire("pico apply"))
+    if bench.edge.memory is not None and bench.edge.memory.unsettled():
+        await bench.edge.release(await bench.edge.acquire("pico apply", bench.lock_timeout))
 
 
 def open_questions(bench: AsyncBench) -> list[Diagnostic]:
     """Return an error for each operation that only a person can tell the end of."""
-    from pico.backends import recovery
+    from pico.edge import recovery
 
-    return recovery.open_questions(_journal(bench).unsettled())
+    return recovery.open_questions(bench.edge.memory.unsettled() if bench.edge.memory else ())
 
 
-def answer(bench: AsyncBench, key: str, outcome: Outcome) -> None:
-    """Record what a person says of an operation that only a person can tell the end of.
+async def answer(bench: AsyncBench, key: str, outcome: Outcome) -> None:
+    """Record what a person says of an operation that only a person can tell the end of; see `Edge.resolve`."""
+    from pico.edge.lease import user
 
-    Raises PicoError where nobody asks about `key`, and where somebody moves the bench (exit code LOCKED).
-    """
-    from pico.backends.lease import BenchLock, user
-
-    journal = _journal(bench)
-    with BenchLock(bench.root).held("pico recover") as lease:
-        journal.fence(lease.token)
-        asked = {open.key for open in journal.unsettled()}
-        if key not in asked:
-            known = ", ".join(sorted(asked)) or "nothing is open"
-            raise PicoError(error("unknown-key", f"nobody asks about {key[:80]}", hint=f"open: {known}"))
-        journal.resolve(key, outcome, user(), None, lease.token)
+    await bench.edge.resolve(key, outcome, user())
 
 
 def _planned(
@@ -173,29 +164,28 @@ def _asked(plan: Plan) -> tuple[str, ...]:
     return ()
 
 
-def _document(journal: Journal, run: RunRecord) -> Plan:
-    text = journal.document(run.run)
+def _document(memory: Memory, run: RunRecord) -> Plan:
+    text = memory.document(run.run)
     if text is None:
         raise PicoError(error("no-plan", f"the journal did not keep the plan of the run {run.run}", hint="`pico plan`"))
     return plan_from_json(text)
 
 
-def _last(journal: Journal) -> RunRecord:
-    runs = journal.runs()
+def _last(memory: Memory) -> RunRecord:
+    runs = memory.runs()
     if not runs:
         raise PicoError(_no_run())
     return runs[-1]
 
 
-def _journal(bench: AsyncBench) -> Journal:
-    journal: Journal = bench.backend.journal  # type: ignore[attr-defined]
-    return journal
+def _memory(bench: AsyncBench) -> Memory:
+    if bench.edge.memory is None:
+        raise PicoError(_no_run())
+    return bench.edge.memory
 
 
-def _refuse_while_held(bench: AsyncBench) -> None:
-    from pico.backends.lease import BenchLock
-
-    holder = BenchLock(bench.root).holder()
+async def _refuse_while_held(bench: AsyncBench) -> None:
+    holder = await bench.edge.holder()
     if holder is not None:
         text = f"a run goes on: {holder.user} (process {holder.pid}, since {holder.since}): {holder.what}"
         raise PicoError(error("locked", text, hint="`pico stop` ends it safely"), ExitCode.LOCKED)

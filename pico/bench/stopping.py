@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import time
-from contextlib import closing
 from pathlib import Path
 
-from pico.attachment import bench_folder
-from pico.backends.lease import BenchLock, Holder
-from pico.backends.stopping import ask_to_stop
 from pico.diagnostics import PicoError, error
+from pico.edge.lease import BenchLock
+from pico.edge.link.opening import remembered
+from pico.edge.protocol import Holder
+from pico.edge.stopping import ask_to_stop
 from pico.manifest.load import find_lab
-from pico.runs.journal import Journal, RunRecord
+from pico.runs.journal import RunRecord
 
 PATIENCE = 60.0
 """Seconds that are waited for the run to end."""
@@ -34,5 +34,5 @@ def stop(folder: Path, *, now: bool = False) -> tuple[Holder | None, RunRecord |
             text = f"process {holder.pid} was asked to stop and has not ended in {PATIENCE:.0f} s"
             raise PicoError(error("stop", text, hint="`pico stop --now`; else the emergency stop of the arm"))
         time.sleep(0.02)
-    with closing(Journal(bench_folder(root) / "journal.sqlite", looking=True)) as journal:
-        return holder, next(reversed(journal.runs()), None)
+    with remembered(root) as memory:
+        return holder, next(reversed(memory.runs()), None) if memory else None

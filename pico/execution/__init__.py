@@ -1,1 +1,1 @@
-"""Runs a plan on a backend: checks, the walk of the graph, interruption, and what became of it."""
+"""Runs a plan: what must hold before, the walk of its graph, what an interruption leaves, and what became of it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from pico.backends.protocol import Capabilities
+from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.execution.stale import require_fresh
 from pico.model.lab import Setup
@@ -51,6 +51,9 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
     if plan.backend != able.name:
         text = f"the plan was made for {plan.backend}, not for {able.name}"
         yield error("backend", text, hint=f"plan again with `--backend {able.name}`")
+    elif plan.fidelity != able.fidelity:
+        text = f"the plan was made for {plan.fidelity}, and this bench is served in {able.fidelity}"
+        yield error("fidelity", text, hint=f"plan again with `--fidelity {able.fidelity}`")
     for op in plan.operations:
         if op.kind.by_hand:
             yield _for_a_person(op, able)
@@ -66,7 +69,7 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
 
 def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
     own = sorted(a.partition(".")[2] for a in able.measurables if a.partition(".")[0] == op.component)
-    why = "light is not simulated yet" if able.name == "sim" else f"{able.name} has nothing that measures it"
+    why = "light is not simulated yet" if able.simulated else f"{able.name} has nothing that measures it"
     hint = f"of {op.component} it measures: {', '.join(own)}" if own else ""
     return error("unmeasured", f"{op.address} can't be measured: {why}", hint=hint, address=op.address)
 
@@ -74,7 +77,7 @@ def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
 def _for_a_person(op: Operation, able: Capabilities) -> Diagnostic:
     what = op.arguments.get("text") or f"only a person can move {op.component}"
     hint = "do it by hand, then plan again"
-    if able.name == "sim":
+    if able.simulated:
         hint = f"the hand of the simulated bench is `pico sim nudge {op.component}`; then plan again"
     return error("operator", f"{op.component} needs a person: {what}", hint=hint, address=op.component)
 

@@ -3,83 +3,62 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Mapping
-from contextlib import suppress
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from pico.backends.protocol import Backend, Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.execution.executor import Dispatch, Executor
 from pico.model.event import Event, EventKind
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.model.run import tally
-from pico.runs.journal import Journal, RunOutcome
+from pico.model.run import RunOutcome, tally
+
+Execute = Callable[[Operation, str], Awaitable[OperationResult]]
+"""Has an operation executed under a key; raises PicoError, with exit code INTERRUPTED where nothing more is begun."""
 
 
 class Walk:
-    """One run of a plan. `events` gets what happens, then None."""
+    """One run of a plan, from the time `now` on [s]. `tell` hears what happens, `run_finished` last."""
 
     def __init__(
         self,
         plan: Plan,
-        backend: Backend,
-        lease: Lease,
+        execute: Execute,
+        tell: Callable[[Event], None],
         *,
         run: str,
         now: float,
-        cancelled: Callable[[], bool],
-        journal: Journal | None = None,
         stop_on_error: bool = False,
-        resumed: bool = False,
-        about: Mapping[str, Any] | None = None,
     ) -> None:
-        self.events: asyncio.Queue[Event | None] = asyncio.Queue()
-        self._plan, self._backend, self._lease, self._run = plan, backend, lease, run
+        self._plan, self._execute, self._tell, self._run = plan, execute, tell, run
         self._executor = Executor(plan.operations, run, stop_on_error)
         self._begun = self._now = now
-        self._cancelled, self._journal, self._resumed, self._about = cancelled, journal, resumed, about
         self._seq = 0
 
     def interrupt(self) -> None:
         """Start nothing more; what is under way goes on to its safe end."""
         self._executor.interrupt()
 
-    async def run(self) -> None:
-        """Walk, then end the events, whatever happened."""
-        try:
-            await self.walk()
-        finally:
-            self.events.put_nowait(None)
+    def heard(self, event: Event) -> None:
+        """Pass on what the device says of the operations of this run."""
+        if event.run == self._run:
+            self._now = max(self._now, event.time)
+            self._pass_on(event)
 
     async def walk(self) -> None:
-        """Walk the graph to its end, or to that of what is under way when it is interrupted.
-
-        Raises PicoError where the run can't be journalled.
-        """
-        if self._journal and not self._resumed:
-            document = self._plan.to_json()
-            holder = self._lease.holder
-            self._journal.begin_run(self._run, self._plan.digest, holder, document=document, about=self._about)
-        elif self._journal:
-            self._journal.resume_run(self._run, self._about)
-        relay = asyncio.create_task(self._relay(self._backend.events()))
+        """Walk the graph to its end, or to that of what is under way when it is interrupted."""
         try:
             self._emit("run_started", data={"plan": self._plan.digest, "operations": len(self._plan.operations)})
             await self._operations()
-            await asyncio.sleep(0)  # what the backend said last is still on its way through the relay
         finally:
-            relay.cancel()
-            with suppress(asyncio.CancelledError):
-                await relay
             self._finish()
 
     async def _operations(self) -> None:
         under_way: dict[asyncio.Task[OperationResult], Dispatch] = {}
         while True:
-            for dispatch in self._due():
+            for dispatch in self._executor.due():
                 under_way[self._start(dispatch)] = dispatch
             if not under_way:
                 return
@@ -89,16 +68,11 @@ class Walk:
                 if again is not None:
                     under_way[self._start(again)] = again
 
-    def _due(self) -> list[Dispatch]:
-        if self._cancelled():
-            self._executor.interrupt()
-        return self._executor.due()
-
     def _start(self, dispatch: Dispatch) -> asyncio.Task[OperationResult]:
-        return asyncio.create_task(self._execute(dispatch))
+        return asyncio.create_task(self._attempt(dispatch))
 
-    async def _execute(self, dispatch: Dispatch) -> OperationResult:
-        return await self._backend.execute(dispatch.operation, dispatch.key, self._lease)
+    async def _attempt(self, dispatch: Dispatch) -> OperationResult:
+        return await self._execute(dispatch.operation, dispatch.key)
 
     def _over(self, dispatch: Dispatch, task: asyncio.Task[OperationResult]) -> Dispatch | None:
         """Tell how an attempt ended; return the one that follows, if any."""
@@ -106,14 +80,12 @@ class Walk:
         try:
             result = task.result()
         except PicoError as exc:
-            if exc.exit_code == ExitCode.INTERRUPTED:  # the backend was halted before this began
+            if exc.exit_code == ExitCode.INTERRUPTED:  # the bench was halted before this began
                 self._executor.refused(dispatch)
                 return None
             self._executor.interrupt()  # a journal or a lease that is gone: nothing more can be done in order
             result = OperationResult(key=dispatch.key, outcome="unknown", error=exc.diagnostics[0], ended=self._now)
         self._now = max(self._now, result.ended)
-        if self._cancelled():
-            self._executor.interrupt()
         after = self._executor.over(dispatch, result)
         if after.again is not None:
             self._emit("operation_retried", op, {"attempt": after.again.attempt, **_failure(op, result)})
@@ -139,25 +111,15 @@ class Walk:
         stopped = self._executor.interrupted and (left or missed)
         outcome: RunOutcome = "interrupted" if stopped else "failed" if missed else "done"
         data = {**counts, "seconds": self._now - self._begun}
-        try:
-            if self._journal:
-                self._journal.end_run(self._run, outcome, data)
-        finally:  # a journal that is gone must not hide what became of the run
-            self._emit("run_finished", data={"outcome": outcome, **data})
-
-    async def _relay(self, events: AsyncIterator[Event]) -> None:
-        """Pass on what the backend says of the operations of this run."""
-        async for event in events:
-            if event.run == self._run:
-                self._now = max(self._now, event.time)
-                self._seq += 1
-                self.events.put_nowait(replace(event, seq=self._seq))
+        self._emit("run_finished", data={"outcome": outcome, **data})
 
     def _emit(self, kind: EventKind, op: Operation | None = None, data: Mapping[str, Any] | None = None) -> None:
-        self._seq += 1
         who = {"operation": op.id, "component": op.component} if op else {}
-        event = Event(run=self._run, seq=self._seq, kind=kind, time=self._now, data=data or {}, **who)
-        self.events.put_nowait(event)
+        self._pass_on(Event(run=self._run, seq=0, kind=kind, time=self._now, data=data or {}, **who))
+
+    def _pass_on(self, event: Event) -> None:
+        self._seq += 1
+        self._tell(replace(event, seq=self._seq))
 
 
 def _failure(op: Operation, result: OperationResult) -> dict[str, Any]:

@@ -30,7 +30,7 @@ class Uncertainty:
 class ObservedValue:
     """The value of a tunable. `commanded`: what was last asked for, not read back. `unknown`: has no value."""
 
-    value: Value | None
+    value: Value | None = None
     status: Literal["known", "commanded", "unknown"] = "known"
 
 

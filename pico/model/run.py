@@ -15,6 +15,8 @@ from pico.model.record import Format, record
 FORMAT = Format("pico.run")
 
 Evidence = Literal["planned", "kinematic", "physics", "emulated", "hardware"]
+RunOutcome = Literal["done", "failed", "interrupted"]
+"""How a run ended that came to its end."""
 RunEnd = Literal["done", "failed", "interrupted", "killed"]
 
 STRENGTH: Mapping[str, int] = {"planned": 0, "kinematic": 1, "physics": 2, "emulated": 3, "hardware": 4}

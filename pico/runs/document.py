@@ -14,7 +14,8 @@ from pico.model.plan import LabRef
 from pico.model.record import digest, record
 from pico.model.run import STRENGTH, Cause, Run, Seen, TraceEvent
 from pico.model.state import LabState, state_from_json
-from pico.runs.journal import Journal, JournalRecord, RunRecord
+from pico.runs.journal import JournalRecord, RunRecord
+from pico.runs.memory import Memory
 from pico.runs.states import changes, digest_of, state_left, state_seen, touched
 from pico.runs.trace import artifacts, busy, counted, measured, trace_events
 
@@ -34,18 +35,18 @@ class RecordedRun:
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def recorded(setup: Setup, journal: Journal, run: RunRecord, part: int = 0) -> RecordedRun | None:
-    """Return a run of a journal; `setup`: the bench as it is now. None where the journal did not keep its plan, or
+def recorded(setup: Setup, memory: Memory, run: RunRecord, part: int = 0) -> RecordedRun | None:
+    """Return a run that a bench remembers; `setup`: the bench as it is now. None where that did not keep its plan, or
     nothing began.
 
     `part`: only what came since it was taken up again for the n-th time, where a commit has what was before that.
     """
-    text, records = journal.document(run.run), journal.records(run=run.run)
+    text, records = memory.document(run.run), memory.records(run=run.run)
     own = [r for r in records if _resumption(r) >= part]
     if text is None or not touched(own):
         return None
     plan = json.loads(text)  # plain data: it may be of an older PICO
-    starts, seen = journal.about(run.run)
+    starts, seen = memory.about(run.run)
     earlier = [r for r in records if _resumption(r) < part]
     before = state_left(setup, state_from_json(plan["lab"]["name"], plan["base"]["state"]), earlier)
     after = state_seen(setup, seen["components"]) if seen else state_left(setup, before, own)

@@ -10,11 +10,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterable
-from contextlib import closing
 from datetime import datetime
-from pathlib import Path
 
-from pico.attachment import bench_folder
 from pico.model.diff import deviation, diff_observed, value_deviation
 from pico.model.drift import drift_of
 from pico.model.lab import Setup
@@ -23,7 +20,7 @@ from pico.model.operation import Operation
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, place_of
 from pico.runs.document import weakest
-from pico.runs.journal import Journal
+from pico.runs.memory import Memory
 
 Tunables = Collection[tuple[str, str]]
 """Tunables by component and name; `pose` for where it stands."""
@@ -37,7 +34,14 @@ def stands(setup: Setup, seen: Observation, state: LabState) -> bool:
 
 
 def evidence(
-    setup: Setup, root: Path, seen: Observation, state: LabState, changed: Tunables, *, observed: str, before: str
+    setup: Setup,
+    memory: Memory | None,
+    seen: Observation,
+    state: LabState,
+    changed: Tunables,
+    *,
+    observed: str,
+    before: str,
 ) -> str:
     """Return what a commit of `state` rests on.
 
@@ -49,12 +53,12 @@ def evidence(
     known = [(c, t) for c, t in changed if c in setup.lab.inventory]
     if not known:
         return before if before in STRENGTH and before != "planned" else observed
-    brought = _brought(setup, bench_folder(root) / "journal.sqlite", state, known)
+    brought = _brought(setup, memory, state, known)
     return min((brought.get(one) or observed for one in known), key=lambda e: STRENGTH.get(e, 0))
 
 
 def never_here(
-    setup: Setup, root: Path, seen: Observation, state: LabState, *, stood: datetime | None = None
+    setup: Setup, memory: Memory | None, seen: Observation, state: LabState, *, stood: datetime | None = None
 ) -> set[tuple[str, str]]:
     """Return the tunables in which the bench differs from a state that it never had here, as far as anybody knows.
 
@@ -63,23 +67,21 @@ def never_here(
     single operation changed is as somebody wanted it. Raises PicoError where the journal can't be read.
     """
     off = {(c.component, c.tunable) for c in diff_observed(setup, seen, state) if not c.tolerated}
-    path = root / ".pico" / "journal.sqlite"
-    known = _last_said(setup, path, state, off, stood) if off and path.exists() else {}
+    known = _last_said(setup, memory, state, off, stood) if off and memory else {}
     return {one for one in off if not known.get(one, stood is not None or _at_home(setup, state, one))}
 
 
 def _last_said(
-    setup: Setup, path: Path, state: LabState, tunables: Tunables, stood: datetime | None
+    setup: Setup, memory: Memory, state: LabState, tunables: Tunables, stood: datetime | None
 ) -> dict[tuple[str, str], bool]:
     """Return of tunables on which operations succeeded whether the last one is no reason to doubt a state."""
     found: dict[tuple[str, str], bool] = {}
-    with closing(Journal(path, looking=True)) as journal:
-        for success in journal.successes({component for component, _ in tunables}):
-            one = (success.operation.component, _tunable(success.operation))
-            if one in tunables and one not in found:
-                causes = {about.get("cause", {}).get("kind") for about in journal.about(success.run)[0]}
-                before = stood is not None and datetime.fromisoformat(success.at).replace(microsecond=0) <= stood
-                found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success.after)
+    for success in memory.successes({component for component, _ in tunables}):
+        one = (success.operation.component, _tunable(success.operation))
+        if one in tunables and one not in found:
+            causes = {about.get("cause", {}).get("kind") for about in memory.about(success.run)[0]}
+            before = stood is not None and datetime.fromisoformat(success.at).replace(microsecond=0) <= stood
+            found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success.after)
     return found
 
 
@@ -88,22 +90,18 @@ def _at_home(setup: Setup, state: LabState, one: tuple[str, str]) -> bool:
     return tunable == "pose" and place_of(setup, state, component)[0] == setup.lab.inventory[component].home
 
 
-def _brought(setup: Setup, path: Path, state: LabState, tunables: Tunables) -> dict[tuple[str, str], str | None]:
-    """Return the evidence of the runs that brought tunables where a state has them; None or nothing where no run did.
-
-    `path`: the journal.
-    """
+def _brought(
+    setup: Setup, memory: Memory | None, state: LabState, tunables: Tunables
+) -> dict[tuple[str, str], str | None]:
+    """Return the evidence of the runs that brought tunables where a state has them; None or nothing for other ones."""
     found: dict[tuple[str, str], str | None] = {}
-    if not path.exists():
-        return found
     wanted = set(tunables)
-    with closing(Journal(path, looking=True)) as journal:
-        for success in journal.successes({component for component, _ in wanted}):
-            one = (success.operation.component, _tunable(success.operation))
-            if one in wanted - found.keys():
-                found[one] = _of_run(journal, success.run) if _there(setup, state, one, success.after) else None
-            if len(found) == len(wanted):
-                break
+    for success in memory.successes({component for component, _ in wanted}) if memory else ():
+        one = (success.operation.component, _tunable(success.operation))
+        if memory and one in wanted - found.keys():
+            found[one] = _of_run(memory, success.run) if _there(setup, state, one, success.after) else None
+        if len(found) == len(wanted):
+            break
     return found
 
 
@@ -130,9 +128,9 @@ def _there(setup: Setup, state: LabState, one: tuple[str, str], part: ObservedCo
     return value_deviation(own, value.value, goal_value) != "off"
 
 
-def _of_run(journal: Journal, run: str) -> str | None:
+def _of_run(memory: Memory, run: str) -> str | None:
     """Return the weakest evidence of all times that a run was taken up, as its plan says where nothing else does."""
-    found = weakest(journal.about(run)[0], json.loads(journal.document(run) or "{}"))
+    found = weakest(memory.about(run)[0], json.loads(memory.document(run) or "{}"))
     return found if found in STRENGTH else None
 
 

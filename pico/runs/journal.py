@@ -25,9 +25,9 @@ from pico.model.observation import ObservedComponent, ObservedValue, Uncertainty
 from pico.model.operation import Operation, OperationResult, Outcome, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json, digest, record
+from pico.model.run import RunOutcome
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
-RunOutcome = Literal["done", "failed", "interrupted"]
 
 VERSION = 3
 _PHASE: Mapping[str, int] = {"intent": 0, "started": 1, "done": 2, "failed": 2, "unknown": 2, "resolved": 3}
@@ -108,8 +108,8 @@ class Unsettled:
 
     key: str
     operation: Operation
-    before: ObservedComponent | None
     ended: bool
+    before: ObservedComponent | None = None
 
 
 @record
@@ -118,8 +118,8 @@ class Success:
 
     run: str
     operation: Operation
-    after: ObservedComponent | None
     at: str
+    after: ObservedComponent | None = None
 
 
 def utc_now() -> str:
@@ -192,7 +192,7 @@ class Journal:
     ) -> None:
         """Record that a run of the plan with digest `plan` begins, with the plan itself as JSON (`document`).
 
-        `about`: what the plan does not say of it, see `pico.execution.about`.
+        `about`: what the plan does not say of it, see `pico.edge.about`.
         """
         row = (run, plan, holder, self._clock(), document, _text([about or {}]))
         columns = (
@@ -224,7 +224,7 @@ class Journal:
             self._db.execute("UPDATE runs SET finished_at = ?, outcome = ?, tally = ? WHERE run = ?", row)
 
     def saw(self, run: str, seen: Mapping[str, Any]) -> None:
-        """Record how the bench was observed when a run was over, see `pico.execution.about`."""
+        """Record how the bench was observed when a run was over, see `pico.edge.about`."""
         with self._guarded():
             self._db.execute("UPDATE runs SET seen = ? WHERE run = ?", (_text(seen), run))
 

@@ -88,16 +88,21 @@ def read_calibration(folder: Path) -> Calibration | None:
     if not path.exists():
         return None
     try:
-        data = FORMAT.lifted(json.loads(path.read_text()))
-        return Calibration(
-            cameras={name: _camera(name, camera) for name, camera in data["cameras"].items()},
-            accuracy=Accuracy(**data["accuracy"]),
-            residuals=data["residuals"],
-            made_at=data["made_at"],
-        )
+        return calibration_from_json(json.loads(path.read_text()))
     except (ValueError, KeyError, TypeError) as exc:
         hint = "make it again with `pico calibrate`"
         raise PicoError(error("calibration-file", f"{path} is no calibration: {exc}", hint=hint)) from exc
+
+
+def calibration_from_json(data: object) -> Calibration:
+    """Return the calibration whose `as_json` gave `data`; raises ValueError, KeyError or TypeError for other data."""
+    document = FORMAT.lifted(data)
+    return Calibration(
+        cameras={name: _camera(name, camera) for name, camera in document["cameras"].items()},
+        accuracy=Accuracy(**document["accuracy"]),
+        residuals=document["residuals"],
+        made_at=document["made_at"],
+    )
 
 
 def calibration_digest(folder: Path) -> str | None:

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benches import sim
 
 from pico.backends.sim.cameras import bump, eyes_of
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.store import load_world, save_world, world_from_json
-from pico.backends.sim.table import SimulatedTable
 from pico.backends.sim.world import new_world
 from pico.cameras.errors import CameraShift
 from pico.diagnostics import PicoError
@@ -32,7 +32,7 @@ def setup() -> Setup:
 
 
 def test_a_bump_stays_until_a_reset(setup: Setup, tmp_path: Path) -> None:
-    table = SimulatedTable(setup, tmp_path)
+    table = sim(setup, tmp_path).world
     table.bump("left", shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
     table.bump("left", shift=(0.0, 0.0, -1.0), turn=(0.0, 0.0, 0.5))
     assert load_world(setup, tmp_path)[0].cameras == {"left": BY}

@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 from benches import apply, execute, plan_to, shel, sim
 from results import RunResult
+from tables import change_world
 
 from pico.backends.sim.faults import KINDS, Faults, parse, save_faults
 from pico.backends.sim.hand import nudge, power_cycle, remove
-from pico.backends.sim.store import change_world, load_world
+from pico.backends.sim.store import load_world
 from pico.diagnostics import PicoError
 from pico.model.diff import diff_observed
 from pico.model.plan import Plan
@@ -122,14 +123,14 @@ def test_the_lab_can_say_the_faults(tmp_path: Path) -> None:
 
 
 def test_what_slipped_is_told_as_tried_again_and_what_stops_everything_leaves_the_rest(tmp_path: Path) -> None:
-    from pico.execution.run import run
+    from benches import run
 
     save_faults(tmp_path, Faults(rates={"slip": 1.0}))
     bench = sim(SETUP, tmp_path)
 
     async def go():  # type: ignore[no-untyped-def]
         planned = await plan_to(bench, C3)
-        events = run(planned, bench, run_id="r1", holder="test", setup=SETUP, stop_on_error=True)
+        events = run(planned, bench, run_id="r1", stop_on_error=True)
         return [e async for e in events]
 
     events = asyncio.run(go())

@@ -7,13 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from benches import execute, plan_to, shel, sim
+from benches import execute, plan_to, run, shel, sim
 from oracles.unfinished import unfinished
 from results import RunResult
 
 from pico.backends.sim.halting import phase_at, way_out
 from pico.backends.sim.store import load_world
-from pico.execution.run import run
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.motion.types import MovePath, Segment
@@ -41,7 +40,7 @@ def cut_short(root: Path, phase: str, how: str, share: float = 0.0) -> RunResult
 
     async def go() -> RunResult:
         planned, events, acted = await plan_to(bench, C3), [], False
-        async for event in run(planned, bench, run_id="r1", holder="test", setup=SETUP):
+        async for event in run(planned, bench, run_id="r1"):
             events.append(event)
             there = event.component == "p1" and event.data.get("phase") == phase
             if there and event.data["fraction"] >= share and not acted:

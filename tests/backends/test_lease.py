@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from pico.backends.lease import BenchLock
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.lease import BenchLock
 
 HOLD = """
 import sys
 from pathlib import Path
-from pico.backends.lease import BenchLock
+from pico.edge.lease import BenchLock
 lease = BenchLock(Path(sys.argv[1])).acquire("pico apply e1")
 print(lease.token, flush=True)
 sys.stdin.read()

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pico.backends.lease import BenchLock, wait_until_free
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.lease import BenchLock, wait_until_free
 
 
 def test_who_waits_takes_the_lock_once_it_is_free(tmp_path: Path) -> None:

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pico.backends.sim.backend import SimBackend
 from pico.backends.sim.readings import FOLDER
 from pico.backends.sim.store import load_world, save_world
+from pico.content.store import store_of
 from pico.diagnostics import PicoError
+from pico.edge.local import embedded
 from pico.manifest.load import load_folder
 from pico.model.catalog import Measurable
 from pico.model.lab import Setup
@@ -22,7 +23,6 @@ from pico.model.observation import ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
 from pico.resources import labs_dir
-from pico.runs.store import store_of
 
 SETUP = load_folder(labs_dir() / "shel").require()[0]
 
@@ -35,7 +35,7 @@ def operation(component: str, name: str, id: str = "op1") -> Operation:
 
 def results(root: Path, *operations: Operation, setup: Setup = SETUP) -> list[OperationResult]:
     async def run() -> list[OperationResult]:
-        bench = SimBackend(setup, root)
+        bench = embedded(setup, root, "sim", "kinematic")
         lease = await bench.acquire("test")
         try:
             return await asyncio.gather(*(bench.execute(op, f"r1/{op.id}/1", lease) for op in operations))
@@ -53,7 +53,7 @@ def measured(root: Path, component: str, name: str, setup: Setup = SETUP) -> Mea
 
 
 def peeked(root: Path, component: str, name: str) -> Measurement:
-    return asyncio.run(SimBackend(SETUP, root).peek(component, name))
+    return asyncio.run(embedded(SETUP, root, "sim", "kinematic").peek(component, name))
 
 
 def test_a_set_point_is_read_back(tmp_path: Path) -> None:
@@ -98,7 +98,7 @@ def test_a_peek_opens_nothing_and_nothing_of_it_is_assured(tmp_path: Path) -> No
     found = peeked(tmp_path, "p1", "angle")
     assert (found.value, found.assured) == (0.0, ())
     assert dict(found.not_assured) == {"settled": PEEKED, "arm parked": PEEKED}
-    assert not SimBackend(SETUP, tmp_path).journal.records()
+    assert not embedded(SETUP, tmp_path, "sim", "kinematic").journal.records()
     with pytest.raises(PicoError, match="voltage of cam is not simulated yet"):
         peeked(tmp_path, "cam", "voltage")
 
@@ -165,7 +165,7 @@ def test_a_measurable_is_added_by_one_file(tmp_path: Path, monkeypatch: pytest.M
     package = importlib.import_module(FOLDER)
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path / "more")])
     try:
-        assert "cam.image" in asyncio.run(SimBackend(SETUP, tmp_path).describe()).measurables
+        assert "cam.image" in asyncio.run(embedded(SETUP, tmp_path, "sim", "kinematic").describe()).measurables
         assert measured(tmp_path, "cam", "image").value == {"peak": 7.5, "mean": 1.0}
     finally:
         sys.modules.pop(f"{FOLDER}.made_up")

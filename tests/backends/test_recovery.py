@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from benches import shel
 
-from pico.backends.recovery import open_questions, settle, verdict
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.recovery import open_questions, settle, verdict
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, Reason
 from pico.model.pose import Pose
@@ -102,7 +102,7 @@ def test_the_last_pick_of_a_hand_is_where_it_took_the_part_not_where_a_set_down_
 
 
 def test_a_hand_that_only_tells_its_width_holds_what_it_picked_last(tmp_path: Path) -> None:
-    from pico.backends.grip import with_picks
+    from pico.edge.grip import with_picks
 
     journal = begun(tmp_path, MOVE)
     grasp = SETUP.type_of("p1").geometry.grasp

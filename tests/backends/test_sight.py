@@ -15,7 +15,6 @@ from pico.backends.last_seen import LastSeen, recall, remember
 from pico.backends.sight import Look
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import load_world, save_world
-from pico.backends.sim.table import SimulatedTable
 from pico.backends.sim.world import FreePose, World, new_world
 from pico.diagnostics import PicoError
 from pico.model.catalog import Footprint
@@ -44,7 +43,7 @@ SETUP = seeing()
 
 
 def look(root: Path, setup: Setup = SETUP) -> Look:
-    return asyncio.run(sim(setup, root).scan())
+    return asyncio.run(sim(setup, root).look())
 
 
 def observe(root: Path, setup: Setup = SETUP) -> Observation:
@@ -182,7 +181,7 @@ def test_a_frame_that_is_lost_now_and_then_is_taken_again(tmp_path: Path) -> Non
 def test_cameras_that_moved_are_not_parts_that_moved(tmp_path: Path, camera: str | None) -> None:
     calibrated(tmp_path)
     assert not observe(tmp_path).problems
-    SimulatedTable(SETUP, tmp_path).bump(camera, shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
+    sim(SETUP, tmp_path).world.bump(camera, shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
     with pytest.raises(PicoError, match="camera `left` has moved") as raised:
         observe(tmp_path)
     assert {d.code for d in raised.value.diagnostics} == {"calibration-drift"}
@@ -194,14 +193,14 @@ def test_cameras_that_moved_are_not_parts_that_moved(tmp_path: Path, camera: str
 
 
 def test_uncalibrated_cameras_that_are_far_from_where_the_lab_has_them_are_told(tmp_path: Path) -> None:
-    SimulatedTable(SETUP, tmp_path).bump("left", shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
+    sim(SETUP, tmp_path).world.bump("left", shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
     assert [drift.camera for drift in look(tmp_path).sighting.drift] == ["left"]
 
 
 def calibrated(root: Path, position: float = 0.02) -> None:
     """Write a calibration as a perfect one would be; `position`: how well it is said to hold [mm]."""
     accuracy = Accuracy(position=position)
-    cameras = SimulatedTable(SETUP, root).true_cameras()
+    cameras = sim(SETUP, root).world.true_cameras()
     write_calibration(root, Calibration(cameras, accuracy, dict.fromkeys(cameras, 0.0), "2026-11-01T12:00:00Z"))
 
 

@@ -10,14 +10,16 @@ from typing import Any
 
 import pytest
 from benches import shel, sim
+from tables import change_world, reset_world
 
-from pico.backends.hardware import HardwareBackend
-from pico.backends.protocol import Backend, Lease
-from pico.backends.sim.backend import SimBackend
+from pico.backends.devices import opener
 from pico.backends.sim.hand import nudge
-from pico.backends.sim.store import change_world, load_world, reset_world, world_path
+from pico.backends.sim.store import load_world, world_path
 from pico.backends.sim.world import new_world
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.local import LocalEdge
+from pico.edge.protocol import Edge, Lease
+from pico.model.event import Event
 from pico.model.lab import Policy
 from pico.model.observation import ObservedValue, UnknownObject
 from pico.model.operation import Operation, OperationResult, Reason
@@ -39,7 +41,7 @@ def setting(name: str, tunable: str, value: Any, id: str = "op2", primitive: Any
     return Operation(id=id, primitive=primitive, component=name, arguments=arguments, reason=ASKED)
 
 
-def during(bench: SimBackend, act: Callable[[Lease], Awaitable[Any]]) -> Any:
+def during(bench: LocalEdge, act: Callable[[Lease], Awaitable[Any]]) -> Any:
     async def go() -> Any:
         lease = await bench.acquire("test")
         try:
@@ -50,27 +52,34 @@ def during(bench: SimBackend, act: Callable[[Lease], Awaitable[Any]]) -> Any:
     return asyncio.run(go())
 
 
-def executed(bench: SimBackend, operation: Operation, key: str = "r1/op1/1") -> OperationResult:
+def listening(bench: LocalEdge) -> asyncio.Queue[Event]:
+    """Return where the events of the device come from now on."""
+    queue: asyncio.Queue[Event] = asyncio.Queue()
+    bench._heard = queue.put_nowait  # type: ignore[method-assign]
+    return queue
+
+
+def executed(bench: LocalEdge, operation: Operation, key: str = "r1/op1/1") -> OperationResult:
     result: OperationResult = during(bench, lambda lease: bench.execute(operation, key, lease))
     return result
 
 
 @pytest.fixture
-def bench(tmp_path: Path) -> SimBackend:
+def bench(tmp_path: Path) -> LocalEdge:
     return sim(SETUP, tmp_path)
 
 
 P1, GOAL = Pose(110, 220, 0), Pose(320, 420, 30)
 
 
-def test_a_move_ends_exactly_at_its_goal_takes_its_time_and_is_stored(bench: SimBackend) -> None:
-    backend: Backend = bench  # it is one, says mypy
+def test_a_move_ends_exactly_at_its_goal_takes_its_time_and_is_stored(bench: LocalEdge) -> None:
+    edge: Edge = bench  # it is one, says mypy
     result = executed(bench, move("p1", P1, GOAL))
     assert (result.outcome, result.error) == ("done", None)
     assert result.before is not None
     assert result.after is not None
     assert (result.before.pose, result.after.pose) == (P1, GOAL)
-    seen = asyncio.run(backend.observe())
+    seen = asyncio.run(edge.observe())
     assert seen.components["p1"].pose == GOAL
     assert seen.time == result.ended == pytest.approx(result.seconds)
     assert seen.time > 3
@@ -78,7 +87,7 @@ def test_a_move_ends_exactly_at_its_goal_takes_its_time_and_is_stored(bench: Sim
     assert [r.kind for r in bench.journal.records(key="r1/op1/1")] == ["intent", "started", "done"]
 
 
-def test_a_known_key_returns_its_result_and_moves_nothing(bench: SimBackend) -> None:
+def test_a_known_key_returns_its_result_and_moves_nothing(bench: LocalEdge) -> None:
     operation = move("p1", P1, GOAL)
     first = executed(bench, operation)
     change_world(SETUP, bench.root, "test", lambda w: nudge(SETUP, w, "p1", dx=3))
@@ -88,7 +97,7 @@ def test_a_known_key_returns_its_result_and_moves_nothing(bench: SimBackend) -> 
         executed(bench, replace(operation, component="p2"))
 
 
-def test_a_key_that_comes_twice_at_once_moves_once(bench: SimBackend) -> None:
+def test_a_key_that_comes_twice_at_once_moves_once(bench: LocalEdge) -> None:
     async def twice(lease: Lease) -> list[OperationResult]:
         both = [bench.execute(move("p1", P1, GOAL), "r1/op1/1", lease) for _ in range(2)]
         return list(await asyncio.gather(*both))
@@ -98,7 +107,7 @@ def test_a_key_that_comes_twice_at_once_moves_once(bench: SimBackend) -> None:
     assert len(bench.journal.records()) == 3
 
 
-def test_only_the_holder_of_the_current_lease_moves_anything(bench: SimBackend) -> None:
+def test_only_the_holder_of_the_current_lease_moves_anything(bench: LocalEdge) -> None:
     old = during(bench, lambda lease: asyncio.sleep(0, lease))
 
     async def late(lease: Lease) -> None:
@@ -109,7 +118,7 @@ def test_only_the_holder_of_the_current_lease_moves_anything(bench: SimBackend) 
     assert caught.value.exit_code == ExitCode.LOCKED
 
 
-def test_looking_works_while_another_moves(bench: SimBackend) -> None:
+def test_looking_works_while_another_moves(bench: LocalEdge) -> None:
     other = sim(SETUP, bench.root)
 
     async def look(lease: Lease) -> None:
@@ -139,7 +148,7 @@ def test_looking_works_while_another_moves(bench: SimBackend) -> None:
     ],
 )
 def test_what_cannot_be_done_fails_with_its_reason_and_changes_nothing(
-    bench: SimBackend, operation: Operation, code: str, words: str
+    bench: LocalEdge, operation: Operation, code: str, words: str
 ) -> None:
     result = executed(bench, operation)
     assert result.outcome == "failed"
@@ -149,7 +158,7 @@ def test_what_cannot_be_done_fails_with_its_reason_and_changes_nothing(
     assert load_world(SETUP, bench.root)[0] == new_world(SETUP)
 
 
-def test_an_unknown_object_is_in_the_way_too(bench: SimBackend) -> None:
+def test_an_unknown_object_is_in_the_way_too(bench: LocalEdge) -> None:
     thing = UnknownObject(pose=Pose(330, 420), footprint=SETUP.type_of("p1").geometry.footprint, height=50)
     change_world(SETUP, bench.root, "test", lambda w: replace(w, unknown={"unknown/17": thing}))
     result = executed(bench, move("p1", P1, GOAL))
@@ -157,7 +166,7 @@ def test_an_unknown_object_is_in_the_way_too(bench: SimBackend) -> None:
     assert "unknown/17" in result.error.summary
 
 
-def test_values_are_driven_at_the_speed_of_their_axis_and_then_settle(bench: SimBackend) -> None:
+def test_values_are_driven_at_the_speed_of_their_axis_and_then_settle(bench: LocalEdge) -> None:
     result = executed(bench, setting("p1", "angle", 75.0))
     kind = SETUP.type_of("p1").tunables["angle"]
     assert kind.axis is not None
@@ -166,7 +175,7 @@ def test_values_are_driven_at_the_speed_of_their_axis_and_then_settle(bench: Sim
     assert result.after.values["angle"] == ObservedValue(value=75.0)
 
 
-def test_homing_makes_an_unknown_value_known(bench: SimBackend) -> None:
+def test_homing_makes_an_unknown_value_known(bench: LocalEdge) -> None:
     lost = ObservedValue(value=None, status="unknown")
     change_world(SETUP, bench.root, "test", lambda w: w.with_value("p1", "angle", lost))
     result = executed(bench, setting("p1", "angle", None, primitive="home"))
@@ -177,7 +186,7 @@ def test_homing_makes_an_unknown_value_known(bench: SimBackend) -> None:
     assert result.seconds == pytest.approx(360 / kind.axis.speed + kind.settle / 1000)
 
 
-def test_settings_go_on_beside_the_arm(bench: SimBackend) -> None:
+def test_settings_go_on_beside_the_arm(bench: LocalEdge) -> None:
     async def both(lease: Lease) -> list[OperationResult]:
         return list(await asyncio.gather(
             bench.execute(move("p1", P1, GOAL), "r1/op1/1", lease),
@@ -190,7 +199,7 @@ def test_settings_go_on_beside_the_arm(bench: SimBackend) -> None:
     assert all(t.ended == pytest.approx(t.seconds) for t in turned)
 
 
-def test_giving_up_waiting_does_not_stop_the_arm(bench: SimBackend) -> None:
+def test_giving_up_waiting_does_not_stop_the_arm(bench: LocalEdge) -> None:
     async def impatient(lease: Lease) -> None:
         task = asyncio.create_task(bench.execute(move("p1", P1, GOAL), "r1/op1/1", lease))
         await asyncio.sleep(0)
@@ -203,19 +212,18 @@ def test_giving_up_waiting_does_not_stop_the_arm(bench: SimBackend) -> None:
     assert bench.journal.records()[-1].kind == "done"
 
 
-def test_stopped_on_the_way_the_gripper_holds_and_the_next_lease_says_so(bench: SimBackend) -> None:
+def test_stopped_on_the_way_the_gripper_holds_and_the_next_lease_says_so(bench: LocalEdge) -> None:
     async def go(lease: Lease) -> OperationResult:
-        events = bench.events()
         task = asyncio.create_task(bench.execute(move("p1", P1, GOAL), "r1/op1/1", lease))
-        async for event in events:
-            if event.data.get("phase") == "transit" and event.data["pose"]["x"] > 120:
-                await bench.stop()
-                break
+        while not ((event := await events.get()).data.get("phase") == "transit" and event.data["pose"]["x"] > 120):
+            pass
+        await bench.stop()
         with pytest.raises(PicoError) as caught:
             await bench.execute(move("p2", Pose(200, 220), GOAL), "r1/op2/1", lease)
         assert caught.value.exit_code == ExitCode.INTERRUPTED
         return await task
 
+    events = listening(bench)
     result = during(bench, go)
     assert (result.outcome, result.error.code) == ("failed", "stopped")
     world, _ = load_world(SETUP, bench.root)
@@ -228,18 +236,17 @@ def test_stopped_on_the_way_the_gripper_holds_and_the_next_lease_says_so(bench: 
     assert "arm1 still holds p1" in again.error.summary
 
 
-def test_the_carried_part_goes_with_the_tool(bench: SimBackend) -> None:
+def test_the_carried_part_goes_with_the_tool(bench: LocalEdge) -> None:
     async def go(lease: Lease) -> list[dict[str, float]]:
-        events, poses = bench.events(), []
+        poses = []
         task = asyncio.create_task(bench.execute(move("p1", P1, GOAL), "r1/op1/1", lease))
-        async for event in events:
+        while (event := await events.get()).data.get("phase") != "retreat":
             if "pose" in event.data:
                 poses.append(event.data["pose"])
-            if event.data.get("phase") == "retreat":
-                break
         await task
         return poses
 
+    events = listening(bench)
     poses = [Pose(**p) for p in during(bench, go)]
     assert poses[0].distance(P1) < 1e-6
     assert poses[-1].distance(GOAL) < 1e-6
@@ -247,7 +254,7 @@ def test_the_carried_part_goes_with_the_tool(bench: SimBackend) -> None:
     assert [p.x for p in poses] == sorted(p.x for p in poses)
 
 
-def test_a_broken_world_does_not_leave_the_bench_locked(bench: SimBackend) -> None:
+def test_a_broken_world_does_not_leave_the_bench_locked(bench: LocalEdge) -> None:
     world_path(bench.root).parent.mkdir(parents=True)
     world_path(bench.root).write_text("{")
     for _ in range(2):
@@ -255,10 +262,10 @@ def test_a_broken_world_does_not_leave_the_bench_locked(bench: SimBackend) -> No
             asyncio.run(bench.acquire("test"))
 
 
-def test_a_table_that_was_moved_and_is_not_stored_is_an_error_until_it_is_reset(bench: SimBackend) -> None:
+def test_a_table_that_was_moved_and_is_not_stored_is_an_error_until_it_is_reset(bench: LocalEdge) -> None:
     executed(bench, move("p1", P1, GOAL))
     world_path(bench.root).unlink()
-    with pytest.raises(PicoError, match=r"world\.json .*it is not there, and the journal has runs") as caught:
+    with pytest.raises(PicoError, match=r"the simulated table is not in .*sim, and the journal has runs") as caught:
         asyncio.run(bench.observe())
     assert caught.value.diagnostics[0].code == "world-file" and "pico sim reset" in caught.value.diagnostics[0].hint
     reset_world(SETUP, bench.root, "test")
@@ -267,7 +274,7 @@ def test_a_table_that_was_moved_and_is_not_stored_is_an_error_until_it_is_reset(
 
 @pytest.mark.parametrize("backend", [None, "emulated"])
 def test_a_journal_without_a_simulated_run_does_not_ask_for_a_simulated_table(
-    bench: SimBackend, backend: str | None
+    bench: LocalEdge, backend: str | None
 ) -> None:
     assert not bench.journal.runs()
     if backend:
@@ -277,12 +284,12 @@ def test_a_journal_without_a_simulated_run_does_not_ask_for_a_simulated_table(
     assert asyncio.run(bench.observe()).components["p1"].pose == P1
 
 
-def test_measuring_is_refused_until_light_is_simulated(bench: SimBackend) -> None:
+def test_measuring_is_refused_until_light_is_simulated(bench: LocalEdge) -> None:
     with pytest.raises(PicoError, match="image of cam is not simulated yet"):
         asyncio.run(bench.peek("cam", "image"))
 
 
-def test_what_it_can_do_is_said_before(bench: SimBackend) -> None:
+def test_what_it_can_do_is_said_before(bench: LocalEdge) -> None:
     able = asyncio.run(bench.describe())
     assert (able.name, able.evidence, able.robots) == ("sim", "kinematic", ("arm1",))
     assert able.lab_digest == SETUP.digest()
@@ -293,7 +300,7 @@ def test_what_it_can_do_is_said_before(bench: SimBackend) -> None:
 
 def test_the_real_bench_says_what_is_missing(tmp_path: Path) -> None:
     with pytest.raises(PicoError) as caught:
-        HardwareBackend(SETUP, tmp_path)
+        opener("hardware")(SETUP, tmp_path, "kinematic", lambda: "")
     (found,) = caught.value.diagnostics
     assert "arm1" in found.detail
     assert "p1.angle" in found.detail

@@ -12,12 +12,15 @@ import pytest
 from benches import shel
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import reset_world
 
 from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.reconcile import reconcile
-from pico.backends.sim.store import load_world, reset_world, save_world, world_from_json, world_path
+from pico.backends.sim.store import load_world, save_world, world_from_json, world_path
 from pico.backends.sim.world import FreePose, World, initial_value, new_world
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.lease import BenchLock
+from pico.edge.local import embedded
 from pico.model.catalog import Axis, Tunable
 from pico.model.lab import Part, Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
@@ -234,9 +237,6 @@ def test_a_part_of_another_type_keeps_what_tunables_they_share() -> None:
 
 
 def test_nobody_changes_a_table_that_somebody_moves(tmp_path: Path) -> None:
-    from pico.backends.lease import BenchLock
-    from pico.backends.sim.store import change_world
-
     with BenchLock(tmp_path).held("test"), pytest.raises(PicoError) as caught:
-        change_world(SETUP, tmp_path, "sim nudge", lambda w: w)
+        embedded(SETUP, tmp_path, "sim", "kinematic").world.nudge("p1", dx=1)
     assert caught.value.exit_code == ExitCode.LOCKED

@@ -16,7 +16,7 @@ from commanding import Answer, Pico, edit
 from pico_cli.main import main
 from test_stopping_commands import started
 
-from pico.backends.lease import BenchLock
+from pico.edge.lease import BenchLock
 from pico.history.bisect.git_state import GitBisect
 
 STEP = f"{sys.executable} -c 'import sys; from pico_cli.main import main; sys.exit(main())' bisect-step"

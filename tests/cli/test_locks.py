@@ -6,7 +6,7 @@ from pathlib import Path
 
 from commanding import Pico
 
-from pico.backends.lease import BenchLock
+from pico.edge.lease import BenchLock
 
 
 def test_movers_end_with_5_and_name_the_holder_and_reading_is_possible(shel: Path, pico: Pico) -> None:

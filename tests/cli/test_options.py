@@ -224,7 +224,7 @@ def test_the_graph_shows_all_branches_with_their_motions(shel: Path, pico: Pico)
 
 
 def test_a_bench_in_use_is_told_with_its_holder(shel: Path, pico: Pico) -> None:
-    from pico.backends.lease import BenchLock
+    from pico.edge.lease import BenchLock
 
     with BenchLock(shel).held("somebody's apply"):
         answer = pico("apply", "e1", "--auto-approve")

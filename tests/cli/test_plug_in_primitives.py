@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from commanding import Pico, edit
 
-from pico.backends.recovery import repeatable
 from pico.backends.sim import plugins
+from pico.edge.recovery import repeatable
 from pico.model import primitive
 from pico.model.operation import Operation, Reason
 from pico.resources import catalog_dir

@@ -18,7 +18,7 @@ from test_stopping_commands import PROGRAM, moving, started
 
 from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
-from pico.execution.attending import attend
+from pico.bench.running.attending import attend
 from pico.model.event import Event
 from pico.runs.journal import Journal
 

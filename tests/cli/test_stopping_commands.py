@@ -20,7 +20,7 @@ PROGRAM = """
 import sys, time
 from pathlib import Path
 from pico.backends.sim import session
-from pico.execution import blocking
+from pico.bench.running import blocking
 
 halt, tell, notes = blocking.Execution.halt, session.WorldSession._tell, Path(".pico")
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from commanding import Pico, edit
 
-from pico.backends.lease import BenchLock
 from pico.bench.drift import Drift, calibration_drift, news, require_heal
 from pico.diagnostics import PicoError
+from pico.edge.lease import BenchLock
 from pico.manifest.load import load_folder
 from pico.model.diff import Change
 from pico.model.lab import Setup

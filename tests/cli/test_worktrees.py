@@ -11,8 +11,8 @@ import pytest
 from commanding import Pico
 
 from pico.attachment import attached, bench_folder, lab_place, require_attached
-from pico.backends.lease import BenchLock
 from pico.diagnostics import PicoError
+from pico.edge.lease import BenchLock
 
 
 def git(folder: Path, *words: str) -> str:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncGenerator, Callable, Mapping
+from contextlib import aclosing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from results import RunResult
 
-from pico.backends.sim.backend import SimBackend
-from pico.execution.run import run
+from pico.backends.sim.device import SimDevice
+from pico.bench.running.async_execution import AsyncExecution
+from pico.edge.local import LocalEdge
+from pico.edge.protocol import Edge
 from pico.manifest.load import load_folder
 from pico.model.event import Event
 from pico.model.lab import Setup
@@ -45,12 +48,13 @@ def changed(state: LabState, components: Mapping[str, Mapping[str, Any]]) -> Lab
     return replace(state, components=parts)
 
 
-def sim(setup: Setup, root: Path, **options: Any) -> SimBackend:
+def sim(setup: Setup, root: Path, **options: Any) -> LocalEdge:
     """Return the simulated bench in folder `root`, at noon."""
-    return SimBackend(setup, root, **{"fidelity": "kinematic", "clock": lambda: NOON} | options)
+    clock = options.pop("clock", lambda: NOON)
+    return LocalEdge(setup, root, SimDevice(setup, root, **{"fidelity": "kinematic", "clock": clock} | options), clock)
 
 
-async def plan_to(backend: SimBackend, wanted: LabState) -> Plan:
+async def plan_to(backend: LocalEdge, wanted: LabState) -> Plan:
     """Return the plan from the bench as it stands to `wanted`."""
     setup, seen = backend.setup, await backend.observe()
     base = Base(observed_at=seen.observed_at, state=live_state(setup, seen).as_json())
@@ -61,16 +65,27 @@ async def plan_to(backend: SimBackend, wanted: LabState) -> Plan:
 
 
 async def execute(
-    backend: SimBackend, planned: Plan, run_id: str = "r1", cancelled: Callable[[], bool] = lambda: False
+    backend: LocalEdge, planned: Plan, run_id: str = "r1", cancelled: Callable[[], bool] = lambda: False
 ) -> tuple[RunResult, list[Event]]:
     """Run a plan to its end."""
-    events = [
-        e async for e in run(planned, backend, run_id=run_id, holder="test", setup=backend.setup, cancelled=cancelled)
-    ]
+    events = [e async for e in run(planned, backend, run_id=run_id, cancelled=cancelled)]
     return RunResult.of(events), events
 
 
-def apply(backend: SimBackend, wanted: LabState, run_id: str = "r1") -> tuple[Plan, RunResult, list[Event]]:
+async def run(
+    planned: Plan, edge: Edge, *, run_id: str, cancelled: Callable[[], bool] = lambda: False, **options: Any
+) -> AsyncGenerator[Event, None]:
+    """Run a plan under an id and yield its events; once `cancelled()`, it is cancelled."""
+    execution = AsyncExecution(planned, edge, holder="test", **options)
+    execution.id = run_id
+    async with aclosing(execution.__aiter__()) as events:
+        async for event in events:
+            yield event
+            if cancelled():
+                await edge.cancel(run_id)
+
+
+def apply(backend: LocalEdge, wanted: LabState, run_id: str = "r1") -> tuple[Plan, RunResult, list[Event]]:
     """Plan to a state and run that."""
 
     async def both() -> tuple[Plan, RunResult, list[Event]]:

@@ -7,16 +7,19 @@ truth, and it alone judges: each actuation is checked when it begins, by what th
 from __future__ import annotations
 
 import random
-from collections.abc import Generator, Iterator, Mapping
+import types
+from collections.abc import Coroutine, Generator, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from benches import shel
 
-from pico.backends.attempt import Attempts, Failed, Progress
-from pico.backends.recovery import open_questions, settle
+from pico.backends.attempt import Failed, Progress, attempt
+from pico.backends.device import Began
 from pico.diagnostics import PicoError, error
+from pico.edge.attempts import Attempts
+from pico.edge.recovery import open_questions, settle
 from pico.execution.executor import Dispatch, Executor
 from pico.execution.resume import renumbered
 from pico.model.lab import Setup
@@ -416,7 +419,7 @@ class History:
     def _apply(self) -> bool:
         """One command: recover, plan, run. Returns whether the goal is reached."""
         self.token += 1
-        attempts = Attempts(self.journal, self.truth, self.token)
+        attempts = Attempts(self.journal, Toy(self.truth), self.token)
         self._late(attempts)
         for found in settle(SETUP, self.journal, self.truth.observe(), self.token):
             if found.outcome == "done" and not self.truth.holds(found.operation):
@@ -469,7 +472,7 @@ class History:
         draw, truth = self.chaos.random, self.truth
         truth.plan, truth.may_start, truth.completed = plan.digest, True, set()
         executor = Executor(plan.operations, self.run_id, stop_on_error=draw.random() < 0.2)
-        under_way: dict[str, tuple[Dispatch, Generator[float, None, OperationResult], float]] = {}
+        under_way: dict[str, tuple[Dispatch, Coroutine[float, None, OperationResult], float]] = {}
         press = draw.randint(1, 400) if not self.chaos.healed and draw.random() < 0.5 else 0
         try:
             while True:
@@ -487,6 +490,8 @@ class History:
                     truth.may_start = False
                 self._step(executor, attempts, under_way)
         except Crash:
+            for _, work, _ in under_way.values():
+                work.close()
             if under_way and draw.random() < 0.5:
                 self.late = [(attempts, entry[0]) for entry in under_way.values()]
             raise
@@ -496,7 +501,7 @@ class History:
         if not self.truth.may_start:
             raise Violation(f"{dispatch.key} is dispatched after the run was interrupted or failed for good")
         known = attempts.known(dispatch.operation, dispatch.key)
-        work = attempts.perform(dispatch.operation, dispatch.key) if known is None else _at_once(known)
+        work = attempts.perform(dispatch.operation, dispatch.key) if known is None else at_once(known)
         under_way[dispatch.key] = (dispatch, work, self.truth.now)
 
     def _step(self, executor: Executor, attempts: Attempts, under_way: dict[str, Any]) -> None:
@@ -506,7 +511,7 @@ class History:
         dispatch, work, due = under_way[key]
         truth.now = max(truth.now, due)
         try:
-            under_way[key] = (dispatch, work, truth.now + next(work))
+            under_way[key] = (dispatch, work, truth.now + work.send(None))
             return
         except StopIteration as stop:
             result: OperationResult = stop.value
@@ -543,9 +548,28 @@ class History:
             raise Violation(f"the goal is said to be reached, and {wrong} are not there")
 
 
-def _at_once(result: OperationResult) -> Generator[float, None, OperationResult]:
-    yield 0.0
-    return result
+@types.coroutine
+def stepped(work: Generator[float, None, OperationResult]) -> Generator[float, None, OperationResult]:
+    """Let who drives a coroutine resume what it waits for: it gets the seconds until then."""
+    return (yield from work)
+
+
+async def at_once(result: OperationResult) -> OperationResult:
+    def now() -> Generator[float, None, OperationResult]:
+        yield 0.0
+        return result
+
+    return await stepped(now())
+
+
+@dataclass(frozen=True)
+class Toy:
+    """The truth as a device; it stands still until who drives it resumes it."""
+
+    truth: Truth
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        return await stepped(attempt(self.truth, operation, key, began))
 
 
 def histories(first: int, count: int) -> Iterator[tuple[int, Chaos | Exception]]:

@@ -13,19 +13,18 @@ import random
 import signal
 import sys
 import time
-from collections.abc import AsyncIterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from benches import run
 from crashing import PARTS, SETUP, SLOTS, TURNING, Chaos, CutJournal, Goal, Truth, Violation, _is_there, plan_for
 
-from pico.backends.attempt import Attempts
-from pico.backends.lease import BenchLock
-from pico.backends.protocol import Capabilities, Lease
-from pico.backends.recovery import settle
+from pico.backends.attempt import attempt
+from pico.backends.device import Began, Capabilities
 from pico.diagnostics import PicoError
-from pico.execution.run import run
+from pico.edge.local import LocalEdge
 from pico.model.event import Event
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult
@@ -86,16 +85,10 @@ class Table(Truth):
 
 
 @dataclass
-class InstantBench:
-    """A backend that takes no time."""
+class InstantDevice:
+    """A device that takes no time."""
 
-    root: Path
     table: Table
-    journal: KilledJournal
-    lock: BenchLock = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.lock = BenchLock(self.root)
 
     async def describe(self) -> Capabilities:
         able = frozenset({"move", "set", "home"})
@@ -106,22 +99,11 @@ class InstantBench:
     async def observe(self) -> Observation:
         return self.table.observe()
 
-    async def acquire(self, holder: str) -> Lease:
-        lease = self.lock.acquire(holder)
-        self.attempts = Attempts(self.journal, self.table, lease.token)
-        for found in settle(SETUP, self.journal, self.table.observe(), lease.token):
-            if (found.outcome == "done") != self.table.holds(found.operation):
-                raise Violation(f"{found.key} is settled as {found.outcome}")
-        return lease
+    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+        """Nobody else has the file."""
 
-    async def release(self, lease: Lease) -> None:
-        self.lock.release()
-
-    async def execute(self, operation: Operation, key: str, lease: Lease) -> OperationResult:
-        known = self.attempts.known(operation, key)
-        if known is not None:
-            return known
-        work = self.attempts.perform(operation, key)
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        work = attempt(self.table, operation, key, began)
         while True:
             try:
                 next(work)
@@ -130,17 +112,23 @@ class InstantBench:
                 return result
             await asyncio.sleep(0)
 
-    async def events(self) -> AsyncIterator[Event]:
-        await asyncio.Event().wait()
-        yield  # type: ignore[misc]
-
-    async def measure(self, component: str, measurable: str) -> Any:
-        raise NotImplementedError
-
-    async def halt(self) -> None:
+    async def leave(self) -> None:
         """Nothing takes any time."""
 
-    stop = close = halt
+    halt = stop = leave
+
+    def watch(self, look: object) -> None:
+        """Nobody films it."""
+
+    def kept(self) -> bool:
+        return True
+
+
+def instant(root: Path, table: Table, journal: KilledJournal) -> LocalEdge:
+    """Return the edge of an instant device, with the journal that kills."""
+    edge = LocalEdge(SETUP, root, InstantDevice(table))  # type: ignore[arg-type]
+    edge._journal = journal
+    return edge
 
 
 def goal_of(seed: int) -> Goal:
@@ -168,28 +156,36 @@ def apply(root: Path, seed: int, kill_at: int = 0) -> int:
     unwritten = table.begun - {r[0] for r in table.sql("SELECT key FROM records WHERE kind = 'started'")}
     if unwritten:
         raise Violation(f"lost: {unwritten} moved and are not in the journal")
-    bench = InstantBench(root, table, journal)
+    bench = instant(root, table, journal)
     for _ in range(3):
         base = Base(state=live_state(SETUP, table.observe()).as_json())
         plan = replace(plan_for(table, journal, goal_of(seed), chaos), lab=LabRef(name="toy", digest=DIGEST), base=base)
         if not plan.operations:
-            asyncio.run(_settled(bench))
+            asyncio.run(_settled(bench, table))
             break
-        asyncio.run(_run(bench, plan.sealed()))
+        asyncio.run(_run(bench, table, plan.sealed()))
     goal = goal_of(seed)
     reached = all(_is_there(table.poses[n], goal.poses[n]) for n in PARTS) and table.angles == goal.angles
     return 0 if reached and not journal.unsettled() else WRONG
 
 
-async def _settled(bench: InstantBench) -> None:
+async def _settled(bench: LocalEdge, table: Table) -> None:
     await bench.release(await bench.acquire("test"))
+    _check(bench, table)
 
 
-async def _run(bench: InstantBench, plan: Plan) -> None:
-    table = bench.table
+def _check(bench: LocalEdge, table: Table) -> None:
+    for found in bench.settled:
+        if (found.outcome == "done") != table.holds(found.operation):
+            raise Violation(f"{found.key} is settled as {found.outcome}")
+
+
+async def _run(bench: LocalEdge, table: Table, plan: Plan) -> None:
     table.plan, table.completed = plan.digest, set()
     id = f"r{time.monotonic_ns()}"
-    async for event in run(plan, bench, run_id=id, holder="test", setup=SETUP):
+    async for event in run(plan, bench, run_id=id):
+        if event.kind == "run_started":
+            _check(bench, table)
         if event.kind in ("operation_failed", "operation_unknown"):
             raise Violation(f"{event.operation} failed: {event.data}")
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from benches import apply, execute, plan_to, shel, sim
 
-from pico.backends.sim.backend import SimBackend
 from pico.backends.sim.store import load_world
 from pico.diagnostics import PicoError
+from pico.edge.local import LocalEdge
 from pico.model.diff import diff_observed
 
 SETUP, C3 = shel("gantry")
@@ -20,7 +20,7 @@ def reached(root: Path) -> bool:
     return diff_observed(SETUP, asyncio.run(sim(SETUP, root).observe()), C3) == ()
 
 
-def moved_unrecorded(bench: SimBackend, before: dict[str, object]) -> list[str]:
+def moved_unrecorded(bench: LocalEdge, before: dict[str, object]) -> list[str]:
     begun = {r.component for r in bench.journal.records() if r.kind == "started"}
     world, _ = load_world(SETUP, bench.root)
     return [n for n, body in world.components.items() if body.pose != before[n] and n not in begun]

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from benches import shel
 
-from pico.backends.protocol import Capabilities
+from pico.backends.device import Capabilities
 from pico.diagnostics import ExitCode, PicoError
 from pico.execution.checks import require_applicable, require_current
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, live_state

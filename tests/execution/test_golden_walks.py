@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from benches import plan_to, shel, sim
+from benches import plan_to, run, shel, sim
 
 sys.path.append(str(Path(__file__).resolve().parent.parent))
 
@@ -18,7 +18,6 @@ from kept import differs
 
 from pico.diagnostics import error
 from pico.execution.executor import Dispatch, Executor
-from pico.execution.run import run
 from pico.model.event import Event
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Reason
@@ -116,7 +115,7 @@ def faulty(seed: int, folder: Path, planned: list[Plan]) -> Iterator[str]:
             planned.append(await plan_to(sim(SETUP, folder / "plan"), C3))
         more = {"stop_on_error": seed % 3 == 1, "cancelled": cancelled}
         plan = replace(planned[0], lab=replace(planned[0].lab, digest=rough.digest())).sealed()
-        async for event in run(plan, bench, run_id="r1", holder="test", setup=rough, **more):
+        async for event in run(plan, bench, run_id="r1", **more):
             events.append(event)
 
     asyncio.run(go())

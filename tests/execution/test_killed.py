@@ -9,22 +9,21 @@ import sys
 from pathlib import Path
 
 from benches import apply, shel, sim
-from oracles.unfinished import unfinished
+from tables import change_world
 
 from pico.backends.sim.hand import nudge, remove
-from pico.backends.sim.store import change_world
 
 KILLED = """
 import asyncio, os, signal, sys
 from pathlib import Path
 from benches import plan_to, shel, sim
-from pico.execution.run import run
+from benches import run
 
 async def go():
     setup, state = shel("gantry")
     bench = sim(setup, Path(sys.argv[1]))
     planned, moves = await plan_to(bench, state), 0
-    async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
+    async for event in run(planned, bench, run_id="r1"):
         moves += event.kind == "operation_done" and "error_mm" in event.data
         if moves == 1 and event.data.get("phase") == "transit":
             os.kill(os.getpid(), signal.SIGKILL)
@@ -39,7 +38,7 @@ def test_what_was_under_way_is_known_what_was_done_is_not_repeated_and_the_next_
     assert killed.returncode == -signal.SIGKILL
     setup, state = shel("gantry")
     bench = sim(setup, tmp_path)
-    (cut,) = unfinished(bench.journal)
+    (cut,) = (u.operation for u in bench.journal.unsettled() if u.operation.primitive == "move")
     assert [r.outcome for r in bench.journal.runs()] == [None]
     first = "p2" if cut.component == "p1" else "p1"
     seen = asyncio.run(bench.observe())

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncGenerator, Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from benches import apply, changed, execute, plan_to, shel, sim
+from benches import apply, changed, execute, plan_to, run, shel, sim
 from oracles.unfinished import unfinished
 from results import RunResult
+from tables import change_world
 
-from pico.backends.sim.backend import SimBackend
 from pico.backends.sim.hand import nudge, remove
-from pico.backends.sim.store import change_world
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.execution.async_execution import measured
-from pico.execution.run import run
+from pico.edge.local import LocalEdge
+from pico.execution.report import measured
 from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.operation import Operation, Reason, ReasonKind
@@ -32,33 +31,33 @@ SETUP, C3 = shel("gantry")
 
 
 @pytest.fixture
-def bench(tmp_path: Path) -> SimBackend:
+def bench(tmp_path: Path) -> LocalEdge:
     return sim(SETUP, tmp_path)
 
 
-def disturb(bench: SimBackend, change: Callable[[World], World]) -> None:
+def disturb(bench: LocalEdge, change: Callable[[World], World]) -> None:
     change_world(bench.setup, bench.root, "test", change)
 
 
-def replanned(bench: SimBackend, wanted: LabState, change: Callable[[Plan], Plan]) -> Plan:
+def replanned(bench: LocalEdge, wanted: LabState, change: Callable[[Plan], Plan]) -> Plan:
     return change(asyncio.run(plan_to(bench, wanted)))
 
 
-def refusal(bench: SimBackend, planned: Plan) -> PicoError:
+def refusal(bench: LocalEdge, planned: Plan) -> PicoError:
     with pytest.raises(PicoError) as caught:
         asyncio.run(execute(bench, planned))
     assert not (bench.root / ".pico" / "sim" / "world.json").exists() or not bench.journal.records()
     return caught.value
 
 
-def test_a_plan_with_errors_is_refused_as_impossible(bench: SimBackend) -> None:
+def test_a_plan_with_errors_is_refused_as_impossible(bench: LocalEdge) -> None:
     broken = replanned(bench, C3, lambda p: replace(p, diagnostics=(error("impossible", "p1 cannot stand there"),)))
     found = refusal(bench, broken)
     assert found.exit_code == ExitCode.IMPOSSIBLE
     assert "p1 cannot stand there" in str(found)
 
 
-def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench: SimBackend) -> None:
+def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench: LocalEdge) -> None:
     def ask(planned: Plan) -> Plan:
         first, second, third, *rest = planned.operations
         dark = replace(third, primitive="measure", component="cam", arguments={"measurable": "image"})
@@ -71,20 +70,20 @@ def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench
     assert "arm2" in str(found)
 
 
-def test_what_needs_a_person_is_refused_with_the_way_to_do_it(bench: SimBackend) -> None:
+def test_what_needs_a_person_is_refused_with_the_way_to_do_it(bench: LocalEdge) -> None:
     moved = changed(C3, {"hwp": {"pose": Pose(222, 420, 3)}})
     found = refusal(bench, asyncio.run(plan_to(bench, moved)))
     assert "hwp needs a person" in found.diagnostics[0].summary
     assert "pico sim nudge hwp" in found.diagnostics[0].hint
 
 
-def test_a_plan_for_another_lab_is_stale(bench: SimBackend) -> None:
+def test_a_plan_for_another_lab_is_stale(bench: LocalEdge) -> None:
     planned = replanned(bench, C3, lambda p: replace(p, lab=replace(p.lab, digest="sha256:other")))
     assert refusal(bench, planned).exit_code == ExitCode.STALE
 
 
 @pytest.mark.parametrize("slot", [True, False])
-def test_a_part_that_moved_since_the_plan_makes_it_stale_and_says_by_how_much(bench: SimBackend, slot: bool) -> None:
+def test_a_part_that_moved_since_the_plan_makes_it_stale_and_says_by_how_much(bench: LocalEdge, slot: bool) -> None:
     if not slot:
         apply(bench, C3)
     wanted = changed(C3, {"p2": {"pose": Pose(520, 420, 30)}})
@@ -96,7 +95,7 @@ def test_a_part_that_moved_since_the_plan_makes_it_stale_and_says_by_how_much(be
     assert "5 mm" in str(caught.value) or "523" in str(caught.value)
 
 
-def test_a_move_within_tolerance_does_not_make_a_plan_stale_and_the_part_ends_at_its_goal(bench: SimBackend) -> None:
+def test_a_move_within_tolerance_does_not_make_a_plan_stale_and_the_part_ends_at_its_goal(bench: LocalEdge) -> None:
     planned = asyncio.run(plan_to(bench, C3))
     disturb(bench, lambda w: nudge(SETUP, w, "p2", dx=0.3, dyaw=0.3))
     result, _ = asyncio.run(execute(bench, planned))
@@ -104,7 +103,7 @@ def test_a_move_within_tolerance_does_not_make_a_plan_stale_and_the_part_ends_at
     assert asyncio.run(bench.observe()).components["p2"].pose == Pose(520, 420, 0)
 
 
-def test_a_part_that_was_turned_in_its_slot_since_is_not_picked_as_planned(bench: SimBackend) -> None:
+def test_a_part_that_was_turned_in_its_slot_since_is_not_picked_as_planned(bench: LocalEdge) -> None:
     """In its slot it still would be right, whatever its yaw; but the jaws would close along another side of it."""
     planned = asyncio.run(plan_to(bench, changed(C3, {"p2": {"pose": Pose(520, 420, 30)}})))
     disturb(bench, lambda w: nudge(SETUP, w, "p2", dyaw=8.0))
@@ -113,15 +112,14 @@ def test_a_part_that_was_turned_in_its_slot_since_is_not_picked_as_planned(bench
     assert "p2 changed by 0 mm, 8°" in str(found)
 
 
-def test_what_the_backend_says_of_another_run_is_not_told_of_this_one(bench: SimBackend) -> None:
-    planned, real = asyncio.run(plan_to(bench, C3)), bench.events
+def test_what_the_backend_says_of_another_run_is_not_told_of_this_one(bench: LocalEdge) -> None:
+    planned, real = asyncio.run(plan_to(bench, C3)), bench._heard
 
-    async def both() -> AsyncGenerator[Event, None]:
-        async for event in real():
-            yield replace(event, run="another", time=1e6)
-            yield event
+    def both(event: Event) -> None:
+        real(replace(event, run="another", time=1e6))
+        real(event)
 
-    bench.events = both  # type: ignore[method-assign]
+    bench._heard = both  # type: ignore[method-assign]
     result, events = asyncio.run(execute(bench, planned))
     assert {event.run for event in events} == {"r1"}
     assert [event.seq for event in events] == list(range(1, len(events) + 1))
@@ -129,13 +127,13 @@ def test_what_the_backend_says_of_another_run_is_not_told_of_this_one(bench: Sim
 
 
 def while_running(
-    bench: SimBackend, planned: Plan, when: Callable[[Event], bool], act: Callable[[], Awaitable[None] | None]
+    bench: LocalEdge, planned: Plan, when: Callable[[Event], bool], act: Callable[[], Awaitable[None] | None]
 ) -> tuple[RunResult, list[Event]]:
     """Run a plan, and act once when an event comes."""
 
     async def go() -> list[Event]:
         events, acted = [], False
-        async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
+        async for event in run(planned, bench, run_id="r1"):
             events.append(event)
             if when(event) and not acted:
                 acted = True
@@ -148,14 +146,14 @@ def while_running(
     return RunResult.of(events), events
 
 
-def hidden(bench: SimBackend, name: str) -> None:
+def hidden(bench: LocalEdge, name: str) -> None:
     """A hand takes a part away in the middle of a run, lock or no lock."""
-    session = bench._session
+    session = bench.device._session
     assert session is not None
     session._world = remove(SETUP, session.world(), name)
 
 
-def test_a_failure_skips_what_depends_on_it_and_nothing_else_and_the_next_apply_goes_on(bench: SimBackend) -> None:
+def test_a_failure_skips_what_depends_on_it_and_nothing_else_and_the_next_apply_goes_on(bench: LocalEdge) -> None:
     wanted = changed(C3, {"lx_100": {"pose": Pose(420, 420)}})
     planned = asyncio.run(plan_to(bench, wanted))
     first, *later = [op for op in planned.operations if op.primitive == "move"]
@@ -180,14 +178,12 @@ def test_a_failure_skips_what_depends_on_it_and_nothing_else_and_the_next_apply_
     assert apply(bench, wanted, "r2")[1].outcome == "done"
 
 
-def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing_more(bench: SimBackend) -> None:
+def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing_more(bench: LocalEdge) -> None:
     planned, pressed = asyncio.run(plan_to(bench, C3)), [False]
 
     async def go() -> list[Event]:
         events = []
-        async for event in run(
-            planned, bench, run_id="r1", holder="test", setup=bench.setup, cancelled=lambda: pressed[0]
-        ):
+        async for event in run(planned, bench, run_id="r1", cancelled=lambda: pressed[0]):
             events.append(event)
             pressed[0] = True
         return events
@@ -203,12 +199,12 @@ def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing
     assert apply(bench, C3, "r2")[1].outcome == "done"
 
 
-def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: SimBackend) -> None:
+def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: LocalEdge) -> None:
     planned = asyncio.run(plan_to(bench, C3))
     events: list[Event] = []
 
     async def read() -> None:
-        async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
+        async for event in run(planned, bench, run_id="r1"):
             events.append(event)
 
     async def go() -> bool:
@@ -224,12 +220,12 @@ def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: Sim
     assert not unfinished(bench.journal)
 
 
-def test_cancelled_twice_it_stops_at_once_and_the_gripper_holds(bench: SimBackend) -> None:
+def test_cancelled_twice_it_stops_at_once_and_the_gripper_holds(bench: LocalEdge) -> None:
     planned = asyncio.run(plan_to(bench, C3))
     events: list[Event] = []
 
     async def read() -> None:
-        async for event in run(planned, bench, run_id="r1", holder="test", setup=bench.setup):
+        async for event in run(planned, bench, run_id="r1"):
             events.append(event)
 
     async def go() -> None:
@@ -262,7 +258,7 @@ def chain(planned: Plan) -> Plan:
     return replace(planned, operations=(laser, *links))
 
 
-def test_what_may_follow_starts_at_the_very_moment_of_the_end_while_others_go_on(bench: SimBackend) -> None:
+def test_what_may_follow_starts_at_the_very_moment_of_the_end_while_others_go_on(bench: LocalEdge) -> None:
     planned = replanned(bench, C3, chain)
     result, events = asyncio.run(execute(bench, planned))
     starts = [e.time for e in events if e.kind == "operation_started" and e.component == "cam"]
@@ -275,7 +271,7 @@ def test_a_slow_reader_changes_nothing(tmp_path: Path) -> None:
     async def read(name: str, turns: int) -> list[Event]:
         bench = sim(SETUP, tmp_path / name)
         planned, events = await plan_to(bench, C3), []
-        async for event in run(planned, bench, run_id="r1", holder="test", setup=SETUP):
+        async for event in run(planned, bench, run_id="r1"):
             events.append(event)
             for _ in range(turns):
                 await asyncio.sleep(0)
@@ -284,11 +280,11 @@ def test_a_slow_reader_changes_nothing(tmp_path: Path) -> None:
     assert asyncio.run(read("quick", 0)) == asyncio.run(read("slow", 50))
 
 
-def test_a_reader_that_leaves_ends_the_run_safely_and_gives_the_bench_back(bench: SimBackend) -> None:
+def test_a_reader_that_leaves_ends_the_run_safely_and_gives_the_bench_back(bench: LocalEdge) -> None:
     planned = asyncio.run(plan_to(bench, C3))
 
     async def leave() -> None:
-        events = run(planned, bench, run_id="r1", holder="test", setup=bench.setup)
+        events = run(planned, bench, run_id="r1")
         async for event in events:
             if event.kind == "operation_progress":
                 break
@@ -315,7 +311,7 @@ def test_halt_lets_the_move_end_and_stop_leaves_the_part_in_the_gripper(tmp_path
     assert outcome == {"halt": {"part": "seen", "holding": None}, "stop": {"part": "held", "holding": carried}}
 
 
-def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: SimBackend) -> None:
+def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: LocalEdge) -> None:
     planned = asyncio.run(plan_to(bench, changed(C3, {"p1": {"slot": "storage/b1"}})))
     misses = iter([4.0, 1.0, 0.0])
 
@@ -323,7 +319,7 @@ def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: Si
         real = bench.execute
 
         async def clumsy(operation: Operation, key: str, lease: Any) -> Any:
-            session = bench._session
+            session = bench.device._session
             assert session is not None
             result = await real(operation, key, lease)
             miss = next(misses) if operation.primitive == "move" else 0.0
@@ -345,7 +341,7 @@ def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: Si
     assert sum(e.kind == "operation_done" and e.operation == move for e in events) == 1
 
 
-def test_a_run_whose_journal_breaks_stops_and_says_so(bench: SimBackend, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_whose_journal_breaks_stops_and_says_so(bench: LocalEdge, monkeypatch: pytest.MonkeyPatch) -> None:
     planned = asyncio.run(plan_to(bench, C3))
 
     def full(*_: object) -> None:

@@ -9,7 +9,8 @@ from pico_cli.views import plan as view
 from pico_cli.views import report as report_view
 from planning_benches import bench, part, planned, see, want
 
-from pico.execution.async_execution import run_report
+from pico.backends.device import Capabilities
+from pico.execution.report import run_report
 from pico.model.event import Event
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, Uncertainty
 from pico.model.pose import Pose
@@ -17,6 +18,15 @@ from pico.model.pose import Pose
 SETUP = bench({"a": part(), "b": part(home="s2")})
 THERE = want({"a": (400, 250), "b": "s2"})
 SEEN = see(SETUP, {"a": (400, 250), "b": "s2"})
+ABLE = Capabilities(
+    name="sim",
+    fidelity="kinematic",
+    evidence="kinematic",
+    lab_digest="",
+    primitives=frozenset(),
+    robots=(),
+    simulated=True,
+)
 OVER = Event(run="r", seq=1, kind="run_finished", time=0.0, data={"outcome": "done"})
 UNSURE = Uncertainty(position=5.0, yaw=5.0)
 
@@ -49,7 +59,7 @@ def held(name: str) -> Observation:
 )
 def test_equal_is_said_by_plan_and_report_alike(found: Observation, equal: bool) -> None:
     plan = planned(SETUP, found, THERE)
-    report = run_report(SETUP, plan, (OVER,), found, wall=0.0, evidence="kinematic")
+    report = run_report(SETUP, plan, (OVER,), found, wall=0.0, able=ABLE)
     assert plan.operations == ()
     assert (plan.reached, report.reached) == (equal, equal)
     assert ("the bench equals" in view.text(plan)) is equal
@@ -72,7 +82,7 @@ def test_a_plan_for_some_components_does_not_speak_for_what_nobody_sees(b: dict[
     )
     made = planned(SETUP, start, THERE, targets=("a",))
     plan = replace(made, target=replace(made.target, only=("a",)))
-    report = run_report(SETUP, plan, (OVER,), before, wall=0.0, evidence="kinematic")
+    report = run_report(SETUP, plan, (OVER,), before, wall=0.0, able=ABLE)
     assert "will not equal" in view.text(plan)
     assert report.left == ("b",) and "does not equal" in report_view.text(report)
 

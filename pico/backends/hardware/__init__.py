@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn
 
@@ -9,15 +10,9 @@ from pico.diagnostics import PicoError, error
 from pico.model.lab import Setup
 
 
-class HardwareBackend:
-    """The bench of the lab in folder `root`, with its real arms, cameras and mounts. It can't be opened yet."""
-
-    def __init__(self, setup: Setup, root: Path) -> None:
-        _refuse(setup)
-
-
-def _refuse(setup: Setup) -> NoReturn:
-    """Raise PicoError naming what of this bench has no driver."""
+def opened(setup: Setup, root: Path, fidelity: str, clock: Callable[[], str]) -> NoReturn:
+    """The bench of the lab in folder `root`, with its real arms, cameras and mounts, can't be opened yet: raises
+    PicoError naming what of it has no driver."""
     motors = sorted(
         f"{name}.{tunable}"
         for name in setup.lab.inventory

@@ -224,4 +224,3 @@ def shut(setup: Setup, world: World) -> World:
 
 
 STOPPED = error("stopped", "it was stopped on the way; the gripper holds what it held", hint=_AGAIN)
-HALTED = error("halted", "the bench is halted: nothing more is started")

@@ -7,15 +7,14 @@ from pathlib import Path
 
 from pico.backends.attempt import Failed
 from pico.backends.conditions import conditions
-from pico.backends.lease import utc_now
 from pico.backends.sim.checks import not_simulated
 from pico.backends.sim.readings import Measurer, Table, measurer_of
 from pico.backends.sim.world import World, observe
+from pico.content.arrays import keep_array
+from pico.content.store import store_of
 from pico.model.catalog import Measurable
 from pico.model.lab import Setup
 from pico.model.measurement import PEEKED, Condition, Measurement
-from pico.runs.arrays import keep_array
-from pico.runs.store import store_of
 
 
 def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurable, Measurer]:
@@ -28,12 +27,12 @@ def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurab
 
 
 def measured(
-    setup: Setup, root: Path, world: World, component: str, name: str, busy: Sequence[str] | None = ()
+    setup: Setup, root: Path, world: World, component: str, name: str, busy: Sequence[str] | None, at: str
 ) -> Measurement:
     """Return what is measured of `component` on the table as it is; an array goes to the content store.
 
-    `busy`: the operations under way beside it; None where it is only peeked at. Raises `Failed` where it is not
-    simulated or can't be read now, PicoError where an array can't be kept.
+    `busy`: the operations under way beside it; None where it is only peeked at. `at`: now, as ISO 8601. Raises `Failed`
+    where it is not simulated or can't be read now, PicoError where an array can't be kept.
     """
     known, measurer = require_simulated(setup, component, name)
     reading = measurer.read(Table(setup, root, world), component, name)
@@ -53,7 +52,7 @@ def measured(
         sigma=reading.sigma,
         settings={**own, **reading.settings},
         time=world.clock,
-        at=utc_now(),
+        at=at,
         kernel=reading.kernel,
         kernel_version=reading.kernel_version,
         assured=tuple(condition for condition, why in said.items() if not why),

@@ -1,4 +1,4 @@
-"""The table while somebody holds the bench: each operation from its first record in the journal to its last."""
+"""The table while somebody has taken it: every operation in progress, and the time that passes for all of them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pico.backends.attempt import Attempts
+from pico.backends.attempt import attempt
+from pico.backends.device import Began
 from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
@@ -34,7 +35,6 @@ from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.motion.types import Blocked, Joints, Motion, MovePath
 from pico.motion.zones import enters, shared_zones
-from pico.runs.journal import Journal, run_of
 from pico.twin.snapshot import Snapshot
 
 PROGRESS = 0.25
@@ -60,19 +60,16 @@ class WorldSession:
         world: World,
         *,
         fidelity: str,
-        journal: Journal,
         token: int,
         motion: Motion,
         tell: Callable[[Event], None],
+        clock: Callable[[], str],
         faults: Faults | None = None,
     ) -> None:
-        self.token = token
         self._setup, self._root, self._world = setup, root, world
-        self._motion, self._tell_all = motion, tell
+        self._motion, self._tell_all, self._clock = motion, tell, clock
         self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
-        self._running: dict[str, asyncio.Future[OperationResult]] = {}
-        self._attempts = Attempts(journal, self, token, self._began)
         self._told, self._halting, self._kept = 0, False, 0.0
         self._zones: dict[str, set[str]] = {}  # by the arm that may be there now
         self._mishaps = Mishaps(setup, faults or Faults(), token, self._mover, self.world)
@@ -90,19 +87,19 @@ class WorldSession:
             return self._world
         return replace(self._mover.world(self._world), clock=self._time.now)
 
-    async def execute(self, operation: Operation, key: str) -> OperationResult:
-        """Execute an operation, once for each key; cancelling the wait does not cancel the motion.
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute an operation; cancelling the wait does not cancel the motion.
 
         Raises PicoError (exit code INTERRUPTED) where it was stopped before it began.
         """
-        if key not in self._running:
-            known = self._attempts.known(operation, key)
-            if known is not None:
-                return known
-            self._running[key] = self._time.start(key, self._attempts.perform(operation, key))
-            self._running[key].add_done_callback(lambda _: self._running.pop(key, None))
+
+        def begins(before: ObservedComponent | None) -> None:
+            began(before)
+            data = {"primitive": operation.primitive, "seconds": operation.seconds}
+            self._tell("operation_started", operation, key, data)
+
         try:
-            return await asyncio.shield(self._running[key])
+            return await asyncio.shield(self._time.start(key, attempt(self, operation, key, begins)))
         except MoveFailed as exc:
             raise PicoError(exc.diagnostic, ExitCode.INTERRUPTED) from exc
 
@@ -145,10 +142,6 @@ class WorldSession:
         self._world = self.world()
         save_world(self._root, self._world)
 
-    def _began(self, operation: Operation, key: str) -> None:
-        data = {"primitive": operation.primitive, "seconds": operation.seconds}
-        self._tell("operation_started", operation, key, data)
-
     def act(self, operation: Operation, key: str) -> InProgress:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
                "measure": self._measure}  # fmt: skip
@@ -159,8 +152,8 @@ class WorldSession:
         name = str(operation.arguments.get("measurable"))
         require_simulated(self._setup, operation.component, name)
         yield SETTLING
-        busy = sorted(other.split("/")[1] for other in self._running if other != key)
-        found = measured(self._setup, self._root, self.world(), operation.component, name, busy)
+        busy = sorted(other.split("/")[1] for other in self._time.under_way if other != key)
+        found = measured(self._setup, self._root, self.world(), operation.component, name, busy, self._clock())
         return {"measurement": as_json(found)}
 
     def _plugged_in(self, operation: Operation, key: str) -> InProgress:
@@ -283,6 +276,7 @@ class WorldSession:
                 try:
                     yield wait
                 except MoveFailed as exc:
+                    decided = True  # it comes to rest where it is
                     wait = work.throw(exc)
                 else:
                     wait = next(work)
@@ -360,7 +354,7 @@ class WorldSession:
     def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:
         self._told += 1
         event = Event(
-            run=run_of(key), seq=self._told, kind=kind, time=self._time.now, operation=operation.id,
+            run=key.split("/", maxsplit=1)[0], seq=self._told, kind=kind, time=self._time.now, operation=operation.id,
             component=operation.component, data=data,
         )  # fmt: skip
         self._tell_all(event)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable, Mapping
-from contextlib import closing, suppress
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from pico.attachment import bench_folder
-from pico.backends.lease import BenchLock
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import FORMAT, FreePose, RememberedShape, World, WorldBody, new_world
 from pico.cameras.errors import CameraShift
@@ -33,7 +32,7 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
     """Return the simulated table of the lab in `root` and what had to change because the lab did.
 
     A lab without one gets a new world; nothing is written, and what a killed writer left is cleared. Raises PicoError
-    where the file can't be read, and where it is gone though the journal says that this table was moved.
+    where the file can't be read.
     """
     path = world_path(root)
     with suppress(OSError):
@@ -41,8 +40,6 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        if _was_moved(root):
-            raise PicoError(_broken(path, "it is not there, and the journal has runs that moved this table")) from None
         return new_world(setup), ()
     except (OSError, UnicodeDecodeError) as exc:
         raise PicoError(_broken(path, getattr(exc, "strerror", None) or "it is not text")) from exc
@@ -52,23 +49,6 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
         what = f"no {exc}" if isinstance(exc, KeyError) else str(exc)
         raise PicoError(_broken(path, what)) from exc
     return reconcile(setup, world)
-
-
-def _was_moved(root: Path) -> bool:
-    """Return whether the journal, if it can be read, has a simulated run in which anything was done."""
-    path = bench_folder(root) / "journal.sqlite"
-    if not path.exists():
-        return False
-    from pico.runs.journal import Journal
-
-    with suppress(PicoError), closing(Journal(path, looking=True)) as journal:
-        runs = (run for run in journal.moving() if _simulated(journal.about(run)[0]))
-        return any(record.kind == "done" for run in runs for record in journal.records(run=run))
-    return False  # looking must not fail because of the journal
-
-
-def _simulated(about: tuple[Mapping[str, Any], ...]) -> bool:
-    return all(begun.get("environment", {}).get("backend", "sim") == "sim" for begun in about)
 
 
 def save_world(root: Path, world: World, *, durable: bool = True) -> None:
@@ -88,23 +68,6 @@ def save_world(root: Path, world: World, *, durable: bool = True) -> None:
             os.fsync(folder)
         finally:
             os.close(folder)
-
-
-def change_world(setup: Setup, root: Path, holder: str, change: Callable[[World], World]) -> tuple[Diagnostic, ...]:
-    """Change the simulated table by hand, with the bench locked meanwhile; return what its lab changed.
-
-    Raises PicoError: exit code LOCKED where somebody moves the bench, and what `change` raises.
-    """
-    with BenchLock(root).held(holder):
-        world, found = load_world(setup, root)
-        save_world(root, change(world))
-    return found
-
-
-def reset_world(setup: Setup, root: Path, holder: str) -> None:
-    """Start the simulated table over, whatever its file holds: every part at home. Raises PicoError (LOCKED)."""
-    with BenchLock(root).held(holder):
-        save_world(root, new_world(setup))
 
 
 def world_from_json(data: Any) -> World:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import re
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Collection, Generator
 from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
@@ -29,6 +29,11 @@ class Timeline(Generic[T]):
         self._task: asyncio.Task[None] | None = None
         self._news = False
         self.look: Callable[[], None] | None = None  # called whenever time has passed
+
+    @property
+    def under_way(self) -> Collection[str]:
+        """The ids of the operations in progress."""
+        return self._works.keys()
 
     def start(self, id: str, work: Generator[float, None, T]) -> asyncio.Future[T]:
         """Begin `work` now, and return the future of its result."""

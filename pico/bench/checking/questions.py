@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pico.backends.sim.world import World
 from pico.bench.checking import trial
 from pico.bench.checking.candidate import Candidate
 from pico.bench.checking.verdict import Check, Verdict
@@ -16,28 +15,29 @@ from pico.manifest.text.places import find, where
 from pico.model.diff import Change
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
+from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.state import LabState
 
 
 @dataclass(frozen=True)
 class Case:
-    """A valid lab on trial: the bench, the state that is wanted and what it is called, and the simulated world that
-    stands as before, which is that of commit `base`."""
+    """A valid lab on trial: the bench, the state that is wanted and what it is called, and the simulated bench as
+    it stands before, which is that of commit `base`."""
 
     candidate: Candidate
     setup: Setup
     wanted: LabState
-    world: World
+    seen: Observation
     base: str | None
     what: str
     fidelity: str
 
-    def plan(self, world: World) -> Plan:
-        """Return the plan from a world to the state wanted."""
+    def plan(self, seen: Observation) -> Plan:
+        """Return the plan from a bench to the state wanted."""
         source = self.candidate.manifests.source
         return trial.plan_from(
-            self.setup, world, self.wanted, base=self.base, name=self.what, fidelity=self.fidelity, source=source
+            self.setup, seen, self.wanted, base=self.base, name=self.what, fidelity=self.fidelity, source=source
         )
 
 
@@ -95,7 +95,7 @@ def policy(case: Case, plan: Plan) -> tuple[Check, tuple[Mapping[str, Any], ...]
         return Check(question="policy", verdict="passed", text=text), ()
     from pico.policy.rules import verdicts
 
-    judged = verdicts(case.setup, plan, trial.seen_in(case.world))
+    judged = verdicts(case.setup, plan, case.seen)
     broken = tuple(_broken(rule) for rule in judged if not rule["holds"])
     denied = any(d.severity == "error" for d in broken)
     return Check(
@@ -115,16 +115,16 @@ def _broken(rule: Mapping[str, Any]) -> Diagnostic:
 
 def expectations(case: Case, plan: Plan) -> tuple[Check, tuple[Expected, ...]]:
     """Run a plan in the simulator; return whether it got there and the expectations hold then, and each of them."""
-    world, hands = case.world, trial.by_hand(plan)
+    seen, hands = case.seen, trial.by_hand(plan)
     if hands:
-        world = trial.after_hands(world, hands)
-        plan = case.plan(world)
+        seen = trial.after_hands(seen, hands)
+        plan = case.plan(seen)
         if plan.errored or trial.by_hand(plan):
             names = ", ".join(sorted({op.component for op in hands}))
             text = f"a person must move {names} on the way, which the simulator can't"
             return Check(question="expectations", verdict="skipped", text=text), ()
     try:
-        problems, expected = _tried(case, world, plan)
+        problems, expected = _tried(case, seen, plan)
     except PicoError as exc:
         problems, expected = tuple(exc.diagnostics), ()
     if problems:
@@ -135,13 +135,13 @@ def expectations(case: Case, plan: Plan) -> tuple[Check, tuple[Expected, ...]]:
     return _judged(expected, ", ".join(how) or "nothing moves", _places(case, len(expected))), expected
 
 
-def _tried(case: Case, world: World, plan: Plan) -> tuple[tuple[Diagnostic, ...], tuple[Expected, ...]]:
+def _tried(case: Case, seen: Observation, plan: Plan) -> tuple[tuple[Diagnostic, ...], tuple[Expected, ...]]:
     """Return what went wrong in the simulator, and what became of the expectations."""
     if not plan.operations:
         from pico.policy.expectations import check_expectations
 
-        return (), check_expectations(case.setup, trial.seen_in(world), case.wanted.expect)
-    report = trial.run(case.setup, world, plan, fidelity=case.fidelity, lab=case.candidate.root)
+        return (), check_expectations(case.setup, seen, case.wanted.expect)
+    report = trial.run(case.setup, seen, plan, fidelity=case.fidelity, lab=case.candidate.root)
     if report.outcome == "done" and not report.remaining and not report.absent:
         return (), report.expectations
     told = [f"{_name(c)} {c.text}" for c in report.remaining] or [f"{n} is not there" for n in report.absent]

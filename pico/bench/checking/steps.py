@@ -30,8 +30,8 @@ def check_lab(candidate: Candidate, before: Origin, *, what: str, fidelity: str,
     begin, notes = start(setup, before)
     known = (before.setup or setup, before.state or begin)
     found = replace(found, notes=notes, changes=between(known, (setup, wanted)), bench=bench_changes(setup, before))
-    world = trial.world_of(setup, begin)
-    return _physical(found, Case(candidate, setup, wanted, world, before.against.commit, what, fidelity))
+    seen = trial.stood_as(setup, begin)
+    return _physical(found, Case(candidate, setup, wanted, seen, before.against.commit, what, fidelity))
 
 
 def _physical(found: LabChecked, case: Case) -> LabChecked:
@@ -49,7 +49,7 @@ def _physical(found: LabChecked, case: Case) -> LabChecked:
 
 
 def _planned(case: Case) -> tuple[Check, Plan]:
-    plan = case.plan(case.world)
+    plan = case.plan(case.seen)
     return questions.feasible(plan), plan
 
 

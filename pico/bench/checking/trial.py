@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from pico.backends.sim.world import World, new_world, observe
+from pico.backends.devices import SIMULATOR
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedValue, live_state
 from pico.model.operation import Operation
@@ -20,6 +22,10 @@ from pico.model.state import LabState, place_of
 from pico.motion.deferred import DeferredMotion
 from pico.planning import plan
 from pico.planning.checks.target import Source
+
+if TYPE_CHECKING:
+    from pico.bench.running.blocking import LoopThread
+    from pico.edge.protocol import Edge
 
 CALIBRATION = "calibration.json"
 
@@ -32,33 +38,32 @@ def simulated(setup: Setup) -> Setup:
     return replace(setup, lab=replace(setup.lab, sim=sim, policy=policy))
 
 
-def world_of(setup: Setup, state: LabState) -> World:
-    """Return a simulated world in a state that names every part of the inventory."""
-    world = new_world(setup)
-    for name, body in world.components.items():
-        part = state.components.get(name)
-        said = {k: v for k, v in part.values.items() if k in body.values} if part else {}
-        values = {**body.values, **{k: ObservedValue(value=v) for k, v in said.items()}}
-        world = world.with_body(name, pose=place_of(setup, state, name)[1], values=values)
-    return world
+def stood_as(setup: Setup, state: LabState) -> Observation:
+    """Return a simulated bench as observed that stands as a state says which names every part of the inventory."""
+    with _bench(setup) as (edge, thread):
+        seen = thread.wait(edge.observe())
+    for name, part in seen.components.items():
+        wanted = state.components.get(name)
+        said = {k: v for k, v in wanted.values.items() if k in part.values} if wanted else {}
+        values = {**part.values, **{k: ObservedValue(value=v) for k, v in said.items()}}
+        seen = _with(seen, name, pose=place_of(setup, state, name)[1], values=values)
+    return seen
 
 
-def seen_in(world: World) -> Observation:
-    """Return what there is to see of a world."""
-    return observe(world, "sim", "")
+def _with(seen: Observation, name: str, **changes: Any) -> Observation:
+    return replace(seen, components={**seen.components, name: replace(seen.components[name], **changes)})
 
 
 def plan_from(
-    setup: Setup, world: World, wanted: LabState, *, base: str | None, name: str, fidelity: str, source: Source
+    setup: Setup, seen: Observation, wanted: LabState, *, base: str | None, name: str, fidelity: str, source: Source
 ) -> Plan:
-    """Return the plan from a world to the state `wanted`, which is called `name`; `base`: the commit of the world."""
-    seen = seen_in(world)
+    """Return the plan from a bench to the state `wanted`, which is called `name`; `base`: the commit of the bench."""
     return plan(
         setup,
         seen,
         wanted,
         motion=DeferredMotion(setup),
-        backend="sim",
+        backend=SIMULATOR,
         fidelity=fidelity,
         base=Base(commit=base, state=live_state(setup, seen).as_json()),
         target=Target(title=name, state=wanted.as_json(), expect=wanted.expect or None),
@@ -71,39 +76,47 @@ def by_hand(plan: Plan) -> tuple[Operation, ...]:
     return tuple(op for op in plan.operations if op.kind.by_hand)
 
 
-def after_hands(world: World, operations: tuple[Operation, ...]) -> World:
-    """Return the world in which a person has done these operations."""
+def after_hands(seen: Observation, operations: tuple[Operation, ...]) -> Observation:
+    """Return the bench in which a person has done these operations."""
     for op in operations:
         goal, tunable = op.arguments.get("to"), op.arguments.get("tunable")
         if tunable:
-            world = world.with_value(op.component, str(tunable), ObservedValue(value=goal))
+            values = {**seen.components[op.component].values, str(tunable): ObservedValue(value=goal)}
+            seen = _with(seen, op.component, values=values)
         elif isinstance(goal, Mapping):
-            world = world.with_body(op.component, pose=Pose(**goal["pose"]))
-    return world
+            seen = _with(seen, op.component, pose=Pose(**goal["pose"]))
+    return seen
 
 
-def run(setup: Setup, world: World, plan: Plan, *, fidelity: str, lab: Path) -> RunReport:
-    """Run a plan in a world of its own in a temporary folder, with the calibration of the folder `lab`, and return what
-    became of it; raises PicoError where the simulator refuses the plan."""
-    from pico.backends.sim.backend import SimBackend
-    from pico.backends.sim.store import save_world
-    from pico.execution.async_execution import AsyncExecution
-    from pico.execution.blocking import Execution, LoopThread
+def run(setup: Setup, seen: Observation, plan: Plan, *, fidelity: str, lab: Path) -> RunReport:
+    """Run a plan on a simulated bench of its own that stands as `seen`, with the calibration of the folder `lab`, and
+    return what became of it; raises PicoError where the simulator refuses the plan."""
+    from pico.bench.running.async_execution import AsyncExecution
+    from pico.bench.running.blocking import Execution
 
-    own = simulated(setup)
-    plan = replace(plan, fidelity=fidelity, lab=LabRef(name=plan.lab.name, digest=own.digest()))
+    plan = replace(plan, fidelity=fidelity, lab=LabRef(name=plan.lab.name, digest=simulated(setup).digest()))
+    with _bench(setup, fidelity, lab) as (edge, thread):
+        edge.world.put(seen)
+        execution = Execution(AsyncExecution(plan, edge, holder="pico check"), thread)
+        for _ in execution:
+            pass
+        return execution.report
+
+
+@contextmanager
+def _bench(setup: Setup, fidelity: str = "kinematic", lab: Path | None = None) -> Iterator[tuple[Edge, LoopThread]]:
+    """Give a simulated bench in a temporary folder, with every part at home, and the thread that it lives in."""
+    from pico.bench.running.blocking import LoopThread
+    from pico.edge.local import embedded
+
     thread = LoopThread()
     with tempfile.TemporaryDirectory(prefix="pico-check-") as name:
         folder = Path(name)
-        if (lab / CALIBRATION).is_file() and not (lab / CALIBRATION).is_symlink():
+        if lab is not None and (lab / CALIBRATION).is_file() and not (lab / CALIBRATION).is_symlink():
             shutil.copy(lab / CALIBRATION, folder)
-        save_world(folder, world, durable=False)
-        backend = SimBackend(own, folder, fidelity)
+        edge = embedded(simulated(setup), folder, SIMULATOR, fidelity)
         try:
-            execution = Execution(AsyncExecution(own, plan, backend, holder="pico check"), thread)
-            for _ in execution:
-                pass
-            return execution.report
+            yield edge, thread
         finally:
-            thread.wait(backend.close())
+            thread.wait(edge.close())
             thread.close()

@@ -46,12 +46,12 @@ def states(state: LabState, before: LabState, changes: Sequence[Change], parents
 
 def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit) -> File:
     """Return the plan from the state before to the one of a commit, as the planner of today makes it."""
-    from pico.bench.checking.trial import plan_from, world_of
+    from pico.bench.checking.trial import plan_from, stood_as
     from pico.planning.checks.target import no_source
 
     parent = commit.parents[0] if commit.parents else None
-    world, fidelity = world_of(setup, before), setup.lab.sim.fidelity
-    plan = plan_from(setup, world, state, base=parent, name=commit.short, fidelity=fidelity, source=no_source)
+    seen, fidelity = stood_as(setup, before), setup.lab.sim.fidelity
+    plan = plan_from(setup, seen, state, base=parent, name=commit.short, fidelity=fidelity, source=no_source)
     return file("plan.json", plan.to_json().encode(), "the plan from the state before to this one")
 
 

@@ -10,12 +10,12 @@ from typing import Any
 from pico.bench.publishing.computed import pictures_of, plan_between, states, types
 from pico.bench.publishing.parts import File, Revision, file
 from pico.bench.publishing.run_files import chosen_runs, files_of
+from pico.content.store import Store
 from pico.diagnostics import PicoError
 from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.run import STRENGTH, Run
 from pico.model.state import LabState, home_state
-from pico.runs.store import Store
 
 _BESIDE = re.compile(r"(?:README|LICEN[SC]E|COPYING|CITATION)(?:\.[a-z]+)?|calibration\.json|notes/[^/]+\.md")
 _LICENSE = re.compile(r"lab/(?:LICEN[SC]E|COPYING)(?:\.[a-z]+)?")

@@ -9,10 +9,10 @@ from pico.bench.publishing import crate
 from pico.bench.publishing.gather import gather
 from pico.bench.publishing.parts import File, Revision, file
 from pico.bench.publishing.write import write
+from pico.content.store import store_in
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.lab.folder import LabFolder
 from pico.model.record import record
-from pico.runs.store import store_in
 
 
 @record

@@ -7,13 +7,13 @@ from dataclasses import replace
 from pathlib import PurePosixPath
 
 from pico.bench.publishing.parts import File, file
+from pico.content.store import Store, missing
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import RunPlace, files_at, places_at, read_carried, runs_added
 from pico.model.run import Artifact, Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import intact
-from pico.runs.store import Store, missing
 
 _SAID = {"run.json": "what the run was", "trace.jsonl": "what it did", "measurements.jsonl": "what it measured"}
 

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import BinaryIO
 
 from pico.bench.publishing.parts import File
+from pico.content.store import CHUNK, Store
 from pico.diagnostics import PicoError, error
 from pico.disk import writing
-from pico.runs.store import CHUNK, Store
 
 
 def write(files: Iterable[File], store: Store, out: Path, moment: datetime) -> None:

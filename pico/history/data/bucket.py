@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from pico.content.store import Store
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.data.needs import Needs
 from pico.history.data.pieces import Heard, pieces
-from pico.runs.store import Store
 
 
 class Bucket:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from pico.content.store import store_in
 from pico.diagnostics import PicoError, error
 from pico.history.data.needs import Needs, kept_needs, needs
 from pico.history.data.places import SETTING, CopyPlace, configured, place_of
@@ -12,7 +13,6 @@ from pico.history.data.pointers import Pointed, write_pointers
 from pico.history.data.transfer import Holdings, Moved, Shared, holdings, pull, push
 from pico.history.data.upkeep import Garbage, StoreCheck, check, garbage, remove
 from pico.history.repository.repository import Repository
-from pico.runs.store import store_in
 
 GRACE = 14 * 86400.0
 """Seconds for which what nothing needs is kept: a run that is recorded right now has no commit yet."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import BinaryIO
 
-from pico.runs.store import CHUNK
+from pico.content.store import CHUNK
 
 Heard = Callable[[int], None]
 """Is told how many more bytes are through."""

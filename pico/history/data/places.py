@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Protocol
 
+from pico.content.store import Store
 from pico.diagnostics import PicoError, error
 from pico.disk import beside, replace_whole, sweep, writing
 from pico.history.data.needs import Needs
 from pico.history.data.pieces import Heard, pieces
 from pico.history.git import command as git
 from pico.history.repository.repository import Repository
-from pico.runs.store import Store
 
 SETTING = "pico.data.remote"
 """What `git config` calls the place; local, for a repository must not say where somebody's data goes."""

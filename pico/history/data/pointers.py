@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from pico.content.store import Store
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.disk import disk_trouble, write_whole
 from pico.history.data.places import LfsObjects
@@ -13,7 +14,6 @@ from pico.model.record import record
 from pico.model.run import Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import read_runs
-from pico.runs.store import Store
 
 ATTRIBUTES = "runs/**/artifacts/** filter=lfs diff=lfs merge=lfs -text"
 """What `.gitattributes` must say, so that git-lfs puts the data in the place of pointers where it is installed."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
+from pico.content.store import Store
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.data.needs import Need, Needs
 from pico.history.data.pieces import Heard
 from pico.history.data.places import CopyPlace
 from pico.model.record import record
-from pico.runs.store import Store
 
 Shared = Callable[[float], None]
 """Is told which share of the bytes is through, 0 to 1."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from pico.content.store import Store
 from pico.history.data.needs import Need, Needs
 from pico.history.data.transfer import Shared
 from pico.model.record import record
-from pico.runs.store import Store
 
 
 @record

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pico.backends.devices import SIMULATOR
 from pico.diagnostics import Diagnostic
 from pico.history.lab.folder import LabFolder
 from pico.history.merge.commits import MergeMade, merge_revision
@@ -37,7 +38,7 @@ def impossible(merged: Manifests, before: LabState | None) -> tuple[Diagnostic, 
         _as_seen(setup, before),
         wanted,
         motion=DeferredMotion(setup),
-        backend="sim",
+        backend=SIMULATOR,
         fidelity="kinematic",
         base=Base(),
         target=Target(),
@@ -69,4 +70,4 @@ def _as_seen(setup: Setup, state: LabState | None) -> Observation:
     for name in setup.lab.inventory:
         values = {k: ObservedValue(value=v) for k, v in whole.components[name].values.items()}
         seen[name] = ObservedComponent(pose=place_of(setup, whole, name)[1], values=values)
-    return Observation(backend="sim", components=seen)
+    return Observation(backend=SIMULATOR, components=seen)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
 
+from pico.content.store import Store, store_in
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
@@ -17,7 +18,6 @@ from pico.runs.document import RecordedRun
 from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
 from pico.runs.reading import read_events
 from pico.runs.states import state_seen
-from pico.runs.store import Store, store_in
 
 LARGEST = 256 << 20
 """Bytes above which no packed file of a run is unpacked."""

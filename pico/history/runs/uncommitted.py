@@ -7,13 +7,14 @@ a run is carried by the commit of the state that it led to, or by the next one w
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import closing
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
-from pico.backends.lease import BenchLock
+from pico.attachment import bench_folder, own_folder
 from pico.diagnostics import Diagnostic, PicoError
+from pico.edge.lease import BenchLock
+from pico.edge.link.opening import remembered
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
@@ -24,7 +25,7 @@ from pico.model.run import Run
 from pico.model.state import LabState
 from pico.runs.document import RecordedRun, recorded
 from pico.runs.files import Keep, run_files
-from pico.runs.journal import Journal, RunRecord
+from pico.runs.journal import RunRecord
 from pico.runs.states import changes
 
 
@@ -62,15 +63,16 @@ def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -
 
 
 def _unrecorded(folder: LabFolder) -> list[RecordedRun]:
-    path = folder.root / ".pico" / "journal.sqlite"
-    if not path.exists():
-        return []
-    with closing(Journal(path, looking=True)) as journal:
-        moving = journal.moving()
-        over = [run for run in journal.runs() if run.run in moving and not _goes_on(folder.root, run)]
+    if bench_folder(folder.root).resolve() != own_folder(folder.root).resolve():
+        return []  # they are carried by what is committed in the worktree that has the bench
+    with remembered(folder.root) as memory:
+        if memory is None:
+            return []
+        moving = memory.moving()
+        over = [run for run in memory.runs() if run.run in moving and not _goes_on(folder.root, run)]
         carried = _carried(folder, over)
         fresh = ((run, part) for run in over if (part := carried.get(run.run, -1) + 1) <= run.resumed)
-        found = (recorded(folder.setup, journal, run, part) for run, part in fresh)
+        found = (recorded(folder.setup, memory, run, part) for run, part in fresh)
         return [run for run in found if run is not None]
 
 
@@ -119,7 +121,7 @@ def _committed(folder: LabFolder, run: RecordedRun, seen: Observation, state: La
 
 def _keep(folder: LabFolder) -> Keep | None:
     """Return what takes large data: the store that all worktrees of the repository share."""
-    from pico.runs.store import store_in
+    from pico.content.store import store_in
 
     return store_in(folder.repository.common).put if folder.repository else None
 

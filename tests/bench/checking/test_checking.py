@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from changing import Lab
 
-from pico.backends.lease import BenchLock
 from pico.bench.bench import Bench
 from pico.bench.checking import CheckReport, check
 from pico.diagnostics import PicoError
+from pico.edge.lease import BenchLock
 
 TILTED = ("x: 520\n      y: 420\n      yaw: 0", "x: 520\n      y: 420\n      yaw: 30")
 

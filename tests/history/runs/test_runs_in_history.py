@@ -21,9 +21,9 @@ from carrying import (
     write,
 )
 
-from pico.backends.lease import BenchLock
 from pico.bench.bench import Bench
 from pico.diagnostics import Diagnostic, PicoError
+from pico.edge.lease import BenchLock
 from pico.history.examples.example import make_example
 from pico.history.lab.folder import LabFolder
 from pico.history.repository.repository import Repository

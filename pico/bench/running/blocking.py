@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pico.model.event import Event
 
 if TYPE_CHECKING:
-    from pico.execution.async_execution import AsyncExecution
+    from pico.bench.running.async_execution import AsyncExecution
     from pico.model.plan import Plan
     from pico.model.report import RunReport
 

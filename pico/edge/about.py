@@ -6,8 +6,8 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from pico.backends.lease import user
-from pico.backends.protocol import Capabilities
+from pico.backends.device import Capabilities
+from pico.edge.lease import user
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.observation import Observation
@@ -20,12 +20,11 @@ STANDS_ON = ("mujoco", "numpy", "ruckig")
 
 def about_run(setup: Setup, plan: Plan, able: Capabilities) -> dict[str, Any]:
     """Return what is kept when a run begins: `cause`, `evidence`, `operator`, `seed`, `environment`, `versions`."""
-    simulated = able.name == "sim"
     return {
         "cause": cause_of(plan),
         "evidence": able.evidence,
         "operator": user(),
-        **({"seed": setup.lab.sim.seed} if simulated else {}),
+        **({"seed": setup.lab.sim.seed} if able.simulated else {}),
         "environment": {"backend": able.name, "fidelity": able.fidelity, "system": _system()},
         "versions": _versions(),
     }

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import closing, suppress
+from pathlib import Path
+from typing import Any
 
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import deviation, value_distance
 from pico.model.lab import Setup
 from pico.model.observation import Observation
@@ -90,3 +93,23 @@ def open_questions(unsettled: Sequence[Unsettled]) -> list[Diagnostic]:
         text = f"nobody knows whether this was done before the last run ended: {what}"
         found.append(error("unknown-outcome", text, hint=hint, address=op.component))
     return found
+
+
+def require_unmoved(path: Path) -> None:
+    """Raise PicoError where the journal at `path`, if it can be read, has a simulated run in which anything was done:
+    for the simulated table is not there any more."""
+    if _was_moved(path):
+        text = f"the simulated table is not in {path.parent / 'sim'}, and the journal has runs that moved this table"
+        hint = "`pico sim reset` starts the simulated table over, with every part at home"
+        raise PicoError(error("world-file", text, hint=hint))
+
+
+def _was_moved(path: Path) -> bool:
+    with suppress(PicoError), closing(Journal(path, looking=True)) as journal:
+        runs = (run for run in journal.moving() if _simulated(journal.about(run)[0]))
+        return any(record.kind == "done" for run in runs for record in journal.records(run=run))
+    return False  # looking must not fail because of the journal
+
+
+def _simulated(about: tuple[Mapping[str, Any], ...]) -> bool:
+    return all(begun.get("environment", {}).get("backend", "sim") == "sim" for begun in about)

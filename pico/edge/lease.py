@@ -18,10 +18,9 @@ from pathlib import Path
 
 from pico import attachment
 from pico.attachment import bench_folder, require_attached
-from pico.backends.protocol import Lease
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, write_whole, writing
-from pico.model.record import record
+from pico.edge.protocol import Holder, Lease
 
 
 def utc_now() -> str:
@@ -35,17 +34,6 @@ NAMED_WITHIN = 20
 
 RETRY = 0.05
 """Seconds between two attempts of who waits for the lock."""
-
-
-@record
-class Holder:
-    """Who has the bench: the lease's token, the user, the process, since when, and what for."""
-
-    token: int
-    user: str
-    pid: int
-    since: str
-    what: str
 
 
 class BenchLock:

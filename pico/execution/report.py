@@ -1,17 +1,11 @@
-"""A run that somebody watches: its events one by one, and in the end a report of the bench as it then is."""
+"""What became of a run, told by its events and by the bench as it was observed afterwards."""
 
 from __future__ import annotations
 
-import secrets
-import time
-from collections.abc import AsyncIterator, Callable, Iterator, Sequence
-from dataclasses import replace
-from datetime import UTC, datetime
+from collections.abc import Iterator, Sequence
 
-from pico.backends.protocol import Backend
-from pico.diagnostics import Diagnostic, PicoError
-from pico.execution.about import seen_after
-from pico.execution.run import run
+from pico.backends.device import Capabilities
+from pico.diagnostics import Diagnostic
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of, uncertain
 from pico.model.event import Event
@@ -22,87 +16,10 @@ from pico.model.observation import Observation, ObservedComponent
 from pico.model.plan import Plan
 from pico.model.report import RunReport
 from pico.model.state import place_of, state_from_json
-from pico.runs.journal import Journal
-
-
-class AsyncExecution:
-    """A plan under way: iterate over it for its events, then read its `report`."""
-
-    def __init__(
-        self,
-        setup: Setup,
-        plan: Plan,
-        backend: Backend,
-        named: Callable[[], str] | None = None,
-        holder: str = "pico apply",
-        *,
-        resumes: str | None = None,
-        stop_on_error: bool = False,
-    ) -> None:
-        """`named`: what the goal is called once the run is over. `resumes`: the run that goes on under its id.
-        `stop_on_error`: the first failure lets nothing more start.
-        """
-        self.plan, self.id = plan, resumes or new_run_id()
-        self._resumed, self._stop_on_error = resumes is not None, stop_on_error
-        self._setup, self._backend, self._holder = setup, backend, holder
-        self._named = named or (lambda: plan.target.name)
-        self._report: RunReport | None = None
-        self._cancelled = False
-
-    @property
-    def report(self) -> RunReport:
-        """What became of the run; raises RuntimeError before it is over."""
-        if self._report is None:
-            raise RuntimeError("the run is not over: iterate over it to the end")
-        return self._report
-
-    async def halt(self) -> None:
-        """Start nothing more, and bring every robot to a safe waypoint; the events then come to their end."""
-        self._cancelled = True
-        await self._backend.halt()
-
-    async def stop(self) -> None:
-        """Stop all motion now; the events then come to their end."""
-        self._cancelled = True
-        await self._backend.stop()
-
-    async def __aiter__(self) -> AsyncIterator[Event]:
-        """Yield the events; raises PicoError, before anything moves, where the plan must not be run (see `run`)."""
-        started = time.monotonic()
-        events: list[Event] = []
-        async for event in run(
-            self.plan, self._backend, run_id=self.id, holder=self._holder, setup=self._setup,
-            cancelled=lambda: self._cancelled, stop_on_error=self._stop_on_error, resumed=self._resumed,
-        ):  # fmt: skip
-            if event.kind != "operation_progress":
-                events.append(event)
-            yield event
-        evidence = (await self._backend.describe()).evidence
-        wall = time.monotonic() - started
-        seen = replace(await self._backend.observe(), measurements=measured(self.plan, events))
-        report = run_report(self._setup, self.plan, events, seen, wall=wall, evidence=evidence)
-        goal = self._named() if report.goal == self.plan.target.name else report.goal
-        self._report = replace(report, goal=goal, diagnostics=(*report.diagnostics, *self._keep(report, seen)))
-
-    def _keep(self, report: RunReport, seen: Observation) -> Sequence[Diagnostic]:
-        """Journal how the bench was seen afterwards; what keeps that from being written must not hide the report."""
-        journal: Journal | None = getattr(self._backend, "journal", None)
-        reached = report.whole and report.outcome == "done" and report.reached
-        try:
-            if journal is not None:
-                journal.saw(self.id, seen_after(seen, report.expectations, reached=reached))
-        except PicoError as exc:
-            return exc.diagnostics
-        return ()
-
-
-def new_run_id() -> str:
-    """Return the id of a run: the time in UTC, and six random characters."""
-    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(3)}"
 
 
 def run_report(
-    setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation, *, wall: float, evidence: str
+    setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation, *, wall: float, able: Capabilities
 ) -> RunReport:
     """Return the report of a run with these `events`, the last of which ended it, after which `seen` was observed."""
     asked = plan.asked
@@ -111,9 +28,9 @@ def run_report(
         run=events[-1].run,
         **events[-1].data,
         goal="what was asked" if asked and plan.target.name == "the manifest" else plan.target.name,
-        clock="simulated" if plan.backend == "sim" else "on the bench",
+        clock="simulated" if able.simulated else "on the bench",
         wall=wall,
-        evidence=evidence,
+        evidence=able.evidence,
         whole=whole,
         held={name: robot.holding for name, robot in sorted(seen.robots.items()) if robot.holding},
         scope=plan.target.scope,

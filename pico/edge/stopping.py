@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Literal
 
 from pico.attachment import bench_folder
 from pico.disk import write_whole
-
-Asking = Literal["safely", "now"]
-"""`safely`: as the first Ctrl-C; `now`: as the second."""
+from pico.edge.protocol import Asking
 
 
 def ask_to_stop(root: Path, token: int, how: Asking) -> None:

@@ -16,8 +16,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pico.content.store import Store
 from pico.diagnostics import PicoError
-from pico.runs.store import Store
 
 
 def sha(data: bytes) -> str:
@@ -158,7 +158,7 @@ def test_many_writers_and_a_remover_at_once_never_leave_half_an_object(tmp_path:
 _WRITER = """
 import os, sys
 from pathlib import Path
-from pico.runs.store import Store
+from pico.content.store import Store
 store, number = Store(Path(sys.argv[1])), 0
 while True:
     store.put(b"%d" % number * 20_000)
@@ -179,3 +179,20 @@ def test_a_writer_killed_at_any_moment_leaves_whole_objects_or_none(tmp_path: Pa
     found = list(store.all())
     assert all(store.is_intact(name) for name in found)
     assert {sha(line.strip().encode() * 20_000) for line in said} <= set(found)
+
+
+def test_what_a_writer_left_that_is_dead_goes_with_the_next_one_and_that_of_others_stays(tmp_path: Path) -> None:
+    store, tmp = Store(tmp_path), tmp_path / "tmp"
+    tmp.mkdir()
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    here = os.uname().nodename
+    names = {
+        "dead": f".{here}-a.{dead.pid}.tmp",
+        "alive": f".{here}-b.{os.getpid()}.tmp",
+        "there": f".x-c.{dead.pid}.tmp",
+    }
+    for name in names.values():
+        (tmp / name).write_bytes(b"half")
+    store.put(b"whole")
+    assert sorted(path.name for path in tmp.iterdir()) == sorted([names["alive"], names["there"]])

@@ -5,8 +5,8 @@ from __future__ import annotations
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
+from pico.content.store import Store
 from pico.model.measurement import ArrayRef
-from pico.runs.store import Store
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -20,7 +20,7 @@ from typing import BinaryIO
 
 from pico.attachment import lab_place, own_folder
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.disk import removed, unwritable
+from pico.disk import removed, sweep, unwritable
 
 CHUNK = 1 << 20
 """Bytes that are read or written at once."""
@@ -169,7 +169,10 @@ class Store:
     def _temporary(self) -> Path:
         with _guarded(self.root):
             (self.root / "tmp").mkdir(parents=True, exist_ok=True)
-        return self.root / "tmp" / uuid.uuid4().hex
+        here = os.uname().nodename  # a process of another machine that shares this store may live
+        with suppress(OSError):
+            sweep(self.root / "tmp", f"{here}-*")
+        return self.root / "tmp" / f".{here}-{uuid.uuid4().hex}.{os.getpid()}.tmp"
 
     def _stat(self, sha256: str) -> os.stat_result:
         path = self.path(sha256)

@@ -1,0 +1,111 @@
+"""What moves and looks: the protocol that simulator, emulated and real hardware implement, and nothing else of PICO.
+
+A device has no memory: who may move it, what is written down before and after an operation, and runs belong to the edge
+that owns it (`pico.edge`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+from pico.model.event import Event
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation, ObservedComponent
+from pico.model.operation import Operation, OperationResult
+from pico.model.record import record
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
+    from pico.backends.world import Held, World
+    from pico.twin.snapshot import Snapshot
+
+Began = Callable[[ObservedComponent | None], None]
+"""Called with the component as it is, just before anything of an operation moves; what it raises keeps it from that."""
+
+
+@record
+class Capabilities:
+    """What a device can do. `evidence` is what its runs count as: kinematic, physics, emulated or hardware.
+
+    `measurables`: what it can measure, as addresses (`p2.pose`). `simulated`: it has a `World` of its own, and a clock
+    that is none on the wall.
+    """
+
+    name: str
+    fidelity: str
+    evidence: str
+    lab_digest: str
+    primitives: frozenset[str]
+    robots: tuple[str, ...]
+    measurables: frozenset[str] = frozenset()
+    unmodelled: tuple[str, ...] = ()
+    simulated: bool = False
+
+
+class Device(Protocol):
+    """What executes operations, for the one edge that has it."""
+
+    async def describe(self) -> Capabilities: ...
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen. Moves nothing; raises PicoError where nothing can be seen."""
+        ...
+
+    async def look(self) -> Look:
+        """Look through the cameras, whatever the lab says, and return what they see, also what is wrong with them.
+
+        Raises PicoError where there are none.
+        """
+        ...
+
+    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+        """Get ready to move: until `leave`, nobody else does. `tell` hears of the start and progress of operations.
+
+        `token` is that of the lease. Raises PicoError where the bench is not fit to be moved.
+        """
+        ...
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute one operation and return when it has ended, and what it left is durable.
+
+        `key` is `run id/operation id/attempt`. A failure is a result, not an exception; raises PicoError with exit code
+        INTERRUPTED where it was stopped before it began. Cancelling the wait does not cancel the motion.
+        """
+        ...
+
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Acquire a measurable as the bench is, opening nothing: nothing of it is assured. Raises PicoError where it
+        can't be."""
+        ...
+
+    async def halt(self) -> None:
+        """Bring everything under way to its safe end: an arm then stands above the place where it put its component
+        down, or is parked."""
+        ...
+
+    async def stop(self) -> None:
+        """Stop all motion now, decelerated; grippers hold what they hold."""
+        ...
+
+    async def leave(self) -> None:
+        """Let go of what `take` took, once everything under way has ended."""
+        ...
+
+    def watch(self, look: Callable[[Snapshot], None] | None) -> None:
+        """Let `look` see what moves from the next `take` on, often enough for a film; None: no more.
+
+        Raises PicoError where nothing is simulated.
+        """
+        ...
+
+    def kept(self) -> bool:
+        """Return whether what the device itself keeps of its table is there; that of a real one always is."""
+        ...
+
+    def world(self, held: Held, require_kept: Callable[[], None]) -> World:
+        """Return the simulated world, to be changed as a hand would; raises PicoError where nothing is simulated.
+
+        `held` locks the bench for a change; `require_kept` raises PicoError where the world's own file was lost.
+        """
+        ...

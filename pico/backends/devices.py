@@ -1,0 +1,40 @@
+"""Which devices there are: the rooms beside this file, and what plug-ins add by an entry point of the group
+`pico.devices`. Each gives `opened(setup, root, fidelity, clock)`, which returns a `Device` or raises PicoError."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import PicoError, did_you_mean, error
+
+if TYPE_CHECKING:
+    from pico.backends.device import Device
+    from pico.model.lab import Setup
+
+Opener = Callable[["Setup", Path, str, Callable[[], str]], "Device"]
+GROUP = "pico.devices"
+SIMULATOR = "sim"
+"""The device of who asks for none, and of trials."""
+
+
+def shipped() -> list[str]:
+    """Return the names of the devices that come with PICO."""
+    return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__init__.py"))
+
+
+def opener(name: str) -> Opener:
+    """Return what opens the device of this name; raises PicoError for one that there is not."""
+    if name in shipped():
+        found: Opener = import_module(f"{__package__}.{name}").opened
+        return found
+    from importlib.metadata import entry_points
+
+    added = {entry.name: entry for entry in entry_points(group=GROUP)}
+    if name not in added:
+        known = [*shipped(), *sorted(added)]
+        raise PicoError(error("backend", f"there is no backend `{name}`", hint=did_you_mean(name, known)))
+    plugin: Opener = added[name].load()
+    return plugin

@@ -1,0 +1,184 @@
+"""The simulated bench as a device: the world that persists beside the lab."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.backends.device import Began, Capabilities
+from pico.backends.sim.plugins import plugged_in
+from pico.backends.sim.readings import simulated
+from pico.backends.sim.store import load_world, world_path
+from pico.backends.sim.world import observe
+from pico.diagnostics import Diagnostic, PicoError
+from pico.model.event import Event
+from pico.model.lab import Setup
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation, Uncertainty
+from pico.model.operation import Operation, OperationResult
+from pico.model.pose import Pose
+from pico.motion.deferred import DeferredMotion
+from pico.motion.types import Motion
+
+if TYPE_CHECKING:
+    from pico.backends.last_seen import LastSeen
+    from pico.backends.sight import Look
+    from pico.backends.sim.session import WorldSession
+    from pico.backends.sim.table import SimulatedTable
+    from pico.backends.sim.world import World
+    from pico.backends.world import Held
+    from pico.twin.snapshot import Snapshot
+
+PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure"})
+
+
+class SimDevice:
+    """The simulated table of the lab in folder `root`.
+
+    `motion` finds the paths (that of the lab's arms where None); `clock` gives the wall time as ISO 8601, UTC. It reads
+    the table as it is stored until it is taken, and then is the only one that changes it.
+    """
+
+    def __init__(
+        self,
+        setup: Setup,
+        root: Path,
+        fidelity: str = "kinematic",
+        *,
+        clock: Callable[[], str],
+        motion: Motion | None = None,
+    ) -> None:
+        self.setup, self.root, self.fidelity = setup, root, fidelity
+        self.diagnostics: tuple[Diagnostic, ...] = ()
+        self._clock, self._motion = clock, motion or DeferredMotion(setup)
+        self._session: WorldSession | None = None
+        self._look: Callable[[Snapshot], None] | None = None
+        self._looked: tuple[tuple[World, str | None], Look] | None = None
+        self._placed: dict[str, LastSeen] = {}
+
+    # looking
+
+    def watch(self, look: Callable[[Snapshot], None] | None) -> None:
+        """Let `look` see what moves from the next `take` on: often enough for a film. None: no more."""
+        self._look = look
+
+    async def describe(self) -> Capabilities:
+        """Return what the simulator can do."""
+        return Capabilities(
+            name="sim",
+            fidelity=self.fidelity,
+            evidence=self.fidelity,
+            lab_digest=self.setup.digest(),
+            primitives=PRIMITIVES | plugged_in().keys(),
+            robots=tuple(sorted(self.setup.lab.robots)),
+            measurables=frozenset(simulated(self.setup)),
+            simulated=True,
+        )
+
+    async def observe(self) -> Observation:
+        """Return the table as the lab says that it is looked at, exactly or by sight.
+
+        Raises PicoError where its file can't be read, and by sight where cameras are dark or have moved.
+        """
+        if self.setup.lab.sim.observe == "sight":
+            from pico.backends.sight import require_trusted
+
+            return require_trusted(self._by_sight().observation)
+        return observe(self._world(), "sim", self._clock())
+
+    async def look(self) -> Look:
+        """Return what the cameras see of the table, whatever the lab says; raises PicoError where there are none."""
+        return self._by_sight()
+
+    def _world(self) -> World:
+        if self._session is not None:
+            return self._session.world()
+        world, self.diagnostics = load_world(self.setup, self.root)
+        return world
+
+    def _by_sight(self) -> Look:
+        """Look through the cameras; the same table looks the same again, so that it is not looked at twice."""
+        from pico.backends.last_seen import noted, recall, remember
+        from pico.backends.sight import BLIND
+        from pico.backends.sim.sight import see
+        from pico.vision.calibration import calibration_digest
+
+        world, calibration = self._world(), calibration_digest(self.root)
+        if self._looked is None or self._looked[0] != (world, calibration):
+            last = {**recall(self.root), **self._placed}
+            found = see(self.setup, self.root, world, "sim", self._clock(), last)
+            if not any(problem.code in BLIND for problem in found.observation.problems):
+                remember(self.root, noted(last, found.observation))
+                self._placed.clear()
+            self._looked = (world, calibration), found
+        return self._looked[1]
+
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Return what a measurement would give now, of which nothing is assured; raises PicoError, for light above all:
+        that is not simulated yet."""
+        from pico.backends.attempt import Failed
+        from pico.backends.sim.measuring import measured
+
+        try:
+            return measured(self.setup, self.root, self._world(), component, measurable, None, self._clock())
+        except Failed as exc:
+            raise PicoError(exc.diagnostic) from exc
+
+    # moving
+
+    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+        """Read the table; raises PicoError where its files are broken."""
+        from pico.backends.sim.faults import faults_of
+        from pico.backends.sim.session import WorldSession
+
+        world, self.diagnostics = load_world(self.setup, self.root)
+        self._session = WorldSession(
+            self.setup, self.root, world, fidelity=self.fidelity, token=token, motion=self._motion, tell=tell,
+            clock=self._clock, faults=faults_of(self.setup, self.root),
+        )  # fmt: skip
+        if self._look is not None:
+            self._session.watch(self._look)
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute one operation in simulated time and return when it has ended and is stored."""
+        assert self._session is not None  # only who has taken the device executes
+        result = await self._session.execute(operation, key, began)
+        if result.outcome == "done" and operation.kind.carries:
+            self._note_placed(operation, result.ended)
+        return result
+
+    def _note_placed(self, operation: Operation, time: float) -> None:
+        """Remember where an arm put a part down, for it may hide it from the cameras."""
+        from pico.backends.last_seen import LastSeen
+
+        repeatability = self.setup.type_of(operation.component).repeatability
+        sigma = Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
+        pose = Pose(**operation.arguments["to"]["pose"])
+        self._placed[operation.component] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
+
+    async def halt(self) -> None:
+        """Wait until what is under way has reached a safe end."""
+        if self._session is not None:
+            await self._session.halt()
+
+    async def stop(self) -> None:
+        """Stop everything where it is; grippers hold what they hold."""
+        if self._session is not None:
+            await self._session.stop()
+
+    async def leave(self) -> None:
+        """Let others change the table again, once everything under way has ended."""
+        if self._session is not None:
+            await self._session.idle()
+            self._session = None
+
+    def kept(self) -> bool:
+        """Return whether the table is stored."""
+        return world_path(self.root).exists()
+
+    def world(self, held: Held, require_kept: Callable[[], None]) -> SimulatedTable:
+        """Return the simulated table, to be changed as a hand would."""
+        from pico.backends.sim.table import SimulatedTable
+
+        return SimulatedTable(self.setup, self.root, held, require_kept)

@@ -1,0 +1,294 @@
+"""An edge at the far end of a Unix socket."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import socket
+from collections.abc import AsyncIterator, Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.backends.device import Capabilities
+from pico.diagnostics import PicoError, error
+from pico.edge.link import wire
+from pico.edge.protocol import Holder, Job, Lease
+from pico.model.event import Event
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult, Outcome
+from pico.model.pose import Pose
+from pico.model.report import RunReport
+from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
+from pico.vision.calibration import calibration_from_json
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
+    from pico.twin.placement import Placement
+    from pico.twin.snapshot import Snapshot
+    from pico.vision.camera import CameraModel
+
+
+def _gone(exc: Exception) -> PicoError:
+    hint = "its run goes on by itself, if it lives; `pico status` shows what it did"
+    return PicoError(error("link", f"the edge does not answer: {exc}", hint=hint))
+
+
+def _value(name: str, data: bytes) -> Any:
+    if not data:
+        raise _gone(EOFError("it ended the connection"))
+    document = json.loads(data)
+    if "error" in document:
+        raise wire.raised(document)
+    return wire.value(name, document["value"])
+
+
+class Line:
+    """Blocking calls, a connection each."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """Return what a call gives; raises PicoError as the edge does, and where it does not answer."""
+        try:
+            with socket.socket(socket.AF_UNIX) as link:
+                link.connect(str(self._path))
+                link.sendall(wire.call(name, arguments))
+                with link.makefile("rb") as answer:
+                    data = answer.readline()
+        except OSError as exc:
+            raise _gone(exc) from exc
+        return _value(name, data)
+
+
+class RemoteMemory:
+    """What the bench remembers; see `pico.runs.memory.Memory`."""
+
+    def __init__(self, line: Line) -> None:
+        self._line = line
+
+    def runs(self) -> tuple[RunRecord, ...]:
+        """Return the runs in the order in which they began."""
+        found: tuple[RunRecord, ...] = self._line.call("memory.runs")
+        return found
+
+    def moving(self) -> frozenset[str]:
+        """Return the runs that began at least one operation."""
+        found: frozenset[str] = self._line.call("memory.moving")
+        return found
+
+    def document(self, run: str) -> str | None:
+        """Return the plan that a run began with, as JSON."""
+        found: str | None = self._line.call("memory.document", run)
+        return found
+
+    def about(self, run: str) -> tuple[tuple[Mapping[str, Any], ...], Mapping[str, Any] | None]:
+        """Return what was recorded of a run each time that it was begun, and how the bench was observed afterwards."""
+        found: wire.About = self._line.call("memory.about", run)
+        return found
+
+    def records(self, *, run: str | None = None, key: str | None = None) -> tuple[JournalRecord, ...]:
+        """Return the records of a run, of a key, or all."""
+        found: tuple[JournalRecord, ...] = self._line.call("memory.records", run, key)
+        return found
+
+    def successes(self, components: Collection[str]) -> Iterator[Success]:
+        """Yield the operations on some components that succeeded, the last one first."""
+        found: tuple[Success, ...] = self._line.call("memory.successes", sorted(components))
+        return iter(found)
+
+    def unsettled(self) -> tuple[Unsettled, ...]:
+        """Return the operations that began and of which nobody knows how they ended."""
+        found: tuple[Unsettled, ...] = self._line.call("memory.unsettled")
+        return found
+
+
+class RemoteWorld:
+    """The simulated world at the far end; see `pico.backends.world.World`."""
+
+    def __init__(self, line: Line) -> None:
+        self._line = line
+
+    def placements(self) -> Mapping[str, Placement]:
+        """Return where the components are in space."""
+        found: dict[str, Placement] = self._line.call("world.placements")
+        return found
+
+    def reset(self) -> None:
+        """Put every part home."""
+        self._line.call("world.reset")
+
+    def put(self, seen: Observation) -> None:
+        """Let every part stand and read as in `seen`, in a new world."""
+        self._line.call("world.put", seen)
+
+    def nudge(self, name: str, *, dx: float = 0.0, dy: float = 0.0, dyaw: float = 0.0) -> Pose:
+        """Push a component by (dx, dy) [mm], turn it by dyaw [deg], and return where it then stands."""
+        found: Pose = self._line.call("world.nudge", name, dx, dy, dyaw)
+        return found
+
+    def bump(
+        self, camera: str | None = None, *, shift: tuple[float, float, float], turn: tuple[float, float, float]
+    ) -> None:
+        """Bump a camera, all at the table where none is named, by `shift` [mm] and the rotation vector `turn` [deg]."""
+        self._line.call("world.bump", camera, shift, turn)
+
+    def true_cameras(self) -> Mapping[str, CameraModel]:
+        """Return the cameras as they really are."""
+        return calibration_from_json(self._line.call("world.true_cameras")).cameras
+
+    def remove(self, name: str) -> None:
+        """Take a component off the table."""
+        self._line.call("world.remove", name)
+
+    def power_cycle(self) -> None:
+        """Switch the bench off and on."""
+        self._line.call("world.power_cycle")
+
+    def person(self, present: bool) -> None:
+        """Let somebody step up to the table, or go away."""
+        self._line.call("world.person", present)
+
+    def faults(self, words: Sequence[str] = ()) -> Mapping[str, Any]:
+        """Let faults happen from now on, none for `off`; return `rates` and `seed` in force."""
+        found: dict[str, Any] = self._line.call("world.faults", list(words))
+        return found
+
+
+class RemoteEdge:
+    """The edge whose socket is at `path`; see `pico.edge.protocol.Edge`. Its runs go on without this process."""
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._line = path, Line(path)
+        self._held: dict[int, asyncio.StreamWriter] = {}
+
+    async def _connect(self) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
+        try:
+            return await asyncio.open_unix_connection(str(self._path), limit=wire.LONGEST)
+        except OSError as exc:
+            raise _gone(exc) from exc
+
+    async def _call(self, name: str, *arguments: Any) -> Any:
+        reader, writer = await self._connect()
+        try:
+            writer.write(wire.call(name, arguments))
+            return _value(name, await reader.readline())
+        except OSError as exc:
+            raise _gone(exc) from exc
+        finally:
+            writer.close()
+
+    async def describe(self) -> Capabilities:
+        """Return what the device can do."""
+        found: Capabilities = await self._call("describe")
+        return found
+
+    async def holder(self) -> Holder | None:
+        """Return who moves the bench, None where nobody does."""
+        found: Holder | None = await self._call("holder")
+        return found
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen."""
+        found: Observation = await self._call("observe")
+        return found
+
+    async def look(self) -> Look:
+        """Look through the cameras and return what they see."""
+        from pico.edge.link.pictures import look_from_json
+
+        document = await self._call("look")
+        return await asyncio.to_thread(look_from_json, document, lambda name: self._line.call("array", name))
+
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Acquire a measurable as the bench is, without lease; nothing of it is assured."""
+        found: Measurement = await self._call("peek", component, measurable)
+        return found
+
+    async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
+        """Take the bench; it is given back where this process dies."""
+        reader, writer = await self._connect()
+        try:
+            writer.write(wire.call("acquire", (holder, wait)))
+            lease: Lease = _value("acquire", await reader.readline())
+        except BaseException:
+            writer.close()
+            raise
+        self._held[lease.token] = writer
+        return lease
+
+    async def release(self, lease: Lease) -> None:
+        """Give the bench back, once everything under way has ended."""
+        writer = self._held.pop(lease.token, None)
+        if writer is not None:
+            writer.close()
+            while (who := await self.holder()) is not None and who.token == lease.token:
+                await asyncio.sleep(0.005)
+
+    async def execute(self, operation: Operation, key: str, lease: Lease) -> OperationResult:
+        """Execute one operation and return when it has ended."""
+        found: OperationResult = await self._call("execute", operation, key, lease)
+        return found
+
+    async def start(self, job: Job, run: str) -> str:
+        """Check a plan again, start a run of it under the id `run`, and return that."""
+        found: str = await self._call("start", job, run)
+        return found
+
+    async def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:
+        """Yield what happened in a run after its event `since`, and what happens."""
+        reader, writer = await self._connect()
+        try:
+            writer.write(wire.call("events", (run, since)))
+            while "next" in (document := json.loads(await reader.readline() or b'{"value":null,"gone":true}')):
+                yield wire.value("events", document["next"])
+            if "error" in document:
+                raise wire.raised(document)
+            if "gone" in document:
+                raise _gone(EOFError("it ended the connection"))
+        finally:
+            writer.close()
+
+    async def report(self, run: str) -> RunReport:
+        """Wait for the end of a run, and return what became of it."""
+        found: RunReport = await self._call("report", run)
+        return found
+
+    async def film(self, run: str) -> list[Snapshot]:
+        """Return what a film of a run shows that was `filmed`."""
+        found: list[Snapshot] = await self._call("film", run)
+        return found
+
+    async def cancel(self, run: str) -> None:
+        """Start nothing more of a run, and bring everything to a safe end."""
+        await self._call("cancel", run)
+
+    async def halt(self) -> None:
+        """Dispatch nothing more and bring every robot to a safe waypoint."""
+        await self._call("halt")
+
+    async def stop(self) -> None:
+        """Stop all motion now; grippers hold what they hold."""
+        await self._call("stop")
+
+    @property
+    def memory(self) -> RemoteMemory | None:
+        """What the bench remembers of its runs; None where there was none yet."""
+        return RemoteMemory(self._line) if self._line.call("memory") else None
+
+    async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
+        """Record what a person says of an operation that only a person can tell the end of."""
+        await self._call("resolve", key, outcome, by)
+
+    @property
+    def world(self) -> RemoteWorld:
+        """The simulated world; raises PicoError where nothing is simulated."""
+        self._line.call("world")
+        return RemoteWorld(self._line)
+
+    async def close(self) -> None:
+        """Give back what was taken; the edge itself goes on."""
+        for writer in self._held.values():
+            writer.close()
+        self._held.clear()

@@ -1,0 +1,55 @@
+"""Where the socket of a bench is: its path may be no longer than about 100 bytes, so it lies in a folder for temporary
+files, and `.pico/edge.json` names it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import socket
+import tempfile
+from pathlib import Path
+
+from pico.attachment import bench_folder
+from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
+
+
+def make(root: Path) -> Path:
+    """Return where the socket of the lab in `root` is to be, in a folder that is only this user's; raises PicoError."""
+    folder = Path(tempfile.gettempdir()) / f"pico-{os.getuid()}"
+    folder.mkdir(mode=0o700, exist_ok=True)
+    found = folder.lstat()
+    if found.st_uid != os.getuid() or found.st_mode & 0o077 or folder.is_symlink():
+        raise PicoError(error("link", f"{folder} is open to others", hint=f"`chmod 700 {folder}`, if it is yours"))
+    name = hashlib.sha256(os.fsencode(bench_folder(root).resolve())).hexdigest()[:16]
+    return folder / f"{name}.sock"
+
+
+def announce(root: Path, path: Path) -> None:
+    """Let clients find the socket; raises PicoError."""
+    note = json.dumps({"socket": str(path), "pid": os.getpid()}).encode()
+    write_whole(_note(root), note, code="link", folders=True, durable=False)
+
+
+def withdraw(root: Path, path: Path) -> None:
+    """Let nobody find the socket any more."""
+    _note(root).unlink(missing_ok=True)
+    path.unlink(missing_ok=True)
+
+
+def find(root: Path) -> Path | None:
+    """Return the socket of the edge that serves the lab in `root`; None where none answers."""
+    try:
+        path = Path(json.loads(_note(root).read_text(encoding="utf-8"))["socket"])
+        if path.lstat().st_uid != os.getuid():
+            return None
+        with socket.socket(socket.AF_UNIX) as link:
+            link.connect(str(path))
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return path
+
+
+def _note(root: Path) -> Path:
+    return bench_folder(root) / "edge.json"

@@ -1,0 +1,186 @@
+"""Serves an edge to other processes of the same user: `python -m pico.edge.link.server LAB`.
+
+A run that was started here ends by itself, whoever listens. A lease that a client took is given back once its
+connection ends, and what it waits for is waited for no more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import signal
+import sys
+from collections.abc import AsyncIterator, Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from pico.backends.devices import SIMULATOR
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.edge.link import place, wire
+from pico.edge.link.pictures import Arrays, look_as_json, packed
+from pico.edge.local import LocalEdge
+from pico.edge.protocol import Lease
+from pico.model.record import as_json
+from pico.vision.calibration import Calibration
+
+
+class Server:
+    """Serves `edge` at a socket, until it is closed."""
+
+    def __init__(self, edge: LocalEdge) -> None:
+        self._edge = edge
+        self._path = place.make(edge.root)
+        self._arrays: Arrays = {}
+        self._server: asyncio.Server | None = None
+        self._clients: set[asyncio.Task[Any]] = set()
+
+    async def open(self) -> None:
+        """Begin to serve; raises PicoError where somebody else serves this bench."""
+        if place.find(self._edge.root) is not None:
+            raise PicoError(error("link", f"the bench in {self._edge.root} is served already"), ExitCode.LOCKED)
+        self._path.unlink(missing_ok=True)
+        mask = os.umask(0o177)
+        try:
+            self._server = await asyncio.start_unix_server(self._client, str(self._path), limit=wire.LONGEST)
+        finally:
+            os.umask(mask)
+        place.announce(self._edge.root, self._path)
+
+    async def close(self) -> None:
+        """Serve no more, and bring what is under way to its safe end."""
+        place.withdraw(self._edge.root, self._path)
+        if self._server is not None:
+            self._server.close()
+        await self._edge.close()
+        for client in self._clients:
+            client.cancel()
+
+    async def _client(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        task = asyncio.current_task()
+        assert task is not None
+        self._clients.add(task)
+        leases: list[Lease] = []
+        try:
+            data = await reader.readline()
+            while data:
+                answering = asyncio.create_task(self._answer(data, writer, leases))
+                more = asyncio.create_task(reader.readline())  # who waits for an answer says nothing, or is gone
+                await asyncio.wait([answering, more], return_when=asyncio.FIRST_COMPLETED)
+                if not answering.done():
+                    answering.cancel()
+                    await asyncio.wait([answering])
+                data = await more
+        except (ConnectionError, ValueError, asyncio.CancelledError):  # it is gone, or says what nobody reads
+            pass
+        finally:
+            self._clients.discard(task)
+            for lease in leases:
+                await self._edge.release(lease)
+            writer.close()
+
+    async def _answer(self, data: bytes, writer: asyncio.StreamWriter, leases: list[Lease]) -> None:
+        with suppress(ConnectionError):
+            async for document in self._answers(data, leases):
+                writer.write(wire.line(document))
+                await writer.drain()
+
+    async def _answers(self, data: bytes, leases: list[Lease]) -> AsyncIterator[dict[str, Any]]:
+        """Yield the lines that answer a call."""
+        try:
+            name, arguments = wire.read_call(data)
+            if name in wire.STREAMS:
+                async for item in self._edge.events(*arguments):
+                    yield {"next": as_json(item)}
+                yield {"value": None}
+                return
+            found = await self._called(name, arguments)
+            if isinstance(found, Lease):
+                leases.append(found)
+            yield {"value": as_json(found)}
+        except PicoError as exc:
+            yield wire.failure(exc)
+        except Exception as exc:  # the others must go on
+            yield wire.failure(PicoError(error("internal", f"the edge failed: {type(exc).__name__}: {exc}")))
+
+    async def _called(self, name: str, arguments: list[Any]) -> Any:
+        if name == "look":
+            return await self._look()
+        if name == "array":
+            return self._array(*arguments)
+        owner, _, method = name.partition(".")
+        if owner == "memory":
+            return await asyncio.to_thread(self._remembered, method, arguments)
+        if owner == "world":
+            return await asyncio.to_thread(self._simulated, method, arguments)
+        return await getattr(self._edge, name)(*arguments)
+
+    async def _look(self) -> dict[str, Any]:
+        document, self._arrays = look_as_json(await self._edge.look())
+        return document
+
+    def _array(self, name: str) -> str:
+        if name not in self._arrays:
+            raise PicoError(error("link", f"there is no array {name[:16]} here any more", hint="look again"))
+        return packed(self._arrays[name])
+
+    def _remembered(self, method: str, arguments: list[Any]) -> Any:
+        memory = self._edge.memory
+        if not method or memory is None:
+            return memory is not None
+        if method == "records":
+            return memory.records(run=arguments[0], key=arguments[1])
+        found = getattr(memory, method)(*arguments)
+        return tuple(found) if method == "successes" else found
+
+    def _simulated(self, method: str, arguments: list[Any]) -> Any:
+        world = self._edge.world
+        if not method:
+            return None
+        if method == "nudge":
+            name, dx, dy, dyaw = arguments
+            return world.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
+        if method == "bump":
+            return world.bump(arguments[0], shift=arguments[1], turn=arguments[2])
+        if method == "true_cameras":
+            return Calibration(cameras=world.true_cameras()).as_json()
+        return getattr(world, method)(*arguments)
+
+
+async def serve(edge: LocalEdge, ready: Callable[[], None] = lambda: None) -> None:
+    """Serve an edge until SIGTERM, SIGINT or SIGHUP; what is under way then comes to its safe end."""
+    server, ended = Server(edge), asyncio.Event()
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        asyncio.get_running_loop().add_signal_handler(number, ended.set)
+    await server.open()
+    try:
+        ready()
+        await ended.wait()
+    finally:
+        await server.close()
+
+
+def main() -> int:
+    """Serve the bench of a lab."""
+    from pico.edge.local import embedded
+    from pico.manifest.load import load_folder
+
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("lab", type=Path)
+    parser.add_argument("--backend", default=SIMULATOR)
+    parser.add_argument("--fidelity", default="kinematic")
+    given = parser.parse_args()
+    try:
+        setup, _ = load_folder(given.lab).require()
+        edge = embedded(setup, given.lab, given.backend, given.fidelity)
+        with suppress(KeyboardInterrupt):
+            asyncio.run(serve(edge))
+    except PicoError as exc:
+        sys.stderr.write(f"{exc}\n")
+        return int(exc.exit_code)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

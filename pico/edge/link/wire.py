@@ -1,0 +1,120 @@
+"""What goes over a link: one JSON document a line.
+
+A call names a method of the edge; its answer is a value, for streams several `next` ones before it, or what went wrong.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from pico.backends.device import Capabilities
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.edge.protocol import Holder, Job, Lease
+from pico.model.event import Event
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult, Outcome
+from pico.model.pose import Pose
+from pico.model.record import as_json
+from pico.model.report import RunReport
+from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
+from pico.twin.placement import Placement
+from pico.twin.snapshot import Snapshot
+
+About = tuple[tuple[dict[str, Any], ...], dict[str, Any] | None]
+Triple = tuple[float, float, float]
+CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
+    "describe": ((), Capabilities),
+    "holder": ((), Holder | None),
+    "observe": ((), Observation),
+    "look": ((), dict[str, Any]),
+    "peek": ((str, str), Measurement),
+    "array": ((str,), str),
+    "acquire": ((str, float), Lease),
+    "execute": ((Operation, str, Lease), OperationResult),
+    "start": ((Job, str), str),
+    "events": ((str, int), Event),
+    "report": ((str,), RunReport),
+    "film": ((str,), list[Snapshot]),
+    "cancel": ((str,), None),
+    "halt": ((), None),
+    "stop": ((), None),
+    "resolve": ((str, Outcome, str), None),
+    "memory": ((), bool),
+    "memory.runs": ((), tuple[RunRecord, ...]),
+    "memory.moving": ((), frozenset[str]),
+    "memory.document": ((str,), str | None),
+    "memory.about": ((str,), About),
+    "memory.records": ((str | None, str | None), tuple[JournalRecord, ...]),
+    "memory.successes": ((list[str],), tuple[Success, ...]),
+    "memory.unsettled": ((), tuple[Unsettled, ...]),
+    "world": ((), None),
+    "world.placements": ((), dict[str, Placement]),
+    "world.reset": ((), None),
+    "world.put": ((Observation,), None),
+    "world.nudge": ((str, float, float, float), Pose),
+    "world.bump": ((str | None, Triple, Triple), None),
+    "world.true_cameras": ((), dict[str, Any]),
+    "world.remove": ((str,), None),
+    "world.power_cycle": ((), None),
+    "world.person": ((bool,), None),
+    "world.faults": ((list[str],), dict[str, Any]),
+}
+"""Every call that there is: the types of its arguments, and of its value or of each `next` one."""
+STREAMS = frozenset({"events"})
+LONGEST = 1 << 28
+"""Bytes of the longest line."""
+
+
+@cache
+def adapter(kind: Any) -> Any:
+    """Return what reads a type from JSON data."""
+    from pydantic import TypeAdapter
+
+    return TypeAdapter(kind)
+
+
+def line(document: Mapping[str, Any]) -> bytes:
+    """Return a document as it goes over the link."""
+    return json.dumps(document, separators=(",", ":")).encode() + b"\n"
+
+
+def call(name: str, arguments: tuple[Any, ...]) -> bytes:
+    """Return the line of a call."""
+    return line({"call": name, "with": [as_json(argument) for argument in arguments]})
+
+
+def read_call(data: bytes) -> tuple[str, list[Any]]:
+    """Return the name of a call and its arguments; raises PicoError for what is none."""
+    try:
+        document = json.loads(data)
+        name, given = document["call"], document["with"]
+        kinds = CALLS[name][0]
+        return name, [adapter(kind).validate_python(value) for kind, value in zip(kinds, given, strict=True)]
+    except (ValueError, KeyError, TypeError) as exc:
+        raise PicoError(error("link", f"this is no call that the edge knows: {str(exc)[:200]}")) from exc
+
+
+def value(name: str, data: Any) -> Any:
+    """Return what a call gave, from its JSON; raises PicoError where it is something else."""
+    try:
+        return adapter(CALLS[name][1]).validate_python(data)
+    except ValueError as exc:
+        hint = "client and edge may be of different versions of PICO"
+        raise PicoError(
+            error("link", f"the edge answered {name} with something else: {str(exc)[:200]}", hint=hint)
+        ) from exc
+
+
+def failure(exc: PicoError) -> dict[str, Any]:
+    """Return what went wrong, as JSON."""
+    return {"error": as_json(exc.diagnostics), "exit": int(exc.exit_code)}
+
+
+def raised(document: Mapping[str, Any]) -> PicoError:
+    """Return what went wrong at the other end."""
+    found = adapter(tuple[Diagnostic, ...]).validate_python(document["error"])
+    return PicoError(found, ExitCode(document["exit"]))

@@ -1,0 +1,362 @@
+"""The edge in this process: composes a device with the lock, the journal, execution and policy of one bench."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import AsyncIterator, Callable
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.attachment import bench_folder
+from pico.backends.device import Capabilities, Device
+from pico.backends.devices import opener
+from pico.backends.world import World
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.edge.lease import BenchLock, utc_now
+from pico.edge.protocol import Holder, Job, Lease
+from pico.model.event import Event
+from pico.model.lab import Setup
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult, Outcome
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
+    from pico.edge.attempts import Attempts
+    from pico.edge.protocol import Asking
+    from pico.edge.recovery import SettledOperation
+    from pico.edge.running import Running
+    from pico.model.report import RunReport
+    from pico.runs.journal import Journal
+    from pico.twin.snapshot import Snapshot
+
+OBEYS = 0.02
+"""Seconds of wall time between two looks at whether somebody asked to stop."""
+HALTED = error("halted", "the bench is halted: nothing more is started")
+
+
+class LocalEdge:
+    """The bench of the lab in folder `root`, with its device. It dies with this process, as a killed run does.
+
+    `clock` gives the wall time as ISO 8601, UTC. `settled`: what had begun and was found out about when the bench was
+    taken last.
+    """
+
+    def __init__(self, setup: Setup, root: Path, device: Device, clock: Callable[[], str] = utc_now) -> None:
+        self.setup, self.root, self.device = setup, root, device
+        self.settled: tuple[SettledOperation, ...] = ()
+        self._lock, self._clock = BenchLock(root, clock), clock
+        self._lease: Lease | None = None
+        self._halted = False
+        self._attempts: Attempts | None = None
+        self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
+        self._runs: dict[str, Running] = {}
+        self._running: Running | None = None
+        self._obeying: asyncio.Task[None] | None = None
+        self._journal: Journal | None = None
+
+    async def describe(self) -> Capabilities:
+        """Return what the device can do."""
+        return await self.device.describe()
+
+    async def holder(self) -> Holder | None:
+        """Return who moves the bench, None where nobody does."""
+        return self._lock.holder()
+
+    # looking
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen; raises PicoError where nothing can be seen."""
+        self._require_kept()
+        return self._with_hands(await self.device.observe())
+
+    async def look(self) -> Look:
+        """Look through the cameras and return what they see; raises PicoError where there are none."""
+        self._require_kept()
+        found = await self.device.look()
+        return replace(found, observation=self._with_hands(found.observation))
+
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Acquire a measurable as the bench is, without lease; raises PicoError."""
+        self._require_kept()
+        return await self.device.peek(component, measurable)
+
+    def _with_hands(self, seen: Observation) -> Observation:
+        """Return the observation with what the journal knows of the parts in the hands: where they were picked."""
+        if not any(robot.holding for robot in seen.robots.values()):
+            return seen
+        from pico.edge.grip import with_picks
+
+        with suppress(PicoError):  # looking must not fail because of the journal
+            return with_picks(self.setup, self.journal, seen)
+        return seen
+
+    # who may move it
+
+    async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
+        """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
+        self._halted = False
+        return await self._acquire(holder, wait)
+
+    async def _acquire(self, holder: str, wait: float) -> Lease:
+        from pico.edge.attempts import Attempts
+        from pico.edge.recovery import open_questions, settle
+
+        lease = await self._lock.acquire_within(holder, wait, lambda: self._halted)
+        try:
+            self._require_kept()
+            await self.device.take(lease.token, self._heard)
+            self._attempts, self._lease = Attempts(self.journal, self.device, lease.token), lease
+            self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
+            if asked := open_questions(self.journal.unsettled()):
+                raise PicoError(asked)
+        except BaseException:
+            await self._leave()
+            raise
+        self._obeying = asyncio.create_task(self._obey(lease))
+        return lease
+
+    async def release(self, lease: Lease) -> None:
+        """Give the bench back, once everything under way has ended."""
+        if self._lease is not None and lease.token == self._lease.token:
+            await self._leave()
+
+    async def _leave(self) -> None:
+        while self._under_way:
+            await asyncio.wait(list(self._under_way.values()))
+        if self._obeying is not None:
+            self._obeying.cancel()
+        await self.device.leave()
+        self._lease = self._attempts = self._obeying = None
+        self._lock.release()
+
+    async def _obey(self, lease: Lease) -> None:
+        """Look all the time whether somebody asks at another terminal to stop, and do so."""
+        from pico.edge.stopping import asked_to_stop
+
+        last: Asking | None = None
+        while True:
+            asked = asked_to_stop(self.root, lease.token)
+            if asked is not None and asked != last:
+                last = asked
+                await (self.stop() if asked == "now" else self.halt())
+            await asyncio.sleep(OBEYS)
+
+    # moving
+
+    async def execute(self, operation: Operation, key: str, lease: Lease) -> OperationResult:
+        """Execute one operation, once for each key; cancelling the wait does not cancel the motion.
+
+        Raises PicoError: exit code LOCKED without the current lease, INTERRUPTED on a halted bench, ERROR for a known
+        key with other content or a journal that can't be written.
+        """
+        attempts = self._attempts
+        if attempts is None or self._lease is None or lease.token != self._lease.token:
+            text = f"the lease {lease.token} of {lease.holder} is not the current one"
+            raise PicoError(error("lease", text), ExitCode.LOCKED)
+        if self._halted:
+            raise PicoError(HALTED, ExitCode.INTERRUPTED)
+        if key not in self._under_way:
+            known = attempts.known(operation, key)
+            if known is not None:
+                return known
+            task = self._under_way[key] = asyncio.create_task(attempts.perform(operation, key))
+            task.add_done_callback(lambda _: self._under_way.pop(key, None))
+        return await asyncio.shield(self._under_way[key])
+
+    async def start(self, job: Job, run: str) -> str:
+        """Check a plan again, and start a run of it; see `pico.edge.protocol.Edge`."""
+        from pico.execution.checks import require_allowed, require_applicable, require_current
+
+        if run in self._runs and not job.resumes:
+            if self._runs[run].plan != job.plan.digest:
+                raise PicoError(error("run", f"run {run} is of another plan", hint="start it under a new id"))
+            return run
+        self._halted = False
+        require_applicable(job.plan, await self.describe())
+        running = self._new(job, run)
+        self.device.watch(running.recording.look if running.recording else None)
+        lease = await self._acquire(job.holder, job.wait)
+        try:
+            seen = await self.observe()
+            require_current(self.setup, job.plan, seen)
+            require_allowed(self.setup, job.plan, seen)
+            self._begin(job, run, await self.describe(), lease)
+        except BaseException:
+            await self._leave()
+            raise
+        self._runs[run] = self._running = running
+        running.task = asyncio.create_task(self._carry_out(job, running, lease, seen.time))
+        running.task.add_done_callback(running.over)
+        return run
+
+    def _new(self, job: Job, run: str) -> Running:
+        from pico.edge.running import Running
+        from pico.twin.snapshot import Recording
+
+        return Running(run, job.plan.digest, Recording() if job.filmed else None)
+
+    def _begin(self, job: Job, run: str, able: Capabilities, lease: Lease) -> None:
+        from pico.edge.about import about_run
+
+        about = about_run(self.setup, job.plan, able)
+        if job.resumes:
+            self.journal.resume_run(run, about)
+        else:
+            plan = job.plan
+            self.journal.begin_run(run, plan.digest, lease.holder, document=plan.to_json(), about=about)
+
+    async def _carry_out(self, job: Job, running: Running, lease: Lease, now: float) -> RunReport:
+        """Walk a plan to its end, whoever listens, and return what became of it."""
+        from pico.execution.walk import Walk
+
+        async def execute(operation: Operation, key: str) -> OperationResult:
+            return await self.execute(operation, key, lease)
+
+        began = time.monotonic()
+        walk = Walk(
+            job.plan, execute, lambda event: self._tell(running, event), run=running.id, now=now,
+            stop_on_error=job.stop_on_error,
+        )  # fmt: skip
+        running.walk = walk
+        try:
+            await walk.walk()
+            return await self._reported(job, running, time.monotonic() - began)
+        finally:
+            self._running = None
+            await self.release(lease)
+
+    def _tell(self, running: Running, event: Event) -> None:
+        """Write down how a run ended before anyone hears of it, and log what happens."""
+        try:
+            if event.kind == "run_finished":
+                tally = {k: v for k, v in event.data.items() if k != "outcome"}
+                self.journal.end_run(running.id, event.data["outcome"], tally)
+        finally:  # a journal that is gone must not hide what became of the run
+            running.tell(event)
+
+    async def _reported(self, job: Job, running: Running, wall: float) -> RunReport:
+        """Look at the bench after a run, write down how it stands, and return what became of the run."""
+        from pico.edge.about import seen_after
+        from pico.execution.report import measured, run_report
+
+        able = await self.describe()
+        events = [e for e in running.log if e.kind != "operation_progress"]
+        seen = replace(await self.observe(), measurements=measured(job.plan, events))
+        report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
+        reached = report.whole and report.outcome == "done" and report.reached
+        try:
+            self.journal.saw(running.id, seen_after(seen, report.expectations, reached=reached))
+        except PicoError as exc:  # it must not hide the report
+            return replace(report, diagnostics=(*report.diagnostics, *exc.diagnostics))
+        return report
+
+    def _heard(self, event: Event) -> None:
+        if self._running is not None and self._running.walk is not None:
+            self._running.walk.heard(event)
+
+    def _run(self, run: str) -> Running:
+        if run not in self._runs:
+            raise PicoError(
+                error("no-run", f"no run {run} was started here", hint="`pico runs` lists those that are over")
+            )
+        return self._runs[run]
+
+    async def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:
+        """Yield what happened in a run after its event `since`, and what happens."""
+        async for event in self._run(run).events(since):
+            yield event
+
+    async def report(self, run: str) -> RunReport:
+        """Wait for the end of a run, and return what became of it; raises PicoError for what cut it short."""
+        task = self._run(run).task
+        assert task is not None  # it is known from then on
+        return await asyncio.shield(task)
+
+    async def film(self, run: str) -> list[Snapshot]:
+        """Return what a film of a run shows; empty where it was not filmed."""
+        recording = self._run(run).recording
+        return recording.snapshots if recording else []
+
+    async def cancel(self, run: str) -> None:
+        """Start nothing more of a run, and bring everything to a safe end."""
+        if self._running is not None and self._running.id == run:
+            await self.halt()
+
+    async def halt(self) -> None:
+        """Start nothing more, and wait until what is under way has reached a safe end."""
+        self._interrupt()
+        await self.device.halt()
+
+    async def stop(self) -> None:
+        """Stop everything where it is; grippers hold what they hold. Nothing starts until the bench is taken anew."""
+        self._interrupt()
+        await self.device.stop()
+
+    def _interrupt(self) -> None:
+        self._halted = True
+        if self._running is not None and self._running.walk is not None:
+            self._running.walk.interrupt()
+
+    # remembering
+
+    @property
+    def journal(self) -> Journal:
+        """The journal of the bench, opened when it is first needed; raises PicoError."""
+        if self._journal is None:
+            from pico.runs.journal import Journal
+
+            self._journal = Journal(self._journal_path, self._clock)
+        return self._journal
+
+    @property
+    def memory(self) -> Journal | None:
+        """What the bench remembers of its runs; None where there was none yet."""
+        return self.journal if self._journal_path.exists() else None
+
+    @property
+    def _journal_path(self) -> Path:
+        return bench_folder(self.root) / "journal.sqlite"
+
+    async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
+        """Record what a person says of an operation that only a person can tell the end of; raises PicoError."""
+        with self._lock.held("pico recover") as lease:
+            self.journal.fence(lease.token)
+            asked = {open.key for open in self.journal.unsettled()}
+            if key not in asked:
+                known = ", ".join(sorted(asked)) or "nothing is open"
+                raise PicoError(error("unknown-key", f"nobody asks about {key[:80]}", hint=f"open: {known}"))
+            self.journal.resolve(key, outcome, by, None, lease.token)
+
+    # simulating
+
+    @property
+    def world(self) -> World:
+        """The simulated world, which is locked for each change; raises PicoError where nothing is simulated."""
+        return self.device.world(self._lock.held, self._require_kept)
+
+    def _require_kept(self) -> None:
+        """Raise PicoError where a simulated world is gone, and the journal says that it was moved."""
+        if not self.device.kept() and self._journal_path.exists():
+            from pico.edge.recovery import require_unmoved
+
+            require_unmoved(self._journal_path)
+
+    async def close(self) -> None:
+        """Bring what is under way to its safe end, give the bench back, let go of the journal."""
+        self._interrupt()
+        if self._running is not None and self._running.task is not None:
+            await asyncio.wait([self._running.task])
+        if self._lease is not None:
+            await self._leave()
+        if self._journal is not None:
+            self._journal.close()
+            self._journal = None
+
+
+def embedded(setup: Setup, root: Path, backend: str, fidelity: str, clock: Callable[[], str] = utc_now) -> LocalEdge:
+    """Return the edge in this process of the bench of the lab in `root`; raises PicoError for what there is not."""
+    return LocalEdge(setup, root, opener(backend)(setup, root, fidelity, clock), clock)

@@ -1,0 +1,172 @@
+"""What a client knows of a bench and does to it: a device with a memory. In one process, or at the far end of a link.
+
+Arguments and results are model types, serializable. One contract suite runs on every edge (`tests/edge`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from pico.backends.device import Capabilities
+from pico.backends.world import World
+from pico.model.event import Event
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult, Outcome
+from pico.model.plan import Plan
+from pico.model.record import record
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
+    from pico.model.report import RunReport
+    from pico.runs.memory import Memory
+    from pico.twin.snapshot import Snapshot
+
+
+@record
+class Lease:
+    """The right to move a bench. Every mutating call carries its token; tokens of a bench strictly increase."""
+
+    token: int
+    holder: str
+    since: str
+
+
+@record
+class Holder:
+    """Who has the bench: the lease's token, the user, the process, since when, and what for."""
+
+    token: int
+    user: str
+    pid: int
+    since: str
+    what: str
+
+
+@record
+class Job:
+    """What a run is to do: a plan, for `holder`.
+
+    `resumes`: the run of this id goes on, which is known. `stop_on_error`: the first failure lets nothing more start.
+    `filmed`: what moves is kept for a film. `wait`: so long it waits for the bench where somebody has it [s].
+    """
+
+    plan: Plan
+    holder: str
+    resumes: bool = False
+    stop_on_error: bool = False
+    filmed: bool = False
+    wait: float = 0.0
+
+
+class Edge(Protocol):
+    """One bench. What moves it without the current lease raises PicoError with exit code LOCKED."""
+
+    async def describe(self) -> Capabilities: ...
+
+    async def holder(self) -> Holder | None:
+        """Return who moves the bench, None where nobody does."""
+        ...
+
+    # looking
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen, with what is known of the parts in the hands. Moves nothing."""
+        ...
+
+    async def look(self) -> Look:
+        """Look through the cameras and return what they see; raises PicoError where there are none."""
+        ...
+
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Acquire a measurable as the bench is, without lease, opening nothing: nothing of it is assured, and it enters
+        no trace, expectation or goal. Raises PicoError where it can't be.
+        """
+        ...
+
+    # moving
+
+    async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
+        """Take the bench, within `wait` seconds; raises PicoError (exit code LOCKED) naming who has it.
+
+        What had begun and has no end is settled by looking; raises PicoError where only a person can tell.
+        """
+        ...
+
+    async def release(self, lease: Lease) -> None:
+        """Give the bench back, once everything under way has ended."""
+        ...
+
+    async def execute(self, operation: Operation, key: str, lease: Lease) -> OperationResult:
+        """Execute one operation and return when it has ended; it is journalled before it moves and before this returns.
+
+        `key` is `run id/operation id/attempt`. A known key returns its recorded result and moves nothing; the same
+        key with other content raises PicoError. A failure is a result, not an exception.
+        """
+        ...
+
+    async def start(self, job: Job, run: str) -> str:
+        """Check a plan again, start a run of it under the id `run`, and return that; it ends whoever listens.
+
+        A run that was started already is not started again. Raises PicoError before anything moves: exit code
+        IMPOSSIBLE for a plan with errors, STALE where the bench or the lab changed since it was made, DENIED by the
+        lab's policy, LOCKED where somebody else has the bench, ERROR where the device can't do what the plan asks.
+        """
+        ...
+
+    def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:
+        """Yield what happened in a run after its event `since`, and what happens, up to `run_finished`.
+
+        Raises PicoError for a run that was not started here.
+        """
+        ...
+
+    async def report(self, run: str) -> RunReport:
+        """Wait for the end of a run, and return what became of it; raises PicoError for what cut it short."""
+        ...
+
+    async def film(self, run: str) -> list[Snapshot]:
+        """Return what a film of a run shows that was `filmed`."""
+        ...
+
+    async def cancel(self, run: str) -> None:
+        """Start nothing more of a run, and bring everything to a safe end."""
+        ...
+
+    async def halt(self) -> None:
+        """Dispatch nothing more and bring every robot to a safe waypoint. Needs no lease."""
+        ...
+
+    async def stop(self) -> None:
+        """Stop all motion now, decelerated; grippers hold what they hold. Needs no lease."""
+        ...
+
+    # remembering
+
+    @property
+    def memory(self) -> Memory | None:
+        """What the bench remembers of its runs; None where there was none yet."""
+        ...
+
+    async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
+        """Record what a person says of an operation that only a person can tell the end of.
+
+        Raises PicoError where nobody asks about `key`, and where somebody moves the bench (exit code LOCKED).
+        """
+        ...
+
+    # simulating
+
+    @property
+    def world(self) -> World:
+        """The simulated world; raises PicoError where nothing is simulated."""
+        ...
+
+    async def close(self) -> None:
+        """Let go of everything; what is under way in this process comes to its safe end before."""
+        ...
+
+
+Asking = Literal["safely", "now"]
+"""How a run is stopped from elsewhere. `safely`: as by the first Ctrl-C; `now`: as by the second."""

@@ -1,0 +1,48 @@
+"""A process that serves the edge of a lab, forked from this one."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pico.edge.link.server import serve
+from pico.edge.local import embedded
+from pico.manifest.load import load_folder
+
+
+def _serve(root: Path, fidelity: str, ready: int) -> None:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+    setup, _ = load_folder(root).require()
+    asyncio.run(serve(embedded(setup, root, "sim", fidelity), lambda: os.write(ready, b"1") and None))
+
+
+@contextmanager
+def served(root: Path, fidelity: str = "kinematic") -> Iterator[int]:
+    """Serve the simulated bench of the lab in `root` meanwhile; yields the process."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            os.close(reading)
+            os.setsid()
+            _serve(root, fidelity, writing)
+            code = 0
+        except BaseException as exc:
+            print(f"the edge ended: {exc!r}", file=sys.stderr, flush=True)
+        finally:
+            os._exit(code)
+    os.close(writing)
+    try:
+        assert os.read(reading, 1) == b"1"
+        yield child
+    finally:
+        os.close(reading)
+        os.kill(child, signal.SIGTERM)
+        os.waitpid(child, 0)

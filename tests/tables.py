@@ -1,0 +1,23 @@
+"""Changing a simulated table from outside, as no hand could."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from pico.backends.sim.store import load_world, save_world
+from pico.backends.sim.world import World, new_world
+from pico.edge.lease import BenchLock
+from pico.model.lab import Setup
+
+
+def change_world(setup: Setup, root: Path, holder: str, change: Callable[[World], World]) -> None:
+    """Change the simulated table with the bench locked meanwhile; raises PicoError (LOCKED) where somebody moves it."""
+    with BenchLock(root).held(holder):
+        save_world(root, change(load_world(setup, root)[0]))
+
+
+def reset_world(setup: Setup, root: Path, holder: str) -> None:
+    """Start the simulated table over: every part at home."""
+    with BenchLock(root).held(holder):
+        save_world(root, new_world(setup))
