@@ -27,6 +27,8 @@ _CONTROL_STEPS = 2
 """Steps of the simulation between two set-points of the servos."""
 _PRESSING_STEPS = 50
 """Steps of the simulation in which pads come to press on what they hold: some time constants of contact and finger."""
+_BEARING = 20.0
+"""What the trim of a servo grows by in each of these steps, as a multiple of what its joint gave way by in the step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,10 +116,11 @@ class Twin:
             self.data.ctrl[arm.gripper] = opening / 2000
 
     def _press(self, closed: list[str]) -> None:
-        """Let the pads of these robots press on what they hold, before time begins: all but their fingers keeps still.
+        """Let the pads of these robots press on what they hold, and their arms bear it, before time begins: all but the
+        fingers keeps still.
 
         What is stored of a grip is where arm and part are, not the forces between them: without these a part falls
-        until the pads have come together again.
+        until the pads have come together again, and the arm sinks by what it bears.
         """
         import mujoco
 
@@ -126,6 +129,9 @@ class Twin:
         still = self.data.qpos.copy()
         for _ in range(_PRESSING_STEPS if fingers else 0):
             mujoco.mj_step(self.model, self.data)
+            for arm, drive in ((self._arms[name], self._drives[name]) for name in closed):
+                drive.trim += _BEARING * (still[arm.qpos] - self.data.qpos[arm.qpos])
+                self.data.ctrl[arm.servos] = still[arm.qpos] + drive.trim
             still[fingers], speeds = self.data.qpos[fingers], self.data.qvel[slides]
             self.data.qpos[:], self.data.qvel[:] = still, 0.0
             self.data.qvel[slides] = speeds

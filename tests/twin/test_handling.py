@@ -174,6 +174,7 @@ def test_a_hand_that_stops_dead_in_mid_motion_holds_its_part_as_before_and_sets_
     assert physics.carried("arm1") is not None
     assert later.carried("arm1") == physics.carried("arm1")
     later.advance(0.3)
+    assert later.twin.joints("arm1") == pytest.approx(left.robots["arm1"].joints, abs=5e-5)  # it bears the part
     assert in_hand(later)[0].distance(before[0]) < 0.2
     assert in_hand(later)[1] == pytest.approx(before[1], abs=0.05)
     at_once = PhysicsWorld(setup, left)
