@@ -57,6 +57,7 @@ class LocalEdge:
         self._running: Running | None = None
         self._obeying: asyncio.Task[None] | None = None
         self._journal: Journal | None = None
+        self._memory: Journal | None = None
 
     async def describe(self) -> Capabilities:
         """Return what the device can do."""
@@ -91,7 +92,7 @@ class LocalEdge:
         from pico.edge.grip import with_picks
 
         with suppress(PicoError):  # looking must not fail because of the journal
-            return with_picks(self.setup, self.journal, seen)
+            return with_picks(self.setup, self.memory, seen) if self.memory else seen
         return seen
 
     # who may move it
@@ -314,8 +315,12 @@ class LocalEdge:
 
     @property
     def memory(self) -> Journal | None:
-        """What the bench remembers of its runs; None where there was none yet."""
-        return self.journal if self._journal_path.exists() else None
+        """What the bench remembers of its runs, to be read from any disk; None where there was none yet."""
+        if self._memory is None and self._journal_path.exists():
+            from pico.runs.journal import Journal
+
+            self._memory = Journal(self._journal_path, self._clock, looking=True)
+        return self._memory
 
     @property
     def _journal_path(self) -> Path:
@@ -352,9 +357,10 @@ class LocalEdge:
             await asyncio.wait([self._running.task])
         if self._lease is not None:
             await self._leave()
-        if self._journal is not None:
-            self._journal.close()
-            self._journal = None
+        for journal in (self._journal, self._memory):
+            if journal is not None:
+                journal.close()
+        self._journal = self._memory = None
 
 
 def embedded(setup: Setup, root: Path, backend: str, fidelity: str, clock: Callable[[], str] = utc_now) -> LocalEdge:
