@@ -54,7 +54,7 @@ BUGS = (
     Bug("what began counts as not done", RECOVERY, 'return "done" if there else "failed"', 'return "failed"'),
     Bug("glue may be repeated", RECOVERY, "    if not repeatable(operation):", "    if operation.primitive == '':"),
     Bug("a stale value counts as read", RECOVERY, 'live.status != "known" or', ""),
-    Bug("beside the goal is at the goal", RECOVERY, "return away <= tolerance.position and", "return away <= 100.0 and"),
+    Bug("beside the goal is at the goal", RECOVERY, "Pose(**to[\"pose\"])) != \"off\"", "Pose(**to[\"pose\"])) != \"\""),
     Bug("retried without end", EXECUTOR, "dispatch.attempt >= ATTEMPTS", "dispatch.attempt < 0"),
     Bug("retried under the same key", EXECUTOR,
         "return replace(dispatch, attempt=dispatch.attempt + 1)", "return replace(dispatch, attempt=dispatch.attempt)"),

@@ -247,6 +247,7 @@ def test_the_simulated_world_is_changed_as_by_a_hand(bench: Bench) -> None:
     assert set(bench.sim.true_cameras())
 
 
+@pytest.mark.slow
 def test_cameras_look(bench: Bench) -> None:
     found = bench.scan()
     assert {"p1", "p2"} <= found.sighting.components.keys()

@@ -58,8 +58,9 @@ async def plan_to(backend: LocalEdge, wanted: LabState) -> Plan:
     """Return the plan from the bench as it stands to `wanted`."""
     setup, seen = backend.setup, await backend.observe()
     base = Base(observed_at=seen.observed_at, state=live_state(setup, seen).as_json())
+    able = await backend.describe()
     return plan(
-        setup, seen, wanted, motion=ArmMotion(setup), backend="sim", fidelity="kinematic", base=base,
+        setup, seen, wanted, motion=ArmMotion(setup), backend=able.name, fidelity=able.fidelity, base=base,
         target=Target(state=wanted.as_json()),
     )  # fmt: skip
 

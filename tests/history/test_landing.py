@@ -51,7 +51,7 @@ def never_reversed(root: Path, git: Git, before: str, old: str, new: str) -> Non
     assert head == before or git("rev-parse", "HEAD^").strip() == before
 
 
-@pytest.mark.parametrize("after", [False, True])
+@pytest.mark.parametrize("after", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_killed_at_any_step_nothing_is_lost_or_reversed(repo: Path, git: Git, after: bool) -> None:
     step, ended = 0, False
     while not ended:

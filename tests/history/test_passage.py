@@ -169,7 +169,7 @@ SLOW = pytest.mark.slow
 
 
 @pytest.mark.parametrize(
-    "name", ["merge", "cherry-pick", pytest.param("fast-forward", marks=SLOW), pytest.param("revert", marks=SLOW)]
+    "name", ["merge", *(pytest.param(name, marks=SLOW) for name in ("cherry-pick", "fast-forward", "revert"))]
 )
 def test_killed_while_head_moves_it_is_finished_and_done_again_there_is_nothing_to_do(
     origin: Path, lab: Path, name: str
