@@ -51,6 +51,7 @@ class LocalEdge:
         self._lock, self._clock = BenchLock(root, clock), clock
         self._lease: Lease | None = None
         self._halted = False
+        self._cancelled: set[str] = set()
         self._attempts: Attempts | None = None
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._runs: dict[str, Running] = {}
@@ -99,14 +100,16 @@ class LocalEdge:
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
-        self._halted = False
         return await self._acquire(holder, wait)
 
-    async def _acquire(self, holder: str, wait: float) -> Lease:
+    async def _acquire(self, holder: str, wait: float, run: str = "") -> Lease:
         from pico.edge.attempts import Attempts
         from pico.edge.recovery import open_questions, settle
 
-        lease = await self._lock.acquire_within(holder, wait, lambda: self._halted)
+        self._halted &= self._lease is not None  # what is halted stays so for who has the bench
+        own = self._lease is None
+        lease = await self._lock.acquire_within(holder, wait, lambda: run in self._cancelled or (own and self._halted))
+        self._halted = False
         try:
             self._require_kept()
             await self.device.take(lease.token, self._heard)
@@ -176,11 +179,11 @@ class LocalEdge:
             if self._runs[run].plan != job.plan.digest:
                 raise PicoError(error("run", f"run {run} is of another plan", hint="start it under a new id"))
             return run
-        self._halted = False
+        self._cancelled.discard(run)  # of an earlier time that it was taken up
         require_applicable(job.plan, await self.describe())
         running = self._new(job, run)
         self.device.watch(running.recording.look if running.recording else None)
-        lease = await self._acquire(job.holder, job.wait)
+        lease = await self._acquire(job.holder, job.wait, run)
         try:
             seen = await self.observe()
             require_current(self.setup, job.plan, seen)
@@ -190,6 +193,7 @@ class LocalEdge:
             await self._leave()
             raise
         self._runs[run] = self._running = running
+        self._halted |= run in self._cancelled
         running.task = asyncio.create_task(self._carry_out(job, running, lease, seen.time))
         running.task.add_done_callback(running.over)
         return run
@@ -284,6 +288,7 @@ class LocalEdge:
 
     async def cancel(self, run: str) -> None:
         """Start nothing more of a run, and bring everything to a safe end."""
+        self._cancelled.add(run)
         if self._running is not None and self._running.id == run:
             await self.halt()
 

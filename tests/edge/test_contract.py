@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import shutil
 import stat
 import subprocess
+import sys
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import replace
@@ -19,6 +19,7 @@ from benches import plan_to, shel, sim
 from serving import served
 
 from pico.bench.bench import Bench
+from pico.bench.running.async_execution import AsyncExecution
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.link import place
 from pico.edge.link.client import RemoteEdge
@@ -255,6 +256,28 @@ def test_cameras_look(bench: Bench) -> None:
     assert found.calibration.cameras.keys() >= {frame.camera for frame in found.frames}
 
 
+def test_who_is_interrupted_while_it_waits_does_not_stop_the_one_that_moves(bench: Bench) -> None:
+    plan = bench.plan("e1")
+
+    async def act(edge: Edge) -> None:
+        lease = await edge.acquire("first")
+        waiting = AsyncExecution(plan, edge, wait=30.0)
+        end = asyncio.create_task(anext(aiter(waiting)))
+        await asyncio.sleep(0.1)
+        await waiting.halt()
+        with pytest.raises(PicoError) as caught:
+            await end
+        assert caught.value.exit_code == ExitCode.INTERRUPTED
+        turn = Operation(
+            id="op1", primitive="set", component="p1", arguments={"tunable": "angle", "to": 20.0},
+            reason=Reason(kind="asked"),
+        )  # fmt: skip
+        assert (await edge.execute(turn, "r1/op1/1", lease)).outcome == "done"
+        await edge.release(lease)
+
+    on_edge(bench, act)
+
+
 # only behind a socket
 
 
@@ -263,7 +286,7 @@ def test_only_its_user_reaches_the_socket_and_a_second_server_is_refused(lab: Pa
         path = place.find(lab)
         assert path is not None
         assert stat.S_IMODE(path.lstat().st_mode) == 0o600 and stat.S_IMODE(path.parent.lstat().st_mode) == 0o700
-        words = [os.sys.executable, "-m", "pico.edge.link.server", str(lab)]  # type: ignore[attr-defined]
+        words = [sys.executable, "-m", "pico.edge.link.server", str(lab)]
         second = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
         assert second.returncode == ExitCode.LOCKED and "is served already" in second.stderr
     assert place.find(lab) is None and not path.exists()
@@ -295,7 +318,7 @@ def test_a_lease_ends_with_the_client_that_took_it(lab: Path) -> None:
         "asyncio.run(go())"
     )
     with served(lab), Bench.open(lab) as bench:
-        subprocess.run([os.sys.executable, "-c", code, str(lab)], timeout=60, check=False)  # type: ignore[attr-defined]
+        subprocess.run([sys.executable, "-c", code, str(lab)], timeout=60, check=False)
 
         async def free(edge: Edge) -> None:
             await edge.release(await edge.acquire("next", 10.0))

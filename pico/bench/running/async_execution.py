@@ -61,12 +61,12 @@ class AsyncExecution:
     async def halt(self) -> None:
         """Start nothing more, and bring every robot to a safe waypoint; the events then come to their end."""
         self._cancelled = True
-        await (self._edge.cancel(self.id) if self._begun else self._edge.halt())
+        await self._edge.cancel(self.id)
 
     async def stop(self) -> None:
         """Stop all motion now; the events then come to their end."""
         self._cancelled = True
-        await self._edge.stop()
+        await (self._edge.stop() if self._begun else self._edge.cancel(self.id))  # who waits stops nobody else
 
     async def __aiter__(self) -> AsyncGenerator[Event, None]:
         """Yield the events; raises PicoError, before anything moves, where the plan must not be run."""
