@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -48,6 +48,7 @@ class Session:
     debug: bool = False
     backend: str = SIMULATOR
     lock_timeout: float = 0.0
+    told: list[Diagnostic] = field(default_factory=list, compare=False)
 
     @classmethod
     def of(cls, context: typer.Context) -> Session:
@@ -67,7 +68,7 @@ class Session:
 
             standing[:] = [Standing(bench.root)]
             self.wire(bench.root)
-        self.tell(bench.folder.recovered)
+        self.tell((*bench.folder.recovered, *bench.folder.proposed))
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
@@ -125,9 +126,11 @@ class Session:
             write(sys.stderr, view.text(diagnostics))
 
     def tell(self, diagnostics: Sequence[Diagnostic]) -> None:
-        """Print what came up beside the answer, for people alone: JSON is the answer."""
+        """Print what came up beside the answer, once, for people alone: JSON is the answer."""
+        new = [d for d in diagnostics if d not in self.told]
+        self.told.extend(new)
         if not self.json:
-            self.report(diagnostics)
+            self.report(new)
 
     def require_answer(self, auto_approve: bool) -> None:
         """Raise PicoError where a question would have to be asked and JSON is the answer."""

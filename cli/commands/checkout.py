@@ -61,8 +61,7 @@ def _go(session: Session, bench: Bench, what: str | SelectedParts, plan: Plan, b
     """Bring files and bench there, and return the exit code."""
     if plan.operations:
         require_attached(bench.root)
-    notes = bench.checkout_files(what)
-    session.tell(notes)
+    bench.checkout_files(what)
     if isinstance(what, str):
         session.say(f"\nThe files are at {bench.head_name()}. Go back with `pico checkout {before}`.")
         back = ""
@@ -79,11 +78,10 @@ def _files(session: Session, bench: Bench, what: str | SelectedParts, before: st
     """Bring the files there and nothing else."""
     if isinstance(what, str):
         bench.folder.refuse_edits()
-    notes = bench.checkout_files(what)
+    bench.checkout_files(what)
     if session.json:
         session.document(view.data(what, commit=bench.head_commit()))
         return ExitCode.DONE
-    session.report(notes)
     if isinstance(what, str):
         session.say(f"The files are at {bench.head_name()}; nothing moved: `pico plan` shows what would.")
         session.say(f"Go back with `pico checkout {before} --files-only`.")

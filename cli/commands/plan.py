@@ -68,8 +68,8 @@ def plan(
             next_step=_next(revision, out, _again(target, exclude, prefer), named),
         )
     session.draw(picture, "the plan", lambda path: bench.render(view="top", plan=found, out=path))
-    if not session.json and not explain:
-        session.report(found.diagnostics)
+    if not explain:
+        session.tell(found.diagnostics)
     if found.exit_code:
         return found.exit_code
     return ExitCode.CHANGES if detailed_exitcode and not found.reached else ExitCode.DONE

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.backends.devices import SIMULATOR, opener
 from pico.bench.pictures.pictures import Drawings
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
+from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.history.lab.folder import LabFolder
 from pico.model.address import read_addresses
 from pico.model.diff import Change
@@ -67,7 +67,7 @@ class AsyncBench(Drawings):
         None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
         """
         _require_backend(backend, fidelity, speed)
-        folder = LabFolder(Path(path))
+        folder = LabFolder(Path(path), bench=True)
         if speed is not None:
             robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
             folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
@@ -87,7 +87,7 @@ class AsyncBench(Drawings):
         if self._edge is None:
             from pico.edge.link.opening import opened
 
-            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity)
+            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own)
         return self._edge
 
     async def wait_until_free(self, seconds: float) -> None:
@@ -167,7 +167,7 @@ class AsyncBench(Drawings):
             targets=targets,
             exclude=exclude,
         )
-        told, calibration = manifests.passed_over, calibration_digest(self.root)
+        told, calibration = manifests.told, calibration_digest(self.root)
         if told or calibration:
             found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
         return self.judged(found, seen)
@@ -221,24 +221,16 @@ class AsyncBench(Drawings):
         self.folder.refuse_edits()
         return (await self.plan(revision, exact=exact)).because("checkout")
 
-    def checkout_files(self, revision: str | SelectedParts) -> tuple[Diagnostic, ...]:
+    def checkout_files(self, revision: str | SelectedParts) -> None:
         """Check a revision out with git, or write what is taken from one. Moves nothing; raises PicoError.
 
-        This bench stays what it is, for a revision can't change which parts there are; a warning says so where the
-        revision's own lab differs.
+        This bench stays what it is, for a revision can't change which parts there are.
         """
         if not isinstance(revision, str):
             revision.write(self.folder)
-            return ()
-        bench = self.setup
+            return
         self.folder.history().checkout(revision)
         self.folder.reload()
-        if self.setup.digest() == bench.digest():
-            return ()
-        self.folder.setup = bench
-        text = f"the lab's own files at {revision} describe the bench as it was then"
-        hint = "where parts came or went since: `git checkout BRANCH -- lab.yaml` brings today's bench back"
-        return (warning("lab-differs", text, hint=hint),)
 
     async def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from pico.bench.drift import Drifted
     from pico.bench.importing import Imported
     from pico.bench.publishing import Published
+    from pico.bench.updating import Proposal
     from pico.bench.watching import Told
     from pico.drawing.film.film import Caption
     from pico.drawing.picture import Image, View
@@ -110,7 +111,10 @@ class Bench(Reader):
 
         wanted = importing.read_types(types)
         parts = importing.importable(self._bench, self.scan(), wanted)
-        return importing.take_in(self._bench, parts, write=write)
+        found = importing.take_in(self._bench, parts, write=write)
+        if found.parts and write:
+            self.adopt()
+        return found
 
     def calibrate(self) -> Calibration:
         """Find out where the cameras are, and write it; see `pico.bench.looking.calibrate`."""
@@ -154,6 +158,18 @@ class Bench(Reader):
 
         return self._thread.wait(saved_plans.refreshed(self._bench, plan))
 
+    def proposal(self) -> Proposal:
+        """Return what the working tree would have the bench be; see `pico.bench.updating`."""
+        from pico.bench import updating
+
+        return updating.proposal(self.folder)
+
+    def adopt(self) -> None:
+        """Let the bench adopt what the working tree proposes; see `pico.bench.updating`."""
+        from pico.bench import updating
+
+        self._thread.wait(updating.adopt(self._bench))
+
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is; see `AsyncBench.explain`."""
         return self._bench.explain(plan, component)
@@ -168,9 +184,9 @@ class Bench(Reader):
         """Return the plan to a revision, or to a part of one, that is about to be checked out."""
         return self._thread.wait(self._bench.checkout_plan(revision, exact=exact))
 
-    def checkout_files(self, revision: str | SelectedParts) -> tuple[Diagnostic, ...]:
+    def checkout_files(self, revision: str | SelectedParts) -> None:
         """Check a revision, or a part of one, out. Moves nothing; see `AsyncBench.checkout_files`."""
-        return self._bench.checkout_files(revision)
+        self._bench.checkout_files(revision)
 
     def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive; see `AsyncBench.single`."""

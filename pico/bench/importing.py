@@ -84,16 +84,19 @@ def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity
 
 
 def take_in(bench: AsyncBench, parts: Sequence[Adopted], *, write: bool = True) -> Imported:
-    """Write parts into inventory and state; raises PicoError, before anything is written, where that would be wrong.
+    """Write parts into inventory and state, for the bench to adopt; raises PicoError, before anything is written, where
+    that would be wrong, or where the lab's files propose something else already.
 
     `write`: else only find out whether it could be.
     """
     if not parts:
         return Imported()
+    if bench.folder.proposed:
+        told = bench.folder.proposed[0].summary
+        raise PicoError(error("bench-lab", told, hint="adopt that first: `pico bench update`; or `git restore` it"))
     written = adopt(read_folder(bench.root)[0], parts)
     if write:
         write_all({Path(path): data for path, data in written.items()})
-        bench.folder.reload()
     return Imported(parts=tuple(parts), files=tuple(sorted(written)))
 
 

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
-from pico.execution.stale import differing, stale
+from pico.execution.stale import edited, stale
 from pico.model.diff import diff_states
 from pico.model.plan import Plan
-from pico.model.record import as_json
 from pico.model.state import state_from_json
 
 if TYPE_CHECKING:
@@ -53,8 +52,7 @@ def _edited(bench: AsyncBench, plan: Plan) -> list[str]:
         return []
     if then.digest() != plan.lab.digest:
         return []
-    before, now = (as_json({"lab": s.lab, "types": dict(s.catalog)}) for s in (then, bench.setup))
-    return [path.removeprefix("lab.") for path in differing(before, now)]
+    return edited(then, bench.setup)
 
 
 def _commit(bench: AsyncBench, plan: Plan) -> Iterator[Diagnostic]:

@@ -14,9 +14,10 @@ from pico.attachment import bench_folder
 from pico.backends.device import Capabilities, Device
 from pico.backends.devices import opener
 from pico.backends.world import World
-from pico.diagnostics import ExitCode, PicoError, error
-from pico.edge.lease import BenchLock, utc_now
-from pico.edge.protocol import Holder, Job, Lease
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.edge import own_lab
+from pico.edge.lease import BenchLock, user, utc_now
+from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement
@@ -35,18 +36,30 @@ if TYPE_CHECKING:
 
 OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
+_FIRST = Diagnostic(
+    "note",
+    "bench-lab",
+    "the bench keeps what the lab's files describe as its own Lab from now on",
+    hint="later edits of them only propose another bench: `pico bench update` adopts it",
+)
 HALTED = error("halted", "the bench is halted: nothing more is started")
 
 
 class LocalEdge:
     """The bench of the lab in folder `root`, with its device. It dies with this process, as a killed run does.
 
-    `clock` gives the wall time as ISO 8601, UTC. `settled`: what had begun and was found out about when the bench was
-    taken last.
+    `opening` opens the device of a setup; `lab` is what `setup` was read from, which the bench keeps as its own from
+    the first time that it is taken (None: on trial, nothing is kept). `clock` gives the wall time as ISO 8601, UTC.
+    `settled`: what had begun and was found out about when the bench was taken last.
     """
 
-    def __init__(self, setup: Setup, root: Path, device: Device, clock: Callable[[], str] = utc_now) -> None:
-        self.setup, self.root, self.device = setup, root, device
+    def __init__(
+        self, setup: Setup, root: Path, opening: Callable[[Setup], Device], lab: OwnLab | None = None,
+        clock: Callable[[], str] = utc_now,
+    ) -> None:  # fmt: skip
+        self.setup, self.root, self.device = setup, root, opening(setup)
+        self._opening, self._lab = opening, lab
+        self._first: tuple[Diagnostic, ...] = ()
         self.settled: tuple[SettledOperation, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
         self._lease: Lease | None = None
@@ -67,6 +80,44 @@ class LocalEdge:
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""
         return self._lock.holder()
+
+    async def lab(self) -> OwnLab | None:
+        """Return the Lab of the bench; None on trial."""
+        return self._lab
+
+    async def adopt(self, lab: OwnLab, holder: str) -> None:
+        """Take another Lab as the bench's own; see `pico.edge.protocol.Edge`."""
+        setup = own_lab.setup_of(lab)
+        await self._acquire(holder, 0.0)
+        try:
+            await self._require_hands(setup)
+            self._keep(lab, holder)
+        finally:
+            await self._leave()
+        self.setup, self.device = setup, self._opening(setup)
+
+    async def _require_hands(self, setup: Setup) -> None:
+        for name, robot in (await self.observe()).robots.items():
+            if robot.holding and (robot.holding not in setup.lab.inventory or name not in setup.lab.robots):
+                text = f"{name} holds {robot.holding}, and the Lab to be adopted does not have both"
+                raise PicoError(error("held", text, hint="`pico recover` sets it down"))
+
+    def _keep(self, lab: OwnLab, holder: str) -> None:
+        self._lab = replace(lab, by=f"{user()}: {holder}", at=self._clock())
+        own_lab.write(self.root, self._lab)
+
+    def _require_own(self, holder: str) -> None:
+        """Let the bench keep the Lab that this edge was opened with, where it keeps none yet; raises PicoError (exit
+        code STALE) where it keeps another one by now."""
+        if self._lab is None:
+            return
+        kept = own_lab.read(self.root)
+        if kept is None:
+            self._keep(self._lab, holder)
+            self._first = (_FIRST,)
+        elif kept.files != self._lab.files:
+            text = "the bench's own Lab was changed since this command read it"
+            raise PicoError(error("stale", text, hint="call it again: it plans anew"), ExitCode.STALE)
 
     # looking
 
@@ -112,6 +163,7 @@ class LocalEdge:
         self._halted = False
         try:
             self._require_kept()
+            self._require_own(holder)
             await self.device.take(lease.token, self._heard)
             self._attempts, self._lease = Attempts(self.journal, self.device, lease.token), lease
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
@@ -253,6 +305,7 @@ class LocalEdge:
         seen = replace(await self.observe(), measurements=measured(job.plan, events))
         report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
         reached = report.whole and report.outcome == "done" and report.reached
+        report, self._first = replace(report, diagnostics=(*report.diagnostics, *self._first)), ()
         try:
             self.journal.saw(running.id, seen_after(seen, report.expectations, reached=reached))
         except PicoError as exc:  # it must not hide the report
@@ -368,6 +421,11 @@ class LocalEdge:
         self._journal = self._memory = None
 
 
-def embedded(setup: Setup, root: Path, backend: str, fidelity: str, clock: Callable[[], str] = utc_now) -> LocalEdge:
-    """Return the edge in this process of the bench of the lab in `root`; raises PicoError for what there is not."""
-    return LocalEdge(setup, root, opener(backend)(setup, root, fidelity, clock), clock)
+def embedded(
+    setup: Setup, root: Path, backend: str, fidelity: str, lab: OwnLab | None = None,
+    clock: Callable[[], str] = utc_now,
+) -> LocalEdge:  # fmt: skip
+    """Return the edge in this process of the bench of the lab in `root`, see `LocalEdge`; raises PicoError for what
+    there is not."""
+    opening = opener(backend)
+    return LocalEdge(setup, root, lambda setup: opening(setup, root, fidelity, clock), lab, clock)

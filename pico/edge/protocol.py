@@ -5,7 +5,7 @@ Arguments and results are model types, serializable. One contract suite runs on 
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Mapping
 from typing import TYPE_CHECKING, Literal, Protocol
 
 from pico.backends.device import Capabilities
@@ -45,6 +45,20 @@ class Holder:
 
 
 @record
+class OwnLab:
+    """The Lab that a bench keeps as its own, with its component types: the files that describe it, as text by their
+    path in the lab's folder; who adopted it, and when (empty: it was not adopted yet)."""
+
+    files: Mapping[str, str]
+    by: str = ""
+    at: str = ""
+
+    def as_bytes(self) -> dict[str, bytes]:
+        """Return the files as they stand on a disk."""
+        return {name: text.encode("utf-8", "surrogateescape") for name, text in self.files.items()}
+
+
+@record
 class Job:
     """What a run is to do: a plan, for `holder`.
 
@@ -67,6 +81,17 @@ class Edge(Protocol):
 
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""
+        ...
+
+    async def lab(self) -> OwnLab | None:
+        """Return the Lab of the bench, which the edge owns; None on trial, where nothing is kept."""
+        ...
+
+    async def adopt(self, lab: OwnLab, holder: str) -> None:
+        """Take another Lab as the bench's own, for `holder`, while nobody moves the bench.
+
+        Raises PicoError: exit code LOCKED, STALE where it was changed meanwhile, and for what is wrong with `lab`.
+        """
         ...
 
     # looking

@@ -11,6 +11,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, doubtful, slot_at
 from pico.model.plan import Plan
 from pico.model.pose import angle_between
+from pico.model.record import as_json
 from pico.model.state import LabState, place_of, state_from_json
 
 MOST_PATHS = 6
@@ -33,6 +34,12 @@ def stale(address: str, summary: str) -> Diagnostic:
     """Return the diagnostic that a plan is stale, and why."""
     hint = "plan again; `--refresh` plans anew for the same goal"
     return error("stale", f"the plan is stale: {summary}", address=address, hint=hint)
+
+
+def edited(then: Setup, now: Setup) -> list[str]:
+    """Return what differs in two benches, as `differing` says it: `inventory.p3 added`."""
+    before, after = (as_json({"lab": s.lab, "types": dict(s.catalog)}) for s in (then, now))
+    return [path.removeprefix("lab.") for path in differing(before, after)]
 
 
 def differing(a: Any, b: Any, path: str = "") -> list[str]:

@@ -22,8 +22,10 @@ _MARKS = b"\xef\xbb\xbf\xff\xfe"
 _ASIDE = re.compile(r"[.#]*(.+?)\.ya?ml(?![a-z]).*|[.#]*([^.]+?)(?:\.(?:bak|old|orig|save|off|disabled))?[~# ]*", re.I)
 UNSEEN, GONE = "unseen", "gone"
 AWAY = "delete it, or move it out of the lab's folder"
-PASSED_OVER = (UNSEEN, GONE, "symlink")
-"""Codes of what is said of a file that is not read: of one that nobody can look at, of one deleted, of a link."""
+BENCH_LAB, LAB_DIFFERS = "bench-lab", "lab-differs"
+TOLD = (UNSEEN, GONE, "symlink", BENCH_LAB, LAB_DIFFERS)
+"""Codes of what a plan tells though nothing is wrong: of a file that is not read (one that nobody can look at, one
+deleted, a link), and of files that describe another bench than there is."""
 
 
 @lru_cache(10_000)

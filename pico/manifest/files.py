@@ -26,6 +26,7 @@ from pico.manifest.text.source import Source
 
 MAX_LEVELS = 64
 """Folders in folders."""
+_STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
 _NOT_TEXT = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _UTF8_BOM = b"\xef\xbb\xbf"
 _WIDE = ("not UTF-8 but UTF-16 or UTF-32", "save it as UTF-8")
@@ -46,6 +47,17 @@ def shown_path(path: Path) -> str:
         return str(path.resolve().relative_to(Path.cwd()))
     except (ValueError, OSError):
         return str(path)
+
+
+def states_alone(data: bytes) -> bool:
+    """Return whether a manifest holds states alone, nothing of the bench."""
+    return _STATE_ONLY.search(data) is not None
+
+
+def bench_files(files: Mapping[str, bytes], top: str = "") -> dict[str, bytes]:
+    """Return the files that describe the bench, all that may hold more than states, by path below `top`."""
+    kept = {path: data for path, data in files.items() if not states_alone(data)}
+    return {os.path.relpath(path, top): data for path, data in sorted(kept.items())} if top else kept
 
 
 def read_folder(root: Path) -> tuple[dict[str, bytes], list[Diagnostic]]:

@@ -12,7 +12,7 @@ from pico.diagnostics import Diagnostic, PicoError, SourceRange, error
 from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_broken
 from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
 from pico.manifest.checks.labs import check_lab, check_setup
-from pico.manifest.file_names import PASSED_OVER, misnamed_manifest, named_as_manifest
+from pico.manifest.file_names import TOLD, misnamed_manifest, named_as_manifest
 from pico.manifest.files import decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
 from pico.manifest.state import read_states
@@ -39,9 +39,9 @@ class Manifests:
     documents: Mapping[str, tuple[Document, ...]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
-    def passed_over(self) -> tuple[Diagnostic, ...]:
-        """What is told of files that were not read, or are gone, and is no error."""
-        return tuple(d for d in self.diagnostics if d.code in PASSED_OVER and d.severity != "error")
+    def told(self) -> tuple[Diagnostic, ...]:
+        """What a plan tells of the files though it is no error: of those not read or gone, and of another bench."""
+        return tuple(d for d in self.diagnostics if d.code in TOLD and d.severity != "error")
 
     def source(self, address: str) -> SourceRange | None:
         """Return where an address stands: `p1`, `p1.angle`, `p1.pose.x`, `inventory.p1`, `slots.storage/a1`.

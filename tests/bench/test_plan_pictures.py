@@ -116,6 +116,7 @@ def test_a_ring_is_drawn_as_arrows_between_two(folder: Path) -> None:
     write(table, P2, P2.replace("520", "290"))
     write(table, "  p1:\n    pose:\n      x: 290", "  p1:\n    pose:\n      x: 520")
     with pico.open(folder) as bench:
+        bench.adopt()
         plan = bench.plan()
         assert plan.errored
         assert set(marks(bench.setup, plan)) == {Mark("p1", "p2", "60 mm"), Mark("p2", "p1", "60 mm")}

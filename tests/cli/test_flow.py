@@ -106,9 +106,10 @@ def test_checkout_brings_a_state_back_to_the_bench_as_it_is_now(shel: Path, pico
     pico("apply", "--auto-approve")
     edit(shel / "lab.yaml", "seed: 1", "seed: 2")
     subprocess.run(["git", "commit", "-qam", "another seed"], check=True)
+    assert pico("bench", "update", "--auto-approve").code == 0
     answer = pico("checkout", "e1", "--auto-approve")
     assert answer.code == 0, answer
-    assert "warning[lab-differs]" in answer.err
+    assert "warning[lab-differs]: since e1 the bench was changed: sim.seed 1 → 2" in answer.err
     assert "The bench equals e1." in answer.out
 
 

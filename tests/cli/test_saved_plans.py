@@ -33,6 +33,7 @@ def head_moves(folder: Path, pico: Pico) -> None:
 
 def lab_edited(folder: Path, pico: Pico) -> None:
     edit(folder / "lab.yaml", "beam_height: 70", "beam_height: 70.2")
+    assert pico("bench", "update", "--auto-approve").code == 0
 
 
 def calibrated(folder: Path, pico: Pico) -> None:

@@ -26,8 +26,9 @@ def applied(shel: Path, pico: Pico) -> Path:
     return shel
 
 
-def heal_allowed(folder: Path) -> None:
+def heal_allowed(folder: Path, pico: Pico) -> None:
     edit(folder / "lab.yaml", "policy:\n", HEAL)
+    assert pico("bench", "update", "--auto-approve").code == 0
 
 
 def test_drift_says_who_did_it(applied: Path, pico: Pico) -> None:
@@ -52,6 +53,7 @@ def test_drift_without_a_journal_is_told_too(shel: Path, pico: Pico) -> None:
 
 def test_what_the_policy_ignores_is_no_drift(applied: Path, pico: Pico) -> None:
     edit(applied / "lab.yaml", "policy:\n", IGNORE)
+    assert pico("bench", "update", "--auto-approve").code == 0
     pico("sim", "nudge", "p2", "--dx", "4")
     found = pico("drift")
     assert "No drift" in found.out
@@ -85,7 +87,7 @@ def test_healing_needs_the_policy(applied: Path, pico: Pico) -> None:
 
 
 def test_healing_brings_back_what_a_hand_moved_and_leaves_what_an_operation_did(applied: Path, pico: Pico) -> None:
-    heal_allowed(applied)
+    heal_allowed(applied, pico)
     pico("set", "p1", "angle=60")
     pico("sim", "nudge", "p2", "--dx", "4")
     healed = pico("watch", "--heal", "--looks", "2", "--interval", "0")
@@ -95,7 +97,7 @@ def test_healing_brings_back_what_a_hand_moved_and_leaves_what_an_operation_did(
 
 
 def test_nothing_is_healed_while_somebody_is_at_the_table_or_a_run_goes_on(applied: Path, pico: Pico) -> None:
-    heal_allowed(applied)
+    heal_allowed(applied, pico)
     pico("sim", "nudge", "p2", "--dx", "4")
     pico("sim", "person", "here")
     found = pico("watch", "--heal", "--looks", "2", "--interval", "0")

@@ -10,16 +10,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from pico.edge.link.server import serve
-from pico.edge.local import embedded
-from pico.manifest.load import load_folder
+from pico.edge.link.server import edge_of, serve
 
 
 def _serve(root: Path, fidelity: str, ready: int) -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
-    setup, _ = load_folder(root).require()
-    asyncio.run(serve(embedded(setup, root, "sim", fidelity), lambda: os.write(ready, b"1") and None))
+    asyncio.run(serve(edge_of(root, "sim", fidelity), lambda: os.write(ready, b"1") and None))
 
 
 @contextmanager

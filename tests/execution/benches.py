@@ -51,7 +51,8 @@ def changed(state: LabState, components: Mapping[str, Mapping[str, Any]]) -> Lab
 def sim(setup: Setup, root: Path, **options: Any) -> LocalEdge:
     """Return the simulated bench in folder `root`, at noon."""
     clock = options.pop("clock", lambda: NOON)
-    return LocalEdge(setup, root, SimDevice(setup, root, **{"fidelity": "kinematic", "clock": clock} | options), clock)
+    given = {"fidelity": "kinematic", "clock": clock} | options
+    return LocalEdge(setup, root, lambda setup: SimDevice(setup, root, **given), clock=clock)
 
 
 async def plan_to(backend: LocalEdge, wanted: LabState) -> Plan:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.execution.stale import differing
+from pico.execution.stale import edited
 from pico.history.lab.missing_files import missing_files
 from pico.history.merge.checked import overlapping
 from pico.history.merge.doubts import unsettled
@@ -17,7 +17,6 @@ from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
 from pico.model.lab import Setup
-from pico.model.record import as_json
 from pico.model.state import LabState, home_state
 
 
@@ -115,7 +114,4 @@ def start(setup: Setup, before: Origin) -> tuple[LabState, tuple[str, ...]]:
 
 def bench_changes(setup: Setup, before: Origin) -> tuple[str, ...]:
     """Return what differs in the lab and in its component types: `table.beam_height 70 → 75`."""
-    if before.setup is None:
-        return ()
-    then, now = (as_json({"lab": s.lab, "types": dict(s.catalog)}) for s in (before.setup, setup))
-    return tuple(path.removeprefix("lab.") for path in differing(then, now))
+    return tuple(edited(before.setup, setup)) if before.setup else ()

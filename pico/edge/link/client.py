@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pico.backends.device import Capabilities
 from pico.diagnostics import PicoError, error
 from pico.edge.link import wire
-from pico.edge.protocol import Holder, Job, Lease
+from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -188,6 +188,15 @@ class RemoteEdge:
         """Return who moves the bench, None where nobody does."""
         found: Holder | None = await self._call("holder")
         return found
+
+    async def lab(self) -> OwnLab | None:
+        """Return the Lab of the bench."""
+        found: OwnLab | None = await self._call("lab")
+        return found
+
+    async def adopt(self, lab: OwnLab, holder: str) -> None:
+        """Take another Lab as the bench's own."""
+        await self._call("adopt", lab, holder)
 
     async def observe(self) -> Observation:
         """Look, and return what was seen."""

@@ -8,22 +8,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.attachment import bench_folder
-from pico.edge.local import embedded
 from pico.model.lab import Setup
 
 if TYPE_CHECKING:
-    from pico.edge.protocol import Edge
+    from pico.edge.protocol import Edge, OwnLab
     from pico.runs.memory import Memory
 
 
-def opened(setup: Setup, root: Path, backend: str, fidelity: str) -> Edge:
+def opened(setup: Setup, root: Path, backend: str, fidelity: str, lab: OwnLab | None = None) -> Edge:
     """Return the edge of the bench of the lab in `root`: the one that serves it, else one in this process.
 
-    Raises PicoError for a backend that there is not.
+    `lab`: what `setup` was read from. Raises PicoError for a backend that there is not.
     """
     socket = _served(root)
     if socket is None:
-        return embedded(setup, root, backend, fidelity)
+        from pico.edge.local import embedded
+
+        return embedded(setup, root, backend, fidelity, lab)
     from pico.edge.link.client import RemoteEdge
 
     return RemoteEdge(socket)
@@ -35,6 +36,20 @@ def _served(root: Path) -> Path | None:
     from pico.edge.link.place import find
 
     return find(root)
+
+
+def own_lab(root: Path) -> OwnLab | None:
+    """Return the Lab that the bench of the lab in `root` keeps as its own; None where it keeps none yet. Raises
+    PicoError where it can't be read."""
+    socket = _served(root)
+    if socket is None:
+        from pico.edge import own_lab
+
+        return own_lab.read(root)
+    from pico.edge.link.client import Line
+
+    found: OwnLab | None = Line(socket).call("lab")
+    return found
 
 
 @contextmanager

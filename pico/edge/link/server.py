@@ -18,9 +18,10 @@ from typing import Any
 
 from pico.backends.devices import SIMULATOR
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.edge import own_lab
 from pico.edge.link import place, wire
 from pico.edge.link.pictures import Arrays, look_as_json, packed
-from pico.edge.local import LocalEdge
+from pico.edge.local import LocalEdge, embedded
 from pico.edge.protocol import Lease
 from pico.model.record import as_json
 from pico.vision.calibration import Calibration
@@ -161,19 +162,21 @@ async def serve(edge: LocalEdge, ready: Callable[[], None] = lambda: None) -> No
         await server.close()
 
 
+def edge_of(root: Path, backend: str, fidelity: str) -> LocalEdge:
+    """Return the edge to be served of the lab in `root`, by the Lab that its bench keeps, else by the lab's files."""
+    lab = own_lab.read(root) or own_lab.proposed(root)
+    return embedded(own_lab.setup_of(lab), root, backend, fidelity, lab)
+
+
 def main() -> int:
     """Serve the bench of a lab."""
-    from pico.edge.local import embedded
-    from pico.manifest.load import load_folder
-
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lab", type=Path)
     parser.add_argument("--backend", default=SIMULATOR)
     parser.add_argument("--fidelity", default="kinematic")
     given = parser.parse_args()
     try:
-        setup, _ = load_folder(given.lab).require()
-        edge = embedded(setup, given.lab, given.backend, given.fidelity)
+        edge = edge_of(given.lab, given.backend, given.fidelity)
         with suppress(KeyboardInterrupt):
             asyncio.run(serve(edge))
     except PicoError as exc:

@@ -12,7 +12,7 @@ from typing import Any
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.edge.protocol import Holder, Job, Lease
+from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -29,6 +29,8 @@ Triple = tuple[float, float, float]
 CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "describe": ((), Capabilities),
     "holder": ((), Holder | None),
+    "lab": ((), OwnLab | None),
+    "adopt": ((OwnLab, str), None),
     "observe": ((), Observation),
     "look": ((), dict[str, Any]),
     "peek": ((str, str), Measurement),

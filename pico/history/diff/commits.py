@@ -10,9 +10,9 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.history.git.commit import Commit
 from pico.history.git.trees import Odd, manifests, subtree
 from pico.history.git.unread import unread_at
-from pico.history.lab.folder import STATE_ONLY, CommitEntry, LabFolder, between
+from pico.history.lab.folder import CommitEntry, LabFolder, between
 from pico.manifest.bench_view import BenchView, view_of
-from pico.manifest.files import decode
+from pico.manifest.files import decode, states_alone
 from pico.manifest.load import load_files
 from pico.manifest.state import read_states
 from pico.manifest.text.kinds import kind_of
@@ -110,7 +110,7 @@ class CommitDiffs:
     def _kind(self, name: str) -> Kind:
         if name not in self._kinds:
             data = self.repository.blob(name)
-            self._kinds[name] = "foreign" if b"pico/" not in data else "state" if STATE_ONLY.search(data) else "bench"
+            self._kinds[name] = "foreign" if b"pico/" not in data else "state" if states_alone(data) else "bench"
         return self._kinds[name]
 
     def _bench(self, key: BenchFiles) -> tuple[Setup, BenchView]:

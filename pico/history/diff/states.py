@@ -8,10 +8,10 @@ from pathlib import Path
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.diff.manifests import diff_files
 from pico.history.diff.surroundings import components_in
-from pico.history.lab.folder import STATE_ONLY, LabFolder, between
+from pico.history.lab.folder import LabFolder, between
 from pico.history.lab.scope import Scope
 from pico.history.repository.ranges import ends_of
-from pico.manifest.files import read_folder
+from pico.manifest.files import read_folder, states_alone
 from pico.model.diff import Change
 from pico.model.record import record
 
@@ -82,7 +82,7 @@ def _files(folder: LabFolder, revision: str | None) -> Mapping[str, bytes]:
 
 
 def _of_bench(data: bytes | None) -> bool:
-    return data is not None and b"pico/" in data and not STATE_ONLY.search(data)
+    return data is not None and b"pico/" in data and not states_alone(data)
 
 
 def _only_text(old: bytes, new: bytes, path: Path) -> bool:

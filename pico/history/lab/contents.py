@@ -94,7 +94,7 @@ def commit(
             raise PicoError([*repository.noticed, nothing(named)])
         written = [write_once(folder.root, path, data) for path, data in sorted(runs.items())]
         digest, lab = content.state.digest(), folder.setup.lab
-        added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {folder.setup.digest()}")]
+        added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {folder.described.digest()}")]
         added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
         text = with_trailers(message, added)
         before = repository.head().commit

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import os
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
@@ -13,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.attachment import own_folder
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.execution.stale import edited as edited_lab
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
 from pico.history.lab.files import write_file
@@ -22,7 +21,8 @@ from pico.history.lab.notes import Note, note_path, notes, read_note, require_pa
 from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
-from pico.manifest.files import read_folder, shown_path
+from pico.manifest.file_names import BENCH_LAB, LAB_DIFFERS
+from pico.manifest.files import bench_files, read_folder, shown_path, states_alone
 from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named
 from pico.model.diff import Change, diff_states
@@ -31,16 +31,15 @@ from pico.model.record import record
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
+    from pico.edge.protocol import OwnLab
     from pico.history.repository.repository import Repository
     from pico.model.proof import Standing
     from pico.model.report import Captured
     from pico.model.run import Run
 
-STATE_ONLY = re.compile(rb"\A(?!.*^kind:\s*(?:Lab|ComponentType)\s*$).*^kind:\s*LabState", re.MULTILINE | re.DOTALL)
-"""Matches the content of a file that holds states alone, nothing of the bench."""
-
 FULL = 40
 """Digits of the whole id of a commit."""
+BenchFiles = tuple[tuple[str, bytes], ...]
 
 
 @record
@@ -71,12 +70,17 @@ class LabFolder:
 
     For its `history` alone, wrong manifests (a merge may be going on) are no reason to refuse: bench and state are then
     those of HEAD, and `wrong` says what is wrong.
+
+    With `bench`, its `setup` is what the bench keeps as its own Lab (`own`), whatever the working tree says, which only
+    proposes another one; where it keeps none yet, what the working tree says now. Else `own` is None.
     """
 
-    def __init__(self, path: Path, *, history: bool = False) -> None:
+    def __init__(self, path: Path, *, history: bool = False, bench: bool = False) -> None:
         self.root = find_lab(path)
         own_folder(self.root)
-        self._benches: dict[tuple[tuple[str, bytes], ...], Setup | None] = {}
+        self.own = _kept(self.root) if bench else None
+        self._keeps = bench
+        self._benches: dict[BenchFiles, Setup | None] = {}
         self._files: dict[str, bytes] = {}
         self._historic: dict[str, tuple[Setup, LabState]] = {}
         self._writing = False
@@ -99,17 +103,53 @@ class LabFolder:
     def reload(self) -> None:
         """Read the manifests again, after somebody wrote them; raises PicoError where they are wrong.
 
-        `setup`: the bench as it is now, with its types; `state`: the desired state, what the working tree says.
+        `setup`: the bench as it is now, with its types; `described`: the one that the working tree describes; `state`:
+        the desired state, what the working tree says.
         """
         files, found = read_folder(self.root)
         if files == self._files and not found:
             return
         found += missing_files(self.root, files, found, lambda: self.repository)
         shown = shown_path(self.root)
-        bench = _bench_of({os.path.relpath(p, shown): data for p, data in files.items()})
+        describing = bench_files(files, shown)
+        if self.own is not None and self.own.as_bytes() != describing:
+            self._adopt(files, self._against_own(files, found, shown))
+            return
+        bench = tuple(describing.items())
         known = self._benches.get(bench) if self._files and not found else None
         self._adopt(files, self._read(files, known) if known else load_files(files, found, root=shown))
-        self._benches[bench] = self.setup
+        self.described = self._benches[bench] = self.setup
+        if self._keeps and self.own is None:
+            from pico.edge.own_lab import of_files
+
+            self.own = of_files(describing)
+
+    def adopt(self, own: OwnLab) -> None:
+        """Read the manifests again, against what the bench keeps as its own Lab from now on; raises PicoError."""
+        self.own, self._files = own, {}
+        self.reload()
+
+    def _against_own(self, files: Mapping[str, bytes], found: list[Diagnostic], shown: str) -> Manifests:
+        """Return the manifests with their states read against the bench's own Lab, and what else theirs proposes."""
+        from pico.edge.own_lab import setup_of
+
+        assert self.own is not None
+        own, whole = setup_of(self.own), load_files(files, found, root=shown)
+        self.described = whole.setup or own
+        if whole.setup and whole.setup.digest() == own.digest():
+            return whole
+        wrong = load_files(bench_files(files), root=shown).diagnostics
+        read = load_files(files, found, setup=own)
+        told = [d for d in wrong if d.code != "no-state" and d not in read.diagnostics]
+        if whole.setup:
+            told.append(_proposal(own, whole.setup, whole))
+        hinted = (_to_adopt(d, self.described) for d in read.diagnostics)
+        return replace(read, diagnostics=(*told, *hinted))
+
+    @property
+    def proposed(self) -> tuple[Diagnostic, ...]:
+        """That the working tree describes another bench than this one keeps as its own Lab; empty where it does not."""
+        return tuple(d for d in self.manifests.diagnostics if d.code == BENCH_LAB)
 
     def state_now(self) -> LabState | None:
         """Return what the manifests say now of this bench, which stays as it was read; None where they are wrong."""
@@ -122,7 +162,7 @@ class LabFolder:
     def _read(self, files: Mapping[str, bytes], setup: Setup) -> Manifests:
         """Return manifests of which only states may have changed since the last time."""
         read = load_files(files, setup=setup)
-        states = {p for p, data in files.items() if STATE_ONLY.search(data)}
+        states = {p for p, data in files.items() if states_alone(data)}
         kept = tuple(d for d in self.manifests.diagnostics if d.source is None or d.source.path not in states)
         return replace(read, diagnostics=(*kept, *read.diagnostics))
 
@@ -176,7 +216,11 @@ class LabFolder:
             raise PicoError([_no_revision(d, revision, self.setup) for d in exc.diagnostics]) from exc
         found += gone_at(self.history(), self.root, revision, files)
         manifests = load_files(_named(revision, files), found, setup=self.setup)
-        return replace(manifests, diagnostics=tuple(_at_revision(d, revision) for d in manifests.diagnostics))
+        told = [_at_revision(d, revision) for d in manifests.diagnostics]
+        then = self._bench_at(revision, files)
+        if then is not None and then.digest() != self.setup.digest():
+            told.append(_differs(then, self.setup, revision))
+        return replace(manifests, diagnostics=tuple(told))
 
     def historic(self, revision: str) -> tuple[Setup, LabState]:
         """Return the bench and the state as a revision holds them, both as they were then; raises PicoError.
@@ -187,14 +231,18 @@ class LabFolder:
             return self._historic[revision]
         unread: list[Diagnostic] = []
         files = self.history().files(revision, self.root, unread)
-        bench = _bench_of(files)
-        if bench not in self._benches:
-            self._benches[bench] = load_files(_named(revision, files)).setup
-        setup = self._benches[bench]
+        setup = self._bench_at(revision, files)
         found = load_files(_named(revision, files), unread, setup=setup or self.setup).require()
         if setup and len(revision) == FULL:  # the whole id of a commit means the same for ever
             self._historic = {**dict([*self._historic.items()][-3:]), revision: found}
         return found
+
+    def _bench_at(self, revision: str, files: Mapping[str, bytes]) -> Setup | None:
+        """Return the bench that the files of a revision describe; None where they describe none."""
+        bench = tuple(bench_files(files).items())
+        if bench not in self._benches:
+            self._benches[bench] = load_files(_named(revision, files)).setup
+        return self._benches[bench]
 
     def committed(self) -> LabState | None:
         """Return the state at HEAD, as far as the bench as it is now has its parts and slots.
@@ -316,9 +364,30 @@ class LabFolder:
         return self.notes(part)[-1]
 
 
-def _bench_of(files: Mapping[str, bytes]) -> tuple[tuple[str, bytes], ...]:
-    """Return the files that describe the bench: all that may hold more than states."""
-    return tuple(sorted((p, data) for p, data in files.items() if not STATE_ONLY.search(data)))
+def _kept(root: Path) -> OwnLab | None:
+    from pico.edge.link.opening import own_lab
+
+    return own_lab(root)
+
+
+def _proposal(own: Setup, described: Setup, read: Manifests) -> Diagnostic:
+    """Return that the working tree describes another bench than this one keeps as its own."""
+    text = f"this bench is not the one that the lab's files describe: {', '.join(edited_lab(own, described))}"
+    hint = "it counts as it is; `pico bench update` shows the difference, and lets the bench adopt it"
+    source = read.source("name") or read.source("inventory")
+    return warning(BENCH_LAB, text, hint=hint, source=source)
+
+
+def _to_adopt(d: Diagnostic, described: Setup) -> Diagnostic:
+    """Return a diagnostic of a state; what the bench lacks, the working tree may propose."""
+    if d.code != "unknown-component" or d.address.partition(".")[0] not in described.lab.inventory:
+        return d
+    return replace(d, hint="the working tree's inventory has it, the bench not yet: `pico bench update` adopts it")
+
+
+def _differs(then: Setup, now: Setup, revision: str) -> Diagnostic:
+    text = f"since {revision} the bench was changed: {', '.join(edited_lab(then, now))}"
+    return warning(LAB_DIFFERS, text, hint="planned for the bench as it is now")
 
 
 def _named(revision: str, files: Mapping[str, bytes]) -> dict[str, bytes]:

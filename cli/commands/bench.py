@@ -1,0 +1,49 @@
+"""The simulator, and the rest, 11: `pico bench update`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode
+
+from ..arguments import Yes
+from ..session import Session
+from ..views import proposal as view
+
+app = typer.Typer(
+    rich_markup_mode=None, no_args_is_help=True, help="What the bench itself keeps: its own Lab, which plans go by."
+)
+
+Detailed = Annotated[bool, typer.Option("--dry-run", help="Show what differs, and adopt nothing.")]
+
+
+@app.callback()
+def _group() -> None: ...
+
+
+@app.command()
+def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed = False) -> int:
+    """Show where the lab's files describe another bench than there is, and let the bench adopt that.
+
+    The bench keeps its Lab (table, inventory, robots, cameras, policy, its component types) since it was moved first:
+    plan and apply go by it, also at an old commit. An edited lab.yaml is a proposal until it is adopted here. Nothing
+    moves. Exit code 1 where somebody says no, 5 where the bench is in use.
+    """
+    session = Session.of(context)
+    bench = session.bench(writing=not dry_run)
+    found = bench.proposal()
+    if not found.new or dry_run:
+        session.show(view, found, adopted=False)
+        return ExitCode.DONE
+    session.require_answer(auto_approve)
+    session.say(view.text(found, adopted=False))
+    if not session.confirm("\nAdopt it as the bench's own Lab?", auto_approve):
+        session.say("Nothing adopted: the bench stays what it is.")
+        return ExitCode.ERROR
+    bench.adopt()
+    if session.json:
+        session.document(view.data(found, adopted=True))
+    session.say("Adopted: plans go by it from now on. `pico plan` shows what differs now.")
+    return ExitCode.DONE
