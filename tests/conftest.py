@@ -1,11 +1,14 @@
 """Properties draw the same examples in every CI run, and new ones on a developer's machine. The command line in
-process: `pico("plan", "e1")` gives exit code, output and errors."""
+process: `pico("plan", "e1")` gives exit code, output and errors. An arm is asked once for a path: see `asked_once`."""
 
 import os
+import subprocess
+from pathlib import Path
 
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a process that a test starts does not compile everything anew
 
 import pytest
+from asked_once import ASKING, once
 from commanding import Answer, Pico
 from hypothesis import settings
 
@@ -25,3 +28,20 @@ def pico(capsys: pytest.CaptureFixture[str]) -> Pico:
         return Answer(int(code), captured.out, captured.err)
 
     return call
+
+
+@pytest.fixture(scope="session")
+def case_study(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The case study in a repository, to be copied; its objects are in one pack, so that a copy has few files."""
+    from pico.history.examples.example import make_example
+
+    root = make_example("shel", tmp_path_factory.mktemp("case_study") / "shel").root
+    subprocess.run(["git", "gc", "-q"], cwd=root, check=True)
+    return root
+
+
+@pytest.fixture(autouse=True)
+def _asked_once(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where motion is not what is tested, no arm is asked again for a path that it has found before."""
+    if not ASKING.isdisjoint(request.path.parts):
+        once(monkeypatch)

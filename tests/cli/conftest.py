@@ -8,14 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from pico.history.examples.example import make_example
 from pico.history.git.attributes import install
 
 
 @pytest.fixture(scope="session")
-def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def example(case_study: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("example") / "shel"
-    make_example("shel", folder)
+    shutil.copytree(case_study, folder)
     install(folder)
     return folder
 

@@ -10,8 +10,6 @@ from pathlib import Path
 import pytest
 from giving import Git
 
-from pico.history.examples.example import make_example
-
 
 @pytest.fixture(autouse=True)
 def _own_configuration(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -63,14 +61,8 @@ def repo(git: Git, tmp_path: Path) -> Path:
     return root
 
 
-@pytest.fixture(scope="module")
-def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the case study in a repository, to be copied."""
-    return make_example("shel", tmp_path_factory.mktemp("example") / "shel").root
-
-
 @pytest.fixture
-def lab(example: Path, tmp_path: Path) -> Path:
+def lab(case_study: Path, tmp_path: Path) -> Path:
     """Return a copy of the case study, where `git` runs."""
-    shutil.copytree(example, tmp_path / "repo")
+    shutil.copytree(case_study, tmp_path / "repo")
     return tmp_path / "repo"

@@ -10,16 +10,9 @@ from pathlib import Path
 import pytest
 from changing import Lab
 
-from pico.history.examples.example import make_example
-
-
-@pytest.fixture(scope="session")
-def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_example("shel", tmp_path_factory.mktemp("example") / "shel").root
-
 
 @pytest.fixture
-def lab(template: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lab:
+def lab(case_study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lab:
     """The example on a branch `change` of main; no git configuration, no continuous integration."""
     for name in [n for n in os.environ if n.startswith(("CI_", "GITHUB_"))]:
         monkeypatch.delenv(name)
@@ -28,7 +21,7 @@ def lab(template: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lab:
         monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
     monkeypatch.setenv("GIT_CONFIG_SYSTEM", os.devnull)
-    shutil.copytree(template, tmp_path / "shel")
+    shutil.copytree(case_study, tmp_path / "shel")
     found = Lab(tmp_path / "shel")
     subprocess.run(["git", "checkout", "-q", "-b", "change"], cwd=found.root, check=True)
     monkeypatch.chdir(found.root)
