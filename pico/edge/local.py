@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
 OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
+KNOWN = 32
+"""Runs whose events are kept in memory, for who follows them; the journal remembers all."""
 _FIRST = Diagnostic(
     "note",
     "bench-lab",
@@ -175,6 +177,15 @@ class LocalEdge:
         self._obeying = asyncio.create_task(self._obey(lease))
         return lease
 
+    async def steal(self, holder: str) -> Lease:
+        """Take the bench from whoever has it here, at a safe end; see `pico.edge.protocol.Edge`."""
+        if self._lease is not None:
+            await self.halt()
+            await self._ended()
+        if self._lease is not None:
+            await self._leave()
+        return await self._acquire(holder, 0.0)
+
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
         if self._lease is not None and lease.token == self._lease.token:
@@ -244,6 +255,9 @@ class LocalEdge:
         except BaseException:
             await self._leave()
             raise
+        over = [old for old, known in self._runs.items() if known.task is not None and known.task.done()]
+        for old in over[: -KNOWN + 1]:
+            del self._runs[old]
         self._runs[run] = self._running = running
         self._halted |= run in self._cancelled
         running.task = asyncio.create_task(self._carry_out(job, running, lease, seen.time))
@@ -284,6 +298,7 @@ class LocalEdge:
             return await self._reported(job, running, time.monotonic() - began)
         finally:
             self._running = None
+            self._cancelled.discard(running.id)
             await self.release(lease)
 
     def _tell(self, running: Running, event: Event) -> None:
@@ -408,11 +423,14 @@ class LocalEdge:
 
             require_unmoved(self._journal_path)
 
+    async def _ended(self) -> None:
+        if self._running is not None and self._running.task is not None:
+            await asyncio.wait([self._running.task])
+
     async def close(self) -> None:
         """Bring what is under way to its safe end, give the bench back, let go of the journal."""
         self._interrupt()
-        if self._running is not None and self._running.task is not None:
-            await asyncio.wait([self._running.task])
+        await self._ended()
         if self._lease is not None:
             await self._leave()
         for journal in (self._journal, self._memory):

@@ -1,0 +1,131 @@
+"""Who may move a bench, in this process and behind a socket: the lease is taken, stolen, and halted by others."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from typing import Any
+
+import pytest
+from serving import served
+
+from pico.diagnostics import ExitCode, PicoError
+from pico.edge import local
+from pico.edge.link import place
+from pico.edge.link.client import RemoteEdge
+from pico.edge.link.server import edge_of
+from pico.edge.protocol import Edge, Job
+from pico.history.examples.example import make_example
+from pico.model.operation import Operation, Reason
+from pico.planning import set_one
+
+Acting = Callable[[Callable[[Edge], Awaitable[Any]]], Any]
+
+
+@pytest.fixture(params=["in this process", "behind a socket"])
+def on_edge(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Acting]:
+    root = make_example("shel", tmp_path / "shel").root
+    behind = request.param == "behind a socket"
+
+    async def go(act: Callable[[Edge], Awaitable[Any]]) -> Any:
+        path = place.find(root)
+        edge: Edge = RemoteEdge(path) if path else edge_of(root, "sim", "kinematic")
+        try:
+            return await asyncio.wait_for(act(edge), 60)
+        finally:
+            await edge.close()
+
+    with served(root) if behind else nullcontext():
+        yield lambda act: asyncio.run(go(act))
+
+
+def turn(angle: float) -> Operation:
+    return Operation(
+        id="op1", primitive="set", component="p1", arguments={"tunable": "angle", "to": angle},
+        reason=Reason(kind="asked"),
+    )  # fmt: skip
+
+
+@contextmanager
+def refused(code: ExitCode) -> Iterator[None]:
+    with pytest.raises(PicoError) as caught:
+        yield
+    assert caught.value.exit_code == code
+
+
+def test_a_lease_that_was_stolen_moves_nothing_any_more(on_edge: Acting) -> None:
+    async def act(edge: Edge) -> None:
+        first = await edge.acquire("first")
+        second = await edge.steal("second")
+        assert second.token > first.token
+        holder = await edge.holder()
+        assert holder is not None and holder.what == "second"
+        with refused(ExitCode.LOCKED):
+            await edge.execute(turn(20.0), "r1/op1/1", first)
+        await edge.release(first)
+        assert (await edge.execute(turn(30.0), "r1/op1/2", second)).outcome == "done"
+        await edge.release(second)
+        assert await edge.holder() is None
+
+    on_edge(act)
+
+
+def test_nobody_needs_to_have_what_is_stolen(on_edge: Acting) -> None:
+    async def act(edge: Edge) -> None:
+        await edge.release(await edge.steal("first"))
+
+    on_edge(act)
+
+
+def test_a_run_that_is_stolen_from_comes_to_its_safe_end(on_edge: Acting) -> None:
+    async def act(edge: Edge) -> None:
+        own = await edge.lab()
+        assert own is not None
+        setup = local.own_lab.setup_of(own)
+        plan = set_one(setup, await edge.observe(), "p1", "angle", 77.0, backend="sim", fidelity="kinematic")
+        await edge.start(Job(plan=plan, holder="pico apply"), "r1")
+        lease = await edge.steal("somebody")
+        assert (await edge.report("r1")).outcome in ("interrupted", "done")
+        assert (await edge.execute(turn(30.0), "r2/op1/1", lease)).outcome == "done"
+        await edge.release(lease)
+
+    on_edge(act)
+
+
+def test_who_asks_for_a_bench_does_not_lift_the_halt_of_another(on_edge: Acting) -> None:
+    async def act(edge: Edge) -> None:
+        lease = await edge.acquire("first")
+        await edge.halt()
+        with refused(ExitCode.LOCKED):
+            await edge.acquire("second")
+        with refused(ExitCode.INTERRUPTED):
+            await edge.execute(turn(20.0), "r1/op1/1", lease)
+        await edge.release(lease)
+        later = await edge.acquire("second")
+        assert (await edge.execute(turn(20.0), "r1/op1/2", later)).outcome == "done"
+        await edge.release(later)
+
+    on_edge(act)
+
+
+def test_only_the_last_runs_are_kept_for_who_follows_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(local, "KNOWN", 3)
+    root = make_example("shel", tmp_path / "shel").root
+
+    async def act() -> None:
+        edge = edge_of(root, "sim", "kinematic")
+        for number in range(6):
+            seen, angle = await edge.observe(), 10.0 + number
+            plan = set_one(edge.setup, seen, "p1", "angle", angle, backend="sim", fidelity="kinematic")
+            await edge.start(Job(plan=plan, holder="test"), f"r{number}")
+            await edge.report(f"r{number}")
+        assert len([event async for event in edge.events("r5")]) > 2
+        assert len([event async for event in edge.events("r3")]) > 2
+        with pytest.raises(PicoError, match="no run r2 was started here"):
+            await edge.report("r2")
+        assert edge.memory is not None and len(edge.memory.runs()) == 6
+        await edge.close()
+
+    asyncio.run(act())
