@@ -90,7 +90,7 @@ class LocalEdge:
     async def adopt(self, lab: OwnLab, holder: str) -> None:
         """Take another Lab as the bench's own; see `pico.edge.protocol.Edge`."""
         setup = own_lab.setup_of(lab)
-        await self._acquire(holder, 0.0)
+        await self._acquire(holder, 0.0, "adopting")
         try:
             await self._require_hands(setup)
             self._keep(lab, holder)
@@ -174,17 +174,8 @@ class LocalEdge:
         except BaseException:
             await self._leave()
             raise
-        self._obeying = asyncio.create_task(self._obey(lease))
+        self._obeying = asyncio.create_task(self._obey(lease, idle=not run))
         return lease
-
-    async def steal(self, holder: str) -> Lease:
-        """Take the bench from whoever has it here, at a safe end; see `pico.edge.protocol.Edge`."""
-        if self._lease is not None:
-            await self.halt()
-            await self._ended()
-        if self._lease is not None:
-            await self._leave()
-        return await self._acquire(holder, 0.0)
 
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
@@ -200,8 +191,9 @@ class LocalEdge:
         self._lease = self._attempts = self._obeying = None
         self._lock.release()
 
-    async def _obey(self, lease: Lease) -> None:
-        """Look all the time whether somebody asks at another terminal to stop, and do so."""
+    async def _obey(self, lease: Lease, *, idle: bool) -> None:
+        """Look all the time whether somebody asks at another terminal to stop, and do so; who only has the bench and
+        runs nothing (`idle`) then loses it, at a safe end."""
         from pico.edge.stopping import asked_to_stop
 
         last: Asking | None = None
@@ -210,6 +202,10 @@ class LocalEdge:
             if asked is not None and asked != last:
                 last = asked
                 await (self.stop() if asked == "now" else self.halt())
+                if idle:
+                    self._obeying = None  # this task goes on to the end
+                    await self.release(lease)
+                    return
             await asyncio.sleep(OBEYS)
 
     # moving

@@ -119,12 +119,6 @@ class Edge(Protocol):
         """
         ...
 
-    async def steal(self, holder: str) -> Lease:
-        """Take the bench from whoever has it at this edge: what goes on comes to its safe end, and the lease of before
-        moves nothing any more. Raises PicoError as `acquire` does, LOCKED where another process has the bench.
-        """
-        ...
-
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
         ...

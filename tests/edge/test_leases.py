@@ -1,4 +1,4 @@
-"""Who may move a bench, in this process and behind a socket: the lease is taken, stolen, and halted by others."""
+"""Who may move a bench, in this process and behind a socket: the lease is taken, halted, and lost to a stop."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from pico.edge import local
 from pico.edge.link import place
 from pico.edge.link.client import RemoteEdge
 from pico.edge.link.server import edge_of
-from pico.edge.protocol import Edge, Job
+from pico.edge.protocol import Asking, Edge, Job
+from pico.edge.stopping import ask_to_stop
 from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.planning import set_one
@@ -55,41 +56,21 @@ def refused(code: ExitCode) -> Iterator[None]:
     assert caught.value.exit_code == code
 
 
-def test_a_lease_that_was_stolen_moves_nothing_any_more(on_edge: Acting) -> None:
+@pytest.mark.parametrize("how", ["safely", "now"])
+def test_who_only_has_the_bench_loses_it_to_a_stop(on_edge: Acting, tmp_path: Path, how: Asking) -> None:
     async def act(edge: Edge) -> None:
         first = await edge.acquire("first")
-        second = await edge.steal("second")
-        assert second.token > first.token
-        holder = await edge.holder()
-        assert holder is not None and holder.what == "second"
+        assert (await edge.execute(turn(20.0), "r1/op1/1", first)).outcome == "done"
+        await asyncio.to_thread(ask_to_stop, tmp_path / "shel", first.token, how)
+        while await edge.holder() is not None:
+            await asyncio.sleep(0.01)
         with refused(ExitCode.LOCKED):
-            await edge.execute(turn(20.0), "r1/op1/1", first)
+            await edge.execute(turn(20.0), "r1/op1/2", first)
         await edge.release(first)
-        assert (await edge.execute(turn(30.0), "r1/op1/2", second)).outcome == "done"
-        await edge.release(second)
-        assert await edge.holder() is None
-
-    on_edge(act)
-
-
-def test_nobody_needs_to_have_what_is_stolen(on_edge: Acting) -> None:
-    async def act(edge: Edge) -> None:
-        await edge.release(await edge.steal("first"))
-
-    on_edge(act)
-
-
-def test_a_run_that_is_stolen_from_comes_to_its_safe_end(on_edge: Acting) -> None:
-    async def act(edge: Edge) -> None:
-        own = await edge.lab()
-        assert own is not None
-        setup = local.own_lab.setup_of(own)
-        plan = set_one(setup, await edge.observe(), "p1", "angle", 77.0, backend="sim", fidelity="kinematic")
-        await edge.start(Job(plan=plan, holder="pico apply"), "r1")
-        lease = await edge.steal("somebody")
-        assert (await edge.report("r1")).outcome in ("interrupted", "done")
-        assert (await edge.execute(turn(30.0), "r2/op1/1", lease)).outcome == "done"
-        await edge.release(lease)
+        later = await edge.acquire("second")
+        assert later.token > first.token
+        assert (await edge.execute(turn(30.0), "r1/op1/3", later)).outcome == "done"
+        await edge.release(later)
 
     on_edge(act)
 

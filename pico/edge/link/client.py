@@ -217,17 +217,10 @@ class RemoteEdge:
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
         """Take the bench; it is given back where this process dies."""
-        return await self._taken("acquire", holder, wait)
-
-    async def steal(self, holder: str) -> Lease:
-        """Take the bench from whoever has it; it is given back where this process dies."""
-        return await self._taken("steal", holder)
-
-    async def _taken(self, name: str, *arguments: Any) -> Lease:
         reader, writer = await self._connect()
         try:
-            writer.write(wire.call(name, arguments))
-            lease: Lease = _value(name, await reader.readline())
+            writer.write(wire.call("acquire", (holder, wait)))
+            lease: Lease = _value("acquire", await reader.readline())
         except BaseException:
             writer.close()
             raise

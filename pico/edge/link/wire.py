@@ -36,7 +36,6 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "peek": ((str, str), Measurement),
     "array": ((str,), str),
     "acquire": ((str, float), Lease),
-    "steal": ((str,), Lease),
     "execute": ((Operation, str, Lease), OperationResult),
     "start": ((Job, str), str),
     "events": ((str, int), Event),
