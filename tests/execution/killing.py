@@ -126,7 +126,7 @@ class InstantDevice:
 
 def instant(root: Path, table: Table, journal: KilledJournal) -> LocalEdge:
     """Return the edge of an instant device, with the journal that kills."""
-    edge = LocalEdge(SETUP, root, InstantDevice(table))  # type: ignore[arg-type]
+    edge = LocalEdge(SETUP, root, lambda _: InstantDevice(table))  # type: ignore[arg-type]
     edge._journal = journal
     return edge
 
