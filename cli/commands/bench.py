@@ -31,9 +31,12 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
     plan and apply go by it, also at an old commit. An edited lab.yaml is a proposal until it is adopted here. Nothing
     moves. Exit code 1 where somebody says no, 5 where the bench is in use.
     """
+    from pico.bench import updating
+    from pico.manifest.load import find_lab
+
     session = Session.of(context)
-    bench = session.bench(writing=not dry_run)
-    found = bench.proposal()
+    root = find_lab(session.folder)
+    found = updating.proposal(root)
     if not found.new or dry_run:
         session.show(view, found, adopted=False)
         return ExitCode.DONE
@@ -42,7 +45,7 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
     if not session.confirm("\nAdopt it as the bench's own Lab?", auto_approve):
         session.say("Nothing adopted: the bench stays what it is.")
         return ExitCode.ERROR
-    bench.adopt()
+    updating.update(root, session.backend)
     if session.json:
         session.document(view.data(found, adopted=True))
     session.say("Adopted: plans go by it from now on. `pico plan` shows what differs now.")

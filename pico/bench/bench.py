@@ -162,13 +162,13 @@ class Bench(Reader):
         """Return what the working tree would have the bench be; see `pico.bench.updating`."""
         from pico.bench import updating
 
-        return updating.proposal(self.folder)
+        return updating.proposal(self.root)
 
     def adopt(self) -> None:
         """Let the bench adopt what the working tree proposes; see `pico.bench.updating`."""
         from pico.bench import updating
 
-        self._thread.wait(updating.adopt(self._bench))
+        self.folder.adopt(self._thread.wait(updating.adopt(self._bench.edge, self.root)))
 
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is; see `AsyncBench.explain`."""

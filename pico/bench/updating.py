@@ -1,18 +1,26 @@
-"""The bench's own Lab against the one that the working tree describes: what differs, and adopting it."""
+"""The bench's own Lab against the one that the working tree describes: what differs, and adopting it.
+
+No bench is opened for it: a state that names a part of the new Lab can't be read against the old one.
+"""
 
 from __future__ import annotations
 
+import asyncio
 import difflib
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.edge import own_lab
+from pico.edge.link.opening import opened
+from pico.edge.link.opening import own_lab as kept
 from pico.execution.stale import edited
 from pico.model.record import record
 
 if TYPE_CHECKING:
-    from pico.bench.async_bench import AsyncBench
-    from pico.history.lab.folder import LabFolder
+    from pico.edge.protocol import Edge, OwnLab
+
+DOING = "pico bench update"
 
 
 @record
@@ -31,20 +39,37 @@ class Proposal:
         return bool(self.patch)
 
 
-def proposal(folder: LabFolder) -> Proposal:
-    """Return what the working tree proposes; raises PicoError for what is wrong with it."""
-    assert folder.own is not None
-    tree = own_lab.proposed(folder.root)
-    wanted, now = own_lab.setup_of(tree), folder.setup
-    patch = "".join(_patch(folder.own.files, tree.files))
+def proposal(root: Path) -> Proposal:
+    """Return what the working tree of the lab in `root` proposes; nothing new where its bench keeps no Lab yet. Raises
+    PicoError for what is wrong with either."""
+    tree = own_lab.proposed(root)
+    own = kept(root) or tree
+    wanted, now = own_lab.setup_of(tree), own_lab.setup_of(own)
+    patch = "".join(_patch(own.files, tree.files))
     return Proposal(bench=now.digest(), tree=wanted.digest(), differences=tuple(edited(now, wanted)), patch=patch)
 
 
-async def adopt(bench: AsyncBench) -> None:
-    """Let the bench adopt what the working tree proposes; raises PicoError as `Edge.adopt` does."""
-    tree = own_lab.proposed(bench.root)
-    await bench.edge.adopt(tree, "pico bench update")
-    bench.folder.adopt(tree)
+async def adopt(edge: Edge, root: Path) -> OwnLab:
+    """Let the bench of an edge adopt what the working tree in `root` describes, and return that; raises PicoError as
+    `Edge.adopt` does."""
+    tree = own_lab.proposed(root)
+    await edge.adopt(tree, DOING)
+    return tree
+
+
+def update(root: Path, backend: str) -> None:
+    """Let the bench of the lab in `root` adopt what the working tree describes; raises PicoError as `adopt` does."""
+    own = kept(root) or own_lab.proposed(root)
+    setup = own_lab.setup_of(own)
+
+    async def go() -> None:
+        edge = opened(setup, root, backend, setup.lab.sim.fidelity, own)
+        try:
+            await adopt(edge, root)
+        finally:
+            await edge.close()
+
+    asyncio.run(go())
 
 
 def _patch(before: Mapping[str, str], after: Mapping[str, str]) -> Iterator[str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from serving import served
 
+from pico.bench import updating
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge import own_lab
@@ -129,6 +130,9 @@ def test_a_state_with_a_part_that_is_only_proposed_names_the_way_out(lab: Path) 
         Bench.open(lab)
     found = next(d for d in refused.value.diagnostics if d.severity == "error")
     assert "lx_new" in found.summary and "pico bench update" in found.hint
+    updating.update(lab, "sim")
+    with Bench.open(lab) as bench:
+        assert "lx_new" in bench.setup.lab.inventory
 
 
 def test_what_is_wrong_with_a_proposal_is_said_and_the_bench_stays(lab: Path) -> None:
