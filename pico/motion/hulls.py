@@ -23,7 +23,7 @@ Array = Any
 """A numpy array of floats."""
 
 _THINNEST = 1e-4  # m, what is left of a shape that is thinner than what is taken off
-_NUDGES = ((2e-5, 0.0, 0.0), (0.0, 2e-5, 0.0), (0.0, 0.0, 2e-5))  # m, a shifted start does not stop at the same place
+_NUDGE = 2e-5  # m, a shifted start does not stop at the same place
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +111,7 @@ def distance(one: Placed, other: Placed, enough: float) -> float:
     best = _proven(one, other)
     if best is None or best >= enough:
         return best or 0.0
-    for look in (lambda: _proven(other, one), *(_nudged(one, other, nudge) for nudge in _NUDGES)):
+    for look in (lambda: _proven(other, one), *(_nudged(one, other, _NUDGE * axis) for axis in np.eye(3))):
         bound = look()
         if bound is None:
             return 0.0
@@ -121,13 +121,13 @@ def distance(one: Placed, other: Placed, enough: float) -> float:
     return max(0.0, best)
 
 
-def _nudged(one: Placed, other: Placed, nudge: tuple[float, float, float]) -> Any:
+def _nudged(one: Placed, other: Placed, nudge: Array) -> Any:
     def look() -> float | None:
         center = other.center
-        other.put(other.turn, center + np.array(nudge))
+        other.put(other.turn, center + nudge)
         bound = _proven(one, other)
         other.put(other.turn, center)
-        return bound - math.hypot(*nudge) if bound is not None else None
+        return bound - _NUDGE if bound is not None else None
 
     return look
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import combinations
 from typing import Any
 
@@ -65,7 +66,7 @@ class Recheck:
         self._fixed = [Thing(n, "keep_out", (_zone(z),), np.eye(3), np.zeros(3)) for n, z in setup.lab.keep_out.items()]
         self._fixed.append(Thing("table", "table", (_table(setup),), np.eye(3), np.zeros(3)))
         self._solids: dict[tuple[int, float], tuple[Geometry, tuple[Hull, ...]]] = {}
-        self._robots: dict[tuple[str, Joints], Thing] = {}
+        self._other = lru_cache(maxsize=100)(lambda name, joints: _arm(name, setup.lab.robots[name], joints))
         self._pairs: dict[tuple[str, ...], tuple[Array, Array]] = {}
 
     def check(
@@ -209,17 +210,9 @@ class Recheck:
             known = self._solids[id(geometry), inset] = (geometry, tuple(of_geometry(part, geometry, inset)))
         return known[1]
 
-    def _other(self, name: str, joints: Joints) -> Thing:
-        """Another arm as it stands, its gripper shut."""
-        known = self._robots.get((name, joints))
-        if known is None:
-            if len(self._robots) > 100:
-                self._robots.clear()
-            known = self._robots[name, joints] = _arm(name, self.setup.lab.robots[name], joints)
-        return known
-
 
 def _arm(name: str, robot: Robot, joints: Joints) -> Thing:
+    """Another arm as it stands, its gripper shut."""
     links = [(i, h) for i, part in enumerate(LINKS) for h in of_shapes(_BODIES[i], part, 0.0)]
     links += [(frames.GRIPPER, h) for h in of_shapes("gripper", palm(robot.gripper), 0.0)]
     gripper = robot.gripper

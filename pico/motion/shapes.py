@@ -48,7 +48,7 @@ LINKS: tuple[tuple[LinkShape, ...], ...] = (
         _solid("cylinder", (0, 0, 0), (0, 0, 186), 60),
         _disc((0, 0, 0), (0, 0, 12), 68, GREY),
         _disc((0, 0, 186), (0, 0, 191), 57),
-        LinkShape("box", (-58, 0, 45), (9, 30, 24), 0, DARK),
+        LinkShape("box", (-58, 0, 45), (9, 30, 24), color=DARK),
     ),
     (  # shoulder: a stump under a barrel that lies across
         _solid("capsule", (0, 0, -20), (0, 0, 0), 58),
@@ -59,7 +59,7 @@ LINKS: tuple[tuple[LinkShape, ...], ...] = (
     ),
     (  # upper arm: from the barrel straight up to joint 3
         _solid("capsule", (0, 0, 0), (0, -190, 0), 51),
-        LinkShape("ellipsoid", (0, -30, 0), (55, 62, 57), 0, WHITE),
+        LinkShape("ellipsoid", (0, -30, 0), (55, 62, 57), color=WHITE),
         _disc((0, -228, 0), (0, -234, 0), 49),
         _disc((0, -228, 0), (0, -150, 0), 51.6, WHITE),
     ),
@@ -100,12 +100,12 @@ LINKS: tuple[tuple[LinkShape, ...], ...] = (
 
 PALM: tuple[LinkShape, ...] = (
     LinkShape("cylinder", (0, 0, 0), (0, 0, 34), 34, DARK, True),
-    LinkShape("box", (0, 0, 64), (26, 58, 30), 0, NONE, True),
-    LinkShape("box", (0, 0, 64), (26, 32, 30), 0, WHITE),
-    LinkShape("box", (0, 0, 97), (21, 55, 4), 0, DARK),
+    LinkShape("box", (0, 0, 64), (26, 58, 30), color=NONE, collides=True),
+    LinkShape("box", (0, 0, 64), (26, 32, 30), color=WHITE),
+    LinkShape("box", (0, 0, 97), (21, 55, 4), color=DARK),
     LinkShape("cylinder", (0, -32, 34), (0, -32, 94), 26, WHITE),
     LinkShape("cylinder", (0, 32, 34), (0, 32, 94), 26, WHITE),
-    LinkShape("box", (0, 0, 62), (26.5, 24, 11), 0, BLUE),
+    LinkShape("box", (0, 0, 62), (26.5, 24, 11), color=BLUE),
 )
 """Shapes of the gripper's body, z out of the flange; the fingers hang below z = 100."""
 
@@ -125,7 +125,7 @@ def _camera(eye: Point, tool: float) -> tuple[LinkShape, ...]:
     if out < _BEHIND:  # within the gripper's body
         return ()
     far = (out + _BEHIND) / out
-    head = LinkShape("box", (x * far, y * far, z), (_EYE, _EYE, _EYE), 0, DARK, True)
+    head = LinkShape("box", (x * far, y * far, z), (_EYE, _EYE, _EYE), color=DARK, collides=True)
     top = z - _EYE - 4
     return head, LinkShape("capsule", (0, 0, top), (x * far, y * far, top), 4, GREY, True)
 
@@ -147,9 +147,8 @@ def finger(side: int, fingers: Fingers, tool: float) -> tuple[LinkShape, LinkSha
             "box",
             (0.0, side * (fingers.thickness + recess) / 2, (low + high) / 2),
             (fingers.breadth / 2, (fingers.thickness - recess) / 2, (high - low) / 2),
-            0,
-            color,
-            True,
+            color=color,
+            collides=True,
         )
         for low, high, recess, color in ((pad_top, tip, 0.0, DARK), (PALM_LENGTH, pad_top, _RECESS, GREY))
     )

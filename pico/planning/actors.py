@@ -44,7 +44,7 @@ def _pulled_in(request: Request, situation: Situation, movers: dict[str, Mover],
     """Return what was not asked for but should move anyway, and stands where a mover should end."""
     if not request.only.targets:
         return set()
-    may = {n for n in situation.moving if n not in movers and not request.only.excluded(n)}
+    may = {n for n in situation.moving if not request.only.excluded(n)}
     shapes = Grid.of({o.name: o.shape for o in obstacles if o.name in may})
     margin = request.setup.lab.margins.body
     goals = (goal_shape(m, m.goal) for m in movers.values())

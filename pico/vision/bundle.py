@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 LENS = 9
 """Numbers of a lens: fx, fy, cx, cy, k1, k2, p1, p2, k3."""
 LENS_STEPS = (1e-2, 1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-6, 1e-6, 1e-5)
-POSE_STEPS = (1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-5)  # mm, rad
+POSE_STEPS = (1e-2,) * 3 + (1e-5,) * 3  # mm, rad
 _OUTLIER = 4.0  # times the median distance, from which a corner is left out
 CORNER_NOISE = 0.025
 """One standard deviation of a corner of the board [pixels]."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-_STEPS = (1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5)  # mm and rad, for derivatives
+_STEPS = (1e-3,) * 3 + (1e-5,) * 3  # mm and rad, for derivatives
 
 
 @dataclass(frozen=True, eq=False)

@@ -55,7 +55,7 @@ class Conflicts:
         movers: Sequence[Mover],
         obstacles: Sequence[Obstacle],
         motion: Motion | None,
-        on_table: bool = False,
+        on_table: bool,
     ) -> None:
         self.setup, self.motion = setup, motion
         self.more_slots = False

@@ -61,7 +61,7 @@ def _places(table: Conflicts, i: int) -> Iterator[Option]:
     for goal in sorted(mover.finished):
         body = table.arrive(i, goal)
         found: list[tuple[int, Hold]] = []
-        for hold in mover.holds if body is not None else ():
+        for hold in mover.holds:
             grip = table.grip(i, goal, hold)
             if grip is not None and body is not None:
                 found += [(m, hold) for m in _least((body | grip) & table.ends, _meanwhile(table, i, hold), table.ends)]

@@ -22,7 +22,7 @@ def shortened(table: Conflicts, steps: Sequence[OrderedMove]) -> tuple[OrderedMo
 def _shorter(table: Conflicts, steps: tuple[OrderedMove, ...]) -> Iterator[tuple[OrderedMove, ...]]:
     """Yield the steps with two consecutive moves of one component replaced by one, early or late, or by none."""
     for first, step in enumerate(steps):
-        later = next((k for k in range(first + 1, len(steps)) if steps[k].mover == step.mover), None)
+        later = next((k for k, other in enumerate(steps) if k > first and other.mover == step.mover), None)
         mover = table.movers[step.mover]
         if later is None:
             if mover.right and step.start == 0 and step.goal in mover.goals:

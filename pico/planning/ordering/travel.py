@@ -83,7 +83,7 @@ def _least(clock: Clock, steps: Sequence[OrderedMove]) -> float:
 def nearer(clock: Clock, steps: tuple[OrderedMove, ...]) -> tuple[OrderedMove, ...]:
     """Return the steps with each staging where it costs the arm least; the others and the order stay."""
     for k, step in enumerate(steps):
-        back = next((n for n in range(k + 1, len(steps)) if steps[n].mover == step.mover), None)
+        back = next((n for n, other in enumerate(steps) if n > k and other.mover == step.mover), None)
         if back is None or step.goal not in clock.table.movers[step.mover].staging:
             continue
         best = clock.around(steps, k) + clock.around(steps, back)
