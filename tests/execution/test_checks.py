@@ -11,7 +11,15 @@ from benches import shel
 from pico.backends.device import Capabilities
 from pico.diagnostics import ExitCode, PicoError
 from pico.execution.checks import require_applicable, require_current
-from pico.model.observation import Observation, ObservedComponent, ObservedRobot, live_state
+from pico.execution.stale import differing, edited
+from pico.model.observation import (
+    Observation,
+    ObservedComponent,
+    ObservedRobot,
+    ObservedValue,
+    Uncertainty,
+    live_state,
+)
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
@@ -95,9 +103,76 @@ def test_a_plan_is_for_one_backend_with_its_robots_and_primitives() -> None:
     require_applicable(made, able)
     for change, said in (
         ({"name": "hardware"}, "the plan was made for sim, not for hardware"),
+        ({"fidelity": "physics"}, "the plan was made for kinematic, and this bench is served in physics"),
         ({"primitives": frozenset({"set"})}, "sim (kinematic) cannot move p2"),
         ({"robots": ()}, "the plan needs the robot arm1; sim has: none"),
     ):
         with pytest.raises(PicoError, match=r".") as caught:
             require_applicable(made, replace(able, **change))
         assert [d.summary for d in caught.value.diagnostics] == [said]
+    with pytest.raises(PicoError, match="were edited since") as caught:
+        require_applicable(made, replace(able, lab_digest="other"))
+    assert caught.value.exit_code == ExitCode.STALE
+
+
+def test_a_plan_of_another_lab_is_stale() -> None:
+    made = plan(move(HOME["p2"], AWAY))
+    other = replace(made, lab=LabRef(name="shel", digest="other"))
+    assert refused(other, seen()) == "the plan is stale: the lab or its component types were edited since"
+
+
+def test_a_value_that_has_changed_is_told_with_its_tolerance_and_one_that_nobody_knows_without() -> None:
+    def with_angle(value: float | None) -> Observation:
+        now = seen()
+        part = replace(now.components["p2"], values={"angle": ObservedValue(value=value)})
+        return replace(now, components={**now.components, "p2": part})
+
+    made = plan(base=with_angle(10.0))
+    tolerance = SETUP.type_of("p2").tunables["angle"].tolerance
+    require_current(SETUP, made, with_angle(10.0 + 0.9 * tolerance))
+    changed = refused(made, with_angle(13.0))
+    assert changed == (f"the plan is stale: p2.angle changed by 3 deg, tolerance {tolerance:g}: 13, planned from 10")
+    assert "p2.angle changed : " in refused(made, with_angle(None)) and "planned from 10" in refused(
+        made, with_angle(None)
+    )
+
+
+def test_what_was_not_seen_then_and_is_now_and_what_is_gone_is_told() -> None:
+    gone, come = seen(without="p2"), seen()
+    assert refused(plan(base=gone), come) == "the plan is stale: p2 was not seen then and is now"
+    assert refused(plan(base=come), gone).startswith("the plan is stale: p2 is missing now")
+    held = replace(come, components={**come.components, "p2": replace(come.components["p2"], presence="held")})
+    assert refused(plan(base=come), held).startswith("the plan is stale: p2 is held now")
+
+
+def test_a_part_that_was_seen_badly_is_in_its_slot_still_where_it_is_in_no_other() -> None:
+    slots = sorted(SETUP.lab.slots)
+    home = SETUP.lab.inventory["p2"].home
+    slot = SETUP.lab.slots[home].pose
+    away = next(SETUP.lab.slots[s].pose for s in slots if s != home)
+
+    def badly(pose: Pose) -> Observation:
+        now = seen()
+        part = ObservedComponent(pose=pose, uncertainty=Uncertainty(position=5.0, yaw=5.0))
+        return replace(now, components={**now.components, "p2": part})
+
+    off = Pose(slot.x + 2.0, slot.y, slot.yaw)
+    require_current(SETUP, plan(base=seen(p2=slot)), badly(off))
+    assert "p2 changed by" in refused(plan(base=seen(p2=slot)), seen(p2=Pose(off.x + 60, off.y)))
+    assert "p2 changed" in refused(plan(base=seen(p2=slot)), badly(away))
+    assert "p2 changed" in refused(plan(base=seen(p2=slot)), badly(Pose(slot.x + 55, slot.y + 55)))
+
+
+def test_the_first_six_differences_of_a_lab_are_told_and_how_many_more() -> None:
+    assert differing({"a": 1, "b": {"c": 2}}, {"a": 1, "b": {"c": 3}}) == ["b.c 2 → 3"]
+    assert differing({"a": 1, "gone": [1]}, {"a": [2], "new": {"x": 1}}) == ["a", "gone removed", "new added"]
+    seven = ({f"k{n}": n for n in range(7)}, {f"k{n}": n + 1 for n in range(7)})
+    assert differing(*seven) == [*(f"k{n} {n} → {n + 1}" for n in range(6)), "and 1 more"]
+    six = ({f"k{n}": n for n in range(6)}, {f"k{n}": n + 1 for n in range(6)})
+    assert len(differing(*six)) == 6 and differing(1, 1) == [] and differing(1, 2, "at") == ["at 1 → 2"]
+
+
+def test_what_differs_in_two_benches_is_told_by_its_path() -> None:
+    other = replace(SETUP, lab=replace(SETUP.lab, table=replace(SETUP.lab.table, beam_height=75.0)))
+    assert edited(SETUP, other) == [f"table.beam_height {SETUP.lab.table.beam_height:g} → 75"]
+    assert edited(SETUP, SETUP) == []

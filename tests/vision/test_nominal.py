@@ -49,4 +49,5 @@ def test_the_field_of_view_is_that_of_the_height_of_the_picture() -> None:
     camera = nominal("c", Camera(position=(0, 0, 1000), look_at=(0, 0, 0), field_of_view=90.0, pixels=(800, 600)))
     edge = camera.project(np.array([[0.0, 1000.0, 0.0]]))[0]
     assert edge == pytest.approx((399.5, 299.5 - 300.0))
+    assert camera.matrix == pytest.approx(np.array([[300.0, 0.0, 399.5], [0.0, 300.0, 299.5], [0.0, 0.0, 1.0]]))
     assert looking((0, 0, 5), (0, 0, 0))[:3, 3] == pytest.approx((0, 0, 5))

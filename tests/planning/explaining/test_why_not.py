@@ -192,6 +192,7 @@ def test_why_storage_breaks_no_ring() -> None:
     assert ring("block", slots=tight)[2] == "a: no slot takes it"
     assert ring("block", kept="s1")[2] == "a: every slot that takes it is occupied"
     assert ring("block", Reach({60.0: Blocked("reach", "no")}))[2] == "a: the free slots s1 are out of reach"
+    assert ring("block", kept=(119, 60))[2] == "a: every slot that takes it is occupied", "its body would overlap"
     beside = {"w": (124, 60), "n": (60, 124)}
     assert ring("block", **beside)[2] == "a: the free slots s1 are without room for the fingers"
     assert ring(part(seating="bolted"))[2] == "a: only a person can move it"
@@ -259,10 +260,10 @@ def test_places_as_plans_hold_them() -> None:
 
 
 def test_where_parts_start_and_end_is_read_from_the_plan_and_of_what_is_bolted_from_the_lab() -> None:
-    setup = bench({"a": "block", "b": "block", "post": part(pose=Pose(700, 100), seating="bolted")})
+    setup = bench({**BLOCKS, "c": "block", "post": part(pose=Pose(700, 100), seating="bolted")})
     seen = see(setup, {"a": (200, 300), "b": (300.2, 300), "post": (700, 100)})
     made = planned(setup, seen, want({"a": (400, 300), "b": (300, 300)}))
-    made = replace(made, base=Base(state={**made.base.state, "post": {}, "gone": {"pose": {"x": 1, "y": 1}}}))
+    made = replace(made, base=Base(state={**made.base.state, "post": {}, "c": {}, "gone": {"pose": {"x": 1, "y": 1}}}))
     starts, ends = starts_of(setup, made), ends_of(setup, made)
     assert {n: s.pose for n, s in starts.items()} == {
         "a": Pose(200, 300),
