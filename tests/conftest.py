@@ -17,6 +17,13 @@ if os.environ.get("CI"):
     settings.load_profile("ci")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Where slow tests are left out, a property draws a third of its examples; see `examples`."""
+    if config.getoption("markexpr") == "not slow":
+        settings.register_profile("fast", settings(), max_examples=33)
+        settings.load_profile("fast")
+
+
 @pytest.fixture
 def pico(capsys: pytest.CaptureFixture[str]) -> Pico:
     from pico_cli.main import main

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -24,10 +25,17 @@ FILES = {".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__in
          for p in sorted((ROOT / "pico").rglob("*.py"))}  # fmt: skip
 
 
+@cache
+def parsed(path: Path) -> tuple[ast.Module, tuple[ast.AST, ...]]:
+    """Return the tree of a file, and all that is in it."""
+    tree = ast.parse(path.read_text())
+    return tree, tuple(ast.walk(tree))
+
+
 def imported(path: Path) -> set[str]:
     """Return the modules of pico that a file imports, at its top or inside a function."""
     found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in parsed(path)[1]:
         names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
         if isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
             names = [n if (n := f"{node.module}.{a.name}") in FILES else node.module for a in node.names]
@@ -35,7 +43,10 @@ def imported(path: Path) -> set[str]:
     return found
 
 
-IMPORTS = {name: imported(path) for name, path in FILES.items()}
+@cache
+def imports() -> Mapping[str, set[str]]:
+    """Return for each module those that it imports."""
+    return {name: imported(path) for name, path in FILES.items()}
 
 
 def room(module: str) -> str:
@@ -58,7 +69,7 @@ def circle(graph: Mapping[str, set[str]]) -> list[str]:
 
 
 def backwards() -> Iterator[str]:
-    for module, taken in IMPORTS.items():
+    for module, taken in imports().items():
         here = room(module)
         for other in sorted(taken):
             if here and room(other) and ORDER.index(room(other)) > ORDER.index(here):
@@ -71,12 +82,12 @@ def test_every_room_imports_only_from_those_before_it() -> None:
 
 
 def test_no_files_import_one_another_in_a_circle() -> None:
-    assert not circle(IMPORTS)
+    assert not circle(imports())
 
 
 def test_no_packages_import_one_another_in_a_circle() -> None:
     packages: dict[str, set[str]] = {}
-    for module, taken in IMPORTS.items():
+    for module, taken in imports().items():
         at = folder(module)
         packages.setdefault(at, set()).update({folder(m) for m in taken} - {at})
     packages.pop("pico")  # `pico.open` opens what all the others make
@@ -94,23 +105,22 @@ def test_the_command_is_built_on_the_library_and_the_library_does_not_know_it() 
     assert "pico_cli" not in library
 
 
-def used(tree: ast.AST) -> Counter[str]:
-    """Return how often names stand in a tree; that they are imported is no use yet."""
-    nodes = [n for n in ast.walk(tree) if isinstance(n, ast.Name | ast.Attribute)]
-    return Counter(n.id if isinstance(n, ast.Name) else n.attr for n in nodes)
+def name_of(node: ast.AST) -> str:
+    """Return the name that stands there; that it is imported is no use yet."""
+    return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""
 
 
 def test_what_only_tests_ask_is_no_part_of_the_library() -> None:
-    trees = {p: ast.parse(p.read_text()) for top in ("pico", "cli") for p in (ROOT / top).rglob("*.py")}
-    uses = used(ast.Module([n for tree in trees.values() for n in tree.body], []))
+    paths = [p for top in ("pico", "cli") for p in (ROOT / top).rglob("*.py")]
+    uses = Counter(name_of(node) for path in paths for node in parsed(path)[1])
     idle = [
         f"{path.relative_to(ROOT)}:{node.lineno} {node.name}: a test's own goes to tests/oracles"
         for path in FILES.values()
-        for node in ast.walk(trees[path])
+        for node in parsed(path)[1]
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
         and not node.name.startswith("__")
         and uses[node.name] < 20  # nothing calls itself so often
-        and uses[node.name] == used(node)[node.name]
+        and uses[node.name] == sum(name_of(n) == node.name for n in ast.walk(node))
     ]
     assert not idle, "\n".join(idle)
 
@@ -118,11 +128,11 @@ def test_what_only_tests_ask_is_no_part_of_the_library() -> None:
 def test_nothing_in_the_library_prints() -> None:
     printing = []
     for path in FILES.values():
-        tree = ast.parse(path.read_text())
+        tree, nodes = parsed(path)
         main_only = {id(n) for top in tree.body if isinstance(top, ast.If) for n in ast.walk(top)}
         printing += [
             f"{path.relative_to(ROOT)}:{node.lineno}"
-            for node in ast.walk(tree)
+            for node in nodes
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "print" and id(node) not in main_only
         ]
     assert not printing, "\n".join(printing)

@@ -172,7 +172,7 @@ def held_still(robot: str, joints: tuple[float, ...]) -> MovePath:
     return MovePath(robot, None, (Segment("transit", (0.0, 1.0), (joints, joints), 80.0),))
 
 
-@pytest.mark.parametrize("apart", [0.5, pytest.param(0.1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("apart", [1.0, pytest.param(0.1, marks=pytest.mark.slow)])
 def test_what_the_arms_do_at_the_same_time_does_not_collide_in_the_plan_either(
     lab: tuple[Setup, States, ArmMotion], monkeypatch: pytest.MonkeyPatch, apart: float
 ) -> None:

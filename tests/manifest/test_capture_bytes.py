@@ -8,6 +8,7 @@ from decimal import Decimal
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from pico.manifest.edit import capture
 from pico.manifest.load import load_files
 from pico.model.address import read_addresses
@@ -143,7 +144,7 @@ def moved(draw: st.DrawFn, key: str, value: Decimal, text: str) -> tuple[Decimal
     return live, f"{new}.0" if pointed and "." not in new else new
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(40))
 @given(st.data())
 def test_only_what_left_its_tolerance_is_written_and_nothing_else(data: st.DataObject) -> None:
     layout = data.draw(files())

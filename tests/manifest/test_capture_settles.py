@@ -7,6 +7,7 @@ from dataclasses import replace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from pico.backends.sim.world import new_world, observe
 from pico.manifest.edit import capture
 from pico.manifest.load import load_files
@@ -59,7 +60,7 @@ def planned(seen: Observation, wanted: LabState) -> Plan:
     return plan(SETUP, seen, wanted, motion=None, backend="sim", fidelity="kinematic", base=base, target=target)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(st.data())
 def test_after_a_capture_nothing_is_to_be_moved_and_the_form_is_kept(data: st.DataObject) -> None:
     places = {name: data.draw(said(name)) for name in PARTS}

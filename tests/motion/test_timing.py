@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles.inverse import ik
 
+from examples import examples
 from pico.model.lab import Mount, Robot
 from pico.motion.kinematics import columns, fk
 from pico.motion.paths import usable
@@ -30,7 +31,7 @@ def at(robot, place, z=250.0):
 
 
 @given(places, places, st.floats(0.1, 1.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_swings_keep_the_joints_limits_and_stay_on_the_line(one, other, speed):
     robot = Robot(mount=MOUNT, speed=speed)
     start, end = at(robot, one)[0], at(robot, other)[0]
@@ -49,7 +50,7 @@ def test_swings_keep_the_joints_limits_and_stay_on_the_line(one, other, speed):
 
 
 @given(places, st.floats(30, 140), st.floats(0.1, 1.0), st.booleans())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_verticals_are_straight_and_keep_the_joints_limits(place, low, speed, down):
     robot = Robot(mount=MOUNT, speed=speed)
     radius, bearing, yaw = place

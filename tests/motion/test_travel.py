@@ -13,6 +13,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from oracles.inverse import ik
 
+from examples import examples
 from pico.model.lab import Gripper, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion import timing
@@ -26,14 +27,14 @@ yaws = st.sampled_from([0, 90, -90, 35])
 
 
 @given(st.floats(1e-4, 10), st.floats(0.1, 5), st.floats(0.1, 30), st.floats(1, 800))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 def test_the_closed_form_is_what_ruckig_finds(length, velocity, acceleration, jerk):
     limits = Limits(velocity, acceleration, jerk)
     assert timing.duration(length, limits) == pytest.approx(timing.profile(length, limits)[0][-1], rel=1e-6)
 
 
 @given(places, places, st.sampled_from([0, 90]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_the_way_there_and_the_way_loaded_are_the_whole_move(start, goal, yaw):
     path = MOTION.move("arm1", "a", start, goal, yaw, {})
     assume(isinstance(path, MovePath))

@@ -70,8 +70,8 @@ def assert_bound(lab: Lab, made: Plan, best: Best) -> None:
 
 
 def test_no_small_lab_can_do_with_fewer_stagings() -> None:
-    found = [compared(seed, 5) for seed in range(1000, 1030)]
-    assert sum(o.staged > 0 for o in found) > 8, "too easy to mean anything"
+    found = [compared(seed, 5) for seed in range(1000, 1016)]
+    assert sum(o.staged > 0 for o in found) > 4, "too easy to mean anything"
 
 
 @pytest.mark.slow

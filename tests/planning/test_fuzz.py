@@ -14,13 +14,13 @@ def judged(seeds: range, most: int = 30) -> list[Verdict]:
 
 
 def test_random_rearrangements_are_planned_without_a_fault() -> None:
-    verdicts = judged(range(16))
-    assert sum(v.staged > 0 for v in verdicts) > 4, "the cases are too easy to mean anything"
+    verdicts = judged(range(8))
+    assert sum(v.staged > 0 for v in verdicts) > 2, "the cases are too easy to mean anything"
     assert sum(bool(v.refused) for v in verdicts if v.components > SMALL) <= 1
 
 
 def test_nothing_solvable_is_refused_on_a_small_table() -> None:
-    verdicts = judged(range(5000, 5030), most=SMALL)
+    verdicts = judged(range(5000, 5016), most=SMALL)
     assert any(v.refused for v in verdicts), "without a refusal there is nothing to decide"
 
 

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sequencing_cases import Instance, cheapest, instance, keeps
 
+from examples import examples
 from pico.staging.sequencing import Effort, Sequence, best_order
 
 LITTLE = Effort(moves=2000, steps=0, rounds=6)
@@ -52,7 +53,7 @@ def test_without_the_exact_search_the_bound_is_still_below_every_order() -> None
         assert not found.proven or found.cost == best
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.integers(0, 24), st.floats(0, 1), st.integers(0, 10**6))
 def test_precedence_is_kept_and_the_cost_is_that_of_the_order(count: int, density: float, seed: int) -> None:
     case = instance(count, density, seed)

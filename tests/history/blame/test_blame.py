@@ -17,6 +17,7 @@ from blame_cases import PARTS, Version, histories, truth
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from pico.diagnostics import PicoError
 from pico.history.blame.answer import answer, dumps, loads
 from pico.history.blame.blamed import Blamed, blame
@@ -77,7 +78,7 @@ def plain(leaf: str | None) -> Any:
     return tuple(value.values()) if isinstance(value, dict) else value
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=examples(120), deadline=None)
 @given(histories())
 def test_every_leaf_of_random_histories_is_blamed_as_by_the_reference(versions: list[Version]) -> None:
     ids = names(len(versions))
@@ -86,7 +87,7 @@ def test_every_leaf_of_random_histories_is_blamed_as_by_the_reference(versions: 
     assert told(walked(versions, 0, last)) == expected
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(60), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(versions=histories(9), asked=st.lists(st.integers(0, 8), max_size=3), at=st.integers(0, 1))
 def test_a_repository_with_what_is_kept_between_calls(
     versions: list[Version], asked: list[int], at: int, tmp_path_factory: pytest.TempPathFactory
@@ -115,7 +116,7 @@ def commit_all(repository: Repository, versions: Sequence[Version], inside: str)
     return ids
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(histories())
 def test_an_answer_survives_being_kept(versions: list[Version]) -> None:
     found = answer(walked(versions, 0, len(versions) - 1), packaged_units)
@@ -139,7 +140,7 @@ LINES = [
 ]  # fmt: skip
 
 
-@settings(max_examples=1500, deadline=None)
+@settings(max_examples=examples(1500), deadline=None)
 @given(st.lists(st.sampled_from(LINES), max_size=9), st.booleans())
 def test_the_short_way_through_a_manifest_says_what_the_parser_says_or_nothing(lines: list[str], ended: bool) -> None:
     data = (HEAD + "\n".join(lines) + "\n" * ended).encode()

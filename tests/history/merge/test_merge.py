@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from merging_cases import Case, Leaf, case, faults
 from merging_cases import state_of as state
 
+from examples import examples
 from pico.history.merge.manifests import Merged, merge
 from pico.history.merge.markers import Labels, view
 
@@ -47,7 +48,7 @@ def check(c: Case) -> None:
     assert forth.data == back.data or c.conflicting
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.integers(0, 10**6))
 def test_different_tunables_unite_the_same_one_conflicts_and_comments_survive(seed: int) -> None:
     check(case(seed))

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from examples import examples
 from pico.history.restoring.selected import entries
 from pico.manifest.edit import set_values
 from pico.manifest.load import load_files, load_folder
@@ -47,7 +48,7 @@ def read(manifest: str) -> LabState:
     return load_files({"table.yaml": manifest.encode()}, setup=SETUP).require()[1]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(then=states, now=states, names=st.sets(addresses, min_size=1, max_size=4))
 def test_only_what_was_named_is_as_then(then: dict[str, Part], now: dict[str, Part], names: set[str]) -> None:
     was, is_, named = read(text(then)), read(text(now)), read_addresses(SETUP, names)

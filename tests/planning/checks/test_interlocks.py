@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from planning_benches import TALL, TYPES, bench, part, planned, see, want
 from random_labs import random_case
 
+from examples import examples
 from pico.execution.graph import Graph
 from pico.model.catalog import ComponentType, OpticalElement, Parameter, Tunable
 from pico.model.lab import Mount, Policy, Robot, Setup
@@ -270,7 +271,7 @@ def test_where_the_shutter_fails_nothing_is_picked() -> None:
 SHUTTERS = st.sampled_from(("open", "closed", None))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(
     live=st.tuples(SHUTTERS, SHUTTERS), goal=st.tuples(SHUTTERS, SHUTTERS), spots=st.permutations(range(3)),
     unknown=st.booleans(), emission=st.booleans(), arms=st.integers(1, 2),

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from planning_benches import bench, part, planned, see, want
 from random_labs import random_case
 
+from examples import examples
 from pico.diagnostics import PicoError
 from pico.geometry import placed, separation
 from pico.model.lab import Setup, Slot
@@ -62,7 +63,7 @@ def test_a_finger_that_would_touch_is_told_with_its_depth() -> None:
     assert {(c.kind, c.overlap) for c in contacts if c} == {("finger", 5.0)}
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(30))
 @given(st.integers(0, 100_000))
 def test_every_edge_between_two_moves_stands_for_a_contact(seed: int) -> None:
     case = random_case(seed, least=4, most=14)
