@@ -158,7 +158,7 @@ class Move:
 
     def _timed(self, rise: list[Joints], approach: list[Joints], transit: list[Joints], choice: Postures) -> MovePath:
         robot, low, high = self.scene.robot, self.low, self.high
-        jaws = timing.jaw_seconds(self.opening, self.width) if robot.gripper.fingers != "none" else timing.JAW_SETTLE
+        jaws = timing.grip_seconds(robot, self.geometry)
         bottom, ground = _top(choice.pick, low), _top(choice.place, low)
         up, down = timing.vertical(robot, choice.place, low, high), timing.vertical(robot, choice.place, high, low)
         segments = (

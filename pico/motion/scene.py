@@ -121,7 +121,7 @@ class Scene:
             if geometry.grasp is not None:
                 depth = (self.robot.gripper.tool + grasp_height(self.robot, geometry)) / 1000
                 body = arm.body("gripper").add_body(name=f"held:{number}", pos=[0, 0, depth])
-                add_solids(arm, body, geometry, contype=ARM_BIT, conaffinity=ARM_BIT | WORLD_BIT)
+                add_solids(arm, body, geometry, contype=ARM_BIT, conaffinity=ARM_BIT)
 
     def _index(self, places: Mapping[int, list[str]]) -> None:
         """Remember where everything is in the model's arrays, and park the other arms."""
@@ -213,9 +213,9 @@ class Scene:
         model, body = self._model, self._hands[number]
         first = model.body_geomadr[body]
         geoms = slice(first, first + model.body_geomnum[body])
-        contype, conaffinity = (ARM_BIT, ARM_BIT | WORLD_BIT) if on else (0, 0)
-        model.geom_contype[geoms] = model.body_contype[body] = contype
-        model.geom_conaffinity[geoms] = model.body_conaffinity[body] = conaffinity
+        bits = ARM_BIT if on else 0
+        model.geom_contype[geoms] = model.body_contype[body] = bits
+        model.geom_conaffinity[geoms] = model.body_conaffinity[body] = bits
 
     def open(self, opening: float) -> None:
         """Set the distance between the pads [mm]."""

@@ -87,8 +87,7 @@ class SetDown(Move):
 
     def _path(self, rise: list[Joints], transit: list[Joints], column: Column) -> MovePath:
         robot, low, high = self.scene.robot, self.low, self.high
-        fingers = robot.gripper.fingers != "none"
-        jaws = timing.jaw_seconds(self.opening, self.width) if fingers else timing.JAW_SETTLE
+        jaws = timing.grip_seconds(robot, self.geometry)
         ground = column.at(low)
         assert ground is not None  # `postures` looked
         return _segments(

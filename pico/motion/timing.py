@@ -16,8 +16,10 @@ from functools import cache
 from itertools import pairwise
 from typing import Any
 
+from pico.model.catalog import Geometry
 from pico.model.lab import Robot
 from pico.motion.kinematics import Column
+from pico.motion.reach import opening
 from pico.motion.types import Joints
 from pico.motion.xarm7 import JOINT_ACCELERATION, JOINT_JERK, JOINT_SPEED, TOOL_SPEED
 
@@ -79,6 +81,13 @@ def vertical(robot: Robot, column: Column, start: float, end: float) -> Timed:
 def jaw_seconds(opening: float, width: float) -> float:
     """Return how long the gripper takes to close from `opening` on a part of `width` [mm], or to open again."""
     return abs(opening - width) / JAW_SPEED + JAW_SETTLE
+
+
+def grip_seconds(robot: Robot, geometry: Geometry) -> float:
+    """Return how long the hand of an arm takes to close on a part, or to let it go [s]; a suction cup only settles."""
+    if robot.gripper.fingers == "none" or geometry.grasp is None:
+        return JAW_SETTLE
+    return jaw_seconds(opening(robot, geometry), geometry.grasp.width)
 
 
 def profile(length: float, limits: Limits) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -8,8 +8,9 @@ it is wound up and must turn back, or two legs want different postures, a real m
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 
 from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
@@ -41,8 +42,6 @@ class Travel:
     setup: Setup
     name: str
     _over: dict[tuple[float, ...], tuple[PostureOver, ...]] = field(default_factory=dict)
-    _empty: dict[tuple[object, ...], float] = field(default_factory=dict)
-    _loaded: dict[tuple[object, ...], float] = field(default_factory=dict)
     _plumb: dict[tuple[float, ...], float] = field(default_factory=dict)
 
     @cached_property
@@ -55,21 +54,15 @@ class Travel:
         """The joints of the park pose [rad]; of a gantry [m, rad]."""
         return self.robot.park_joints
 
-    def empty(self, start: Pose | Joints | None, goal: Pose | None, start_yaw: float, goal_yaw: float) -> float:
+    @cached_property
+    def empty(self) -> Callable[[Pose | Joints | None, Pose | None, float, float], float]:
         """See `Motion.travel`."""
-        key = (start, goal, start_yaw, goal_yaw)
-        known = self._empty.get(key)
-        if known is None:
-            known = self._empty[key] = self._empty_seconds(start, goal, start_yaw, goal_yaw)
-        return known
+        return cache(self._empty_seconds)
 
-    def carry(self, component: str, start: Pose, goal: Pose, grasp_yaw: float) -> float:
+    @cached_property
+    def carry(self) -> Callable[[str, Pose, Pose, float], float]:
         """See `Motion.carry`."""
-        key = (component, start, goal, grasp_yaw)
-        known = self._loaded.get(key)
-        if known is None:
-            known = self._loaded[key] = self._loaded_seconds(component, start, goal, grasp_yaw)
-        return known
+        return cache(self._loaded_seconds)
 
     def _empty_seconds(
         self, start: Pose | Joints | None, goal: Pose | None, start_yaw: float, goal_yaw: float
@@ -94,10 +87,10 @@ class Travel:
         if geometry.grasp is None:
             return math.inf
         low = grasp_height(robot, geometry)
-        jaws = timing.jaw_seconds(opening(robot, geometry), geometry.grasp.width)
         if robot.model == "gantry":
-            return gantry.carry(robot, start, goal, low, jaws)
-        jaws = timing.JAW_SETTLE if robot.gripper.fingers == "none" else jaws
+            return gantry.carry(
+                robot, start, goal, low, timing.jaw_seconds(opening(robot, geometry), geometry.grasp.width)
+            )
         ways = [
             (max(_bend(a.joints, b.joints), _twist(a.joints[6], b.joints[6], _TURN, None)), n, a, b)
             for n, (a, b) in enumerate(
@@ -110,7 +103,7 @@ class Travel:
             return math.inf
         way, _, pick, place = min(ways)
         verticals = sum(self._vertical(over.column, low) for over in (pick, place))
-        return timing.swing_seconds(robot, way) + 2 * verticals + 2 * jaws
+        return timing.swing_seconds(robot, way) + 2 * verticals + 2 * timing.grip_seconds(robot, geometry)
 
     def _postures(self, pose: Pose, yaw: float, low: float) -> tuple[PostureOver, ...]:
         """The postures over a place, one for all turns of joint 7."""

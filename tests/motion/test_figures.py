@@ -7,6 +7,7 @@ import random
 from dataclasses import replace
 from itertools import pairwise
 
+import mujoco
 import numpy as np
 import pytest
 import shapely
@@ -27,6 +28,7 @@ from pico.motion.paths import heights, travel
 from pico.motion.reach import check_grip, check_table, grasp_height
 from pico.motion.recheck import Recheck, Task
 from pico.motion.scene import FREE, Scene, within_reach
+from pico.motion.solids import add_solids
 from pico.motion.stability import EDGE, check_stability
 from pico.motion.sweep import Leg, march
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
@@ -288,7 +290,12 @@ HULLS = (
     Hull("a", "cylinder", (0.02, 0.02, 0.06), np.zeros(3), np.eye(3)),
     Hull("a", "capsule", (0.02, 0.0, 0.06), np.zeros(3), np.eye(3)),
     of_geometry("a", TRIANGLE)[0],
+    of_geometry("a", replace(TRIANGLE, footprint=Footprint(polygon=((0, -30), (60, 0), (10, 50), (-20, 10)))))[0],
 )
+ROUND = of_geometry("a", replace(TRIANGLE, footprint=Footprint(polygon=tuple(
+    (40 * math.cos(t), 40 * math.sin(t)) for t in np.linspace(0, 2 * math.pi, 24, endpoint=False).tolist()
+))))[0]  # fmt: skip
+"""A prism of so many corners that its nearest one is looked for along its edges."""
 
 
 def points_of(hull: Hull) -> np.ndarray:
@@ -333,6 +340,66 @@ def test_hulls_are_as_far_apart_as_their_points_say(one: Hull, other: Hull) -> N
             there = Placed(other).put(np.eye(3), (reach + gap) * axis)
             assert distance(Placed(one), there, 1.0) == pytest.approx(gap, abs=5e-5)
         assert distance(Placed(one), Placed(other).put(np.eye(3), (reach - 0.001) * axis), 1.0) == 0.0
+
+
+@pytest.mark.parametrize("other", [*HULLS[:3], ROUND], ids=lambda hull: hull.kind)
+def test_a_prism_of_many_corners_ends_at_them(other: Hull) -> None:
+    for axis in (*np.eye(3), *-np.eye(3)):
+        reach = ROUND.support(axis.tolist()) + other.support((-axis).tolist())
+        for gap in (0.0005, 0.02):
+            there = Placed(other).put(np.eye(3), (reach + gap) * axis)
+            assert distance(Placed(ROUND), there, 1.0) == pytest.approx(gap, abs=5e-5)
+
+
+@pytest.mark.parametrize(("axis", "yaw", "along"), [("x", 0, (1, 0, 0)), ("y", 0, (0, 1, 0)), ("z", 40, (0, 0, 1)),
+                                                    ("x", 90, (0, 1, 0)), ("y", 30, (-0.5, 0.75**0.5, 0))])  # fmt: skip
+def test_a_cylinder_lies_as_it_is_said_to(axis: str, yaw: float, along: tuple[float, ...]) -> None:
+    """In both checks: its length of 90 mm reaches along its axis, its radius of 12 across."""
+    body = Body(name="b", shape="cylinder", size=(24, 90), at=(5, -8, 60), axis=axis, yaw=yaw)
+    geometry = Geometry(footprint=Footprint(box=(100, 100)), height=120, mass=0.2, bodies=(body,))
+    spec = mujoco.MjSpec()
+    add_solids(spec, spec.worldbody.add_body(name="part"), geometry)
+    geom = (model := spec.compile()).geom(0)
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    assert data.geom_xpos[0] == pytest.approx((0.005, -0.008, 0.06))
+    assert geom.size[:2] == pytest.approx((0.012, 0.045))
+    assert abs(data.geom_xmat[0].reshape(3, 3)[:, 2] @ along) == pytest.approx(1)
+    (hull,) = of_geometry("a", geometry)
+    assert hull.half == pytest.approx((0.012, 0.012, 0.045)) and hull.center == pytest.approx((0.005, -0.008, 0.06))
+    assert abs(hull.turn[:, 2] @ along) == pytest.approx(1) and np.linalg.det(hull.turn) == pytest.approx(1)
+
+
+def test_a_box_is_turned_as_it_is_said_to() -> None:
+    body = Body(name="b", shape="box", size=(80, 20, 40), at=(5, -8, 60), yaw=30)
+    geometry = Geometry(footprint=Footprint(box=(100, 100)), height=120, mass=0.2, bodies=(body,))
+    (hull,) = of_geometry("a", geometry, 0.001)
+    assert hull.half == pytest.approx((0.039, 0.009, 0.019))
+    assert hull.turn == pytest.approx(frames.about_z(math.radians(30)))
+
+
+def test_an_arm_that_goes_home_finds_the_other_where_it_stands() -> None:
+    """With both bases near one another the way home of one is through the other, where that reaches out."""
+    near = replace(ARM, mount=Mount(x=700, y=760, yaw=-90))
+    motion = ArmMotion(bench(robots={"arm1": ARM, "arm2": near}), second_check=False)
+    mine = ik(ARM, 780, 420, 250, 0)[0]
+    free, struck = (
+        motion.park("arm1", mine, {}, {"arm2": ik(near, x, y, 250, 0)[0]}) for x, y in ((1100, 500), (560, 480))
+    )
+    assert isinstance(free, MovePath), free
+    assert isinstance(struck, Blocked) and (struck.obstacle, struck.segment) == ("arm2", "park")
+
+
+def test_what_nobody_can_hold_is_never_carried_and_a_cup_only_settles() -> None:
+    setup = bench()
+    part = replace(setup.catalog["part"], geometry=replace(PART, grasp=None))
+    bare = ArmMotion(replace(setup, catalog={**setup.catalog, "part": part}))
+    assert bare.carry("arm1", "a", Pose(290, 300), Pose(620, 420), 0.0) == math.inf
+    assert bare.carry("arm1", "disc", Pose(290, 300), Pose(620, 420), 0.0) < 60
+    cup = replace(ARM, gripper=Gripper(fingers="none"))
+    assert timing.grip_seconds(cup, PART) == timing.JAW_SETTLE == timing.grip_seconds(ARM, replace(PART, grasp=None))
+    opens = ARM.gripper.fingers.opening
+    assert timing.grip_seconds(ARM, PART) == pytest.approx(2 * opens / 100 + 0.2)
 
 
 def test_what_a_hull_sweeps_is_how_far_its_center_goes_and_how_far_the_turn_carries_its_farthest_point() -> None:
