@@ -317,3 +317,13 @@ def test_no_motor_turns_on_a_part_that_is_carried(seeds: int) -> None:
 
 def at_once(a: Operation, b: Operation) -> bool:
     return a.start < b.start + b.seconds - 1e-6 and b.start < a.start + a.seconds - 1e-6
+
+
+def test_a_beam_that_nothing_closes_is_warned_of_only_where_it_must_be_closed() -> None:
+    for policy, codes in ((Policy(), ["open-beam"]), (Policy(open_beam=True), [])):
+        setup = lit(policy=policy)
+        made = planned(setup, see(setup, at(HERE)), want(at(THERE)))
+        assert [d.code for d in made.diagnostics] == codes
+        assert {o.primitive for o in made.operations} == {"move", "park"}
+    away = {name: place for name, place in at(HERE).items() if name != "laser0"}
+    assert planned(lit(), see(lit(), away), want({**away, "a": THERE})).diagnostics == ()

@@ -13,6 +13,7 @@ from pico.diagnostics import Diagnostic, PicoError, Position, SourceRange, error
 from pico.model.catalog import Footprint
 from pico.model.lab import Box2, KeepOut, Margins, Part, Setup, Slot
 from pico.model.observation import Observation, UnknownObject
+from pico.model.operation import Operation, Reason
 from pico.model.plan import Base
 from pico.model.pose import Pose
 from pico.motion.types import Blocked
@@ -20,6 +21,7 @@ from pico.planning import place_after, set_one
 from pico.planning.actors import actors
 from pico.planning.checks.bolted import check_bolted
 from pico.planning.checks.contacts import Contact, ends_of, spot_of, starts_of
+from pico.planning.explaining.explain import why_after
 from pico.planning.explaining.refusal import before, explain, finger_hits
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
@@ -349,3 +351,39 @@ def test_a_stranger_in_the_way_is_taken_away_by_hand() -> None:
     assert found.summary == "a cannot stand at (540, 300, 0°): it would overlap u1 by 20 mm"
     assert found.detail == "u1 stands at (500, 300); the bases need 62 mm between centers along x"
     assert found.hint == "nearest free place along x is x = 562; or take u1 away by hand"
+
+
+def test_by_how_much_a_goal_is_too_near_is_told_to_the_last_millimetre() -> None:
+    setup = bench(BLOCKS, margins=Margins(body=4, fingers=0))
+    seen = see(setup, {"a": (100, 420), "b": (520, 420)})
+    for x, says in ((460.5, "it would overlap b by 0.5 mm"), (460.0, "it would touch b"),
+                    (459.5, "it would come within 0.5 mm of b, and 4 mm must stay free")):  # fmt: skip
+        (found,) = planned(setup, seen, want({"a": (x, 420), "b": (520, 420)})).diagnostics
+        assert found.summary == f"a cannot stand at ({x:g}, 420, 0°): {says}"
+    assert not planned(setup, seen, want({"a": (455.9, 420), "b": (520, 420)})).errored
+
+
+def test_a_slot_must_be_empty_though_what_stands_in_its_mouth_would_not_touch_the_part() -> None:
+    """A mouth of 90 mm, and a part of 60 that stands in it at its rim."""
+    setup = bench(BLOCKS, {"wide": Slot(x=200, y=200, capture=90)})
+    rim, away, slot = {"pose": {"x": 290, "y": 200}}, {"pose": {"x": 600, "y": 200}}, {"slot": "wide"}
+
+    def moved(name: str, start: Any, goal: Any) -> Operation:
+        return Operation(id=name, primitive="move", component=name, robot="arm1", reason=Reason(kind="changed"),
+                         arguments={"from": start, "to": goal, "grasp_yaw": 90.0})  # fmt: skip
+
+    (leaves,) = why_after(setup, moved("b", rim, away), moved("a", away, slot))
+    assert leaves.text == "wide must be empty first: it would stand 30 mm inside the mouth of the slot"
+    assert leaves.contact == Contact(kind="slot", overlap=30.0, margin=0.0)
+    far = {"pose": {"x": 600, "y": 400}}
+    (stays,) = why_after(setup, moved("a", far, slot), moved("b", away, rim))
+    assert stays.text == (
+        "wide must be empty until a is there: with b at (290, 200, 0°), "
+        "it would stand 30 mm inside the mouth of the slot"
+    )
+    (path,) = why_after(setup, moved("a", far, away), moved("b", rim, {"pose": {"x": 100, "y": 450}}))
+    assert (path.kind, path.contact) == ("path", None)
+    body, *_ = why_after(setup, moved("a", far, {"pose": {"x": 330, "y": 200}}), moved("b", away, rim))
+    assert body.text.startswith(
+        "if b already stood at (290, 200, 0°) when a is put down at (330, 200, 0°), their bases"
+    )
