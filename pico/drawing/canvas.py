@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from pico.drawing.label_places import Box, bounds, overlap
 from pico.twin.lettering import Align, Color, extent, write
 
 if TYPE_CHECKING:
@@ -29,11 +30,47 @@ class Canvas:
         self._size = (width, height)
         self._image = np.full((height * _FINE, width * _FINE, 3), paper, np.uint8)
         self._texts: list[tuple[str, Point, float, Color, Align, int, Color | None]] = []
+        self.taken: list[Box] = []
+        """Where no words may go any more [pixels]: on what stands there, and on other words."""
+        self.words: list[tuple[str, Box]] = []
+        """What is written, and where [pixels]."""
         self._badges: list[tuple[str, Point, float, Color, Color]] = []
 
     def pixel(self, point: Point) -> Point:
         """Return where a point on the table [mm] is in the finished picture."""
         return self._origin[0] + point[0] * self.scale, self._origin[1] - point[1] * self.scale
+
+    @property
+    def bounds(self) -> Box:
+        """The whole picture [pixels]."""
+        return 0.0, 0.0, float(self._size[0]), float(self._size[1])
+
+    def occupy(self, points: Sequence[Point]) -> None:
+        """Let no words be written over the box around `points` [mm]."""
+        self.taken.append(bounds([self.pixel(p) for p in points]))
+
+    def occupy_line(self, start: Point, end: Point) -> None:
+        """Let no words be written over a line between two points [mm]."""
+        a, b = self.pixel(start), self.pixel(end)
+        pieces = 1 if min(abs(a[0] - b[0]), abs(a[1] - b[1])) < 1 else math.ceil(math.dist(a, b) / 12)
+        ends = [(a[0] + (b[0] - a[0]) * n / pieces, a[1] + (b[1] - a[1]) * n / pieces) for n in range(pieces + 1)]
+        self.taken += [bounds(pair) for pair in pairwise(ends)]
+
+    def free(self, box: Box) -> bool:
+        """Return whether nothing is in a box, and it lies in the picture [pixels]."""
+        inside = box[0] >= 0 and box[1] >= 0 and box[2] <= self._size[0] and box[3] <= self._size[1]
+        return inside and not any(overlap(box, other, 1.0) for other in self.taken)
+
+    @staticmethod
+    def room(text: str, size: float, weight: int = 400) -> tuple[float, float, float]:
+        """Return the width of `text`, and how far it rises above its base line and falls below [pixels]."""
+        _, rise, fall = extent("Ag", size, weight)
+        return extent(text, size, weight)[0] + 2.0, float(rise), float(fall)
+
+    def rule(self, start: Point, end: Point, color: Color, width: float) -> None:
+        """Draw a line between two pixels of the finished picture."""
+        ox, oy = self._origin
+        self.line([((u - ox) / self.scale, (oy - v) / self.scale) for u, v in (start, end)], color, width)
 
     def fill(self, points: Sequence[Point], color: Color, opacity: float = 1.0) -> None:
         """Fill a convex polygon [mm]."""
@@ -93,17 +130,30 @@ class Canvas:
     ) -> None:
         """Write `text` with its base line at `at` [mm], moved by `shift` [pixels, v down]; `halo` sets it off."""
         u, v = self.pixel(at)
-        self._texts.append((text, (u + shift[0], v + shift[1]), size, color, align, weight, halo))
+        self._write(text, (u + shift[0], v + shift[1]), size, color, align, weight, halo)
 
     def label(
         self, text: str, pixel: Point, size: float, color: Color, *, weight: int = 400, halo: Color | None = None
     ) -> None:
         """Write `text` with the middle of its base line at `pixel`, given in the finished picture."""
-        self._texts.append((text, pixel, size, color, "center", weight, halo))
+        self._write(text, pixel, size, color, "center", weight, halo)
+
+    def _write(
+        self, text: str, pixel: Point, size: float, color: Color, align: Align, weight: int, halo: Color | None
+    ) -> None:
+        self._texts.append((text, pixel, size, color, align, weight, halo))
+        width, rise, fall = self.room(text, size, weight)
+        left = pixel[0] - {"left": 0.0, "center": 0.5, "right": 1.0}[align] * width
+        box = (left, pixel[1] - rise, left + width, pixel[1] + fall)
+        self.taken.append(box)
+        self.words.append((text, box))
 
     def badge(self, text: str, pixel: Point, radius: float, color: Color, ink: Color) -> None:
         """Draw a disc with `text` in it at `pixel`, `radius` [pixels], both in the finished picture."""
         self._badges.append((text, pixel, radius, color, ink))
+        box = (pixel[0] - radius, pixel[1] - radius, pixel[0] + radius, pixel[1] + radius)
+        self.taken.append(box)
+        self.words.append((text, box))
 
     def finished(self) -> NDArray[np.uint8]:
         """Return the picture (height, width, 3)."""

@@ -6,12 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.drawing.canvas import Canvas, Point
+from pico.drawing.names import write_name
 from pico.drawing.outlines import outline
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.twin.lettering import Color
 
-_RED, _PAPER = (205, 20, 20), (255, 255, 255)
+_RED: Color = (205, 20, 20)
 LEGEND = "red: in each other's way; an arrow leads from what must leave first to what waits for it"
 
 
@@ -41,8 +43,8 @@ def draw_marks(
         if mark.blocker not in first or mark.waits not in ends:
             continue
         if mark.goals or mark.waits not in places:
-            middle = _between(first[mark.blocker], ends[mark.waits])
-            canvas.text(mark.text, middle, size, _RED, align="center", weight=600, halo=_PAPER)
+            at = canvas.pixel(_between(first[mark.blocker], ends[mark.waits]))
+            write_name(canvas, mark.text, (*at, *at), size, _RED, weight=600, line=True)
         else:
             _arrow(canvas, places[mark.blocker], places[mark.waits], mark.text, size)
 
@@ -71,7 +73,8 @@ def _arrow(canvas: Canvas, start: Pose, end: Pose, words: str, size: float) -> N
     curve = [_bend((start.x, start.y), side, (end.x, end.y), n / 24) for n in range(25)]
     canvas.line(curve[2:22], _RED, 2.2)
     canvas.arrow(curve[21], curve[23], _RED, 2.2, 13.0)
-    canvas.text(words, curve[12], size, _RED, align="center", weight=600, shift=(0, 0.35 * size), halo=_PAPER)
+    at = canvas.pixel(curve[12])
+    write_name(canvas, words, (*at, *at), size, _RED, weight=600)
 
 
 def _bend(a: Point, side: Point, b: Point, t: float) -> Point:

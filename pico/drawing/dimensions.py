@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pico.drawing.canvas import Canvas, Point
-from pico.twin.lettering import Align, Color
+from pico.drawing.names import write_name
+from pico.twin.lettering import Color
 
 _INK: Color = (120, 20, 120)
 _SURFACE: Color = (0, 110, 90)
-_WHITE: Color = (255, 255, 255)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,11 +42,7 @@ def draw_dimensions(canvas: Canvas, dimensions: Sequence[Dimension], size: float
         for tip, back in ((dimension.end, dimension.start), (dimension.start, dimension.end)):
             _tick(canvas, tip, back, color)
         if not dimension.surfaces:
-            aside = (-8 if x1 > x0 else 8) if sloping else 0
-            align: Align = "center" if not sloping else "right" if x1 > x0 else "left"
-            middle = ((x0 + x1) / 2, (y0 + y1) / 2)
-            lower = (0.9 * size if y1 < y0 else -0.3 * size) if sloping else -0.8 * size
-            canvas.text(dimension.text, middle, size, color, align=align, weight=600, shift=(aside, lower), halo=_WHITE)
+            _beside(canvas, dimension.text, ((x0 + x1) / 2, (y0 + y1) / 2), size, weight=600)
 
 
 def _legs(canvas: Canvas, start: Point, end: Point, size: float) -> None:
@@ -55,15 +51,14 @@ def _legs(canvas: Canvas, start: Point, end: Point, size: float) -> None:
     for a, b in ((start, corner), (corner, end)):
         canvas.dashes((a, b), _INK, 1.0, (2, 4))
     dx, dy = end[0] - start[0], end[1] - start[1]
-    below = 1.1 * size if dy > 0 else -0.4 * size
-    at = ((start[0] + corner[0]) / 2, start[1])
-    canvas.text(f"dx {dx:+.5g}", at, 0.8 * size, _INK, align="center", shift=(0, below), halo=_WHITE)
-    side = (corner[0], (start[1] + end[1]) / 2)
-    aside = 6 if dx > 0 else -6
-    canvas.text(
-        f"dy {dy:+.5g}", side, 0.8 * size, _INK, align="left" if dx > 0 else "right",
-        shift=(aside, 0.3 * size), halo=_WHITE,
-    )  # fmt: skip
+    _beside(canvas, f"dx {dx:+.5g}", ((start[0] + corner[0]) / 2, start[1]), 0.8 * size)
+    _beside(canvas, f"dy {dy:+.5g}", (corner[0], (start[1] + end[1]) / 2), 0.8 * size)
+
+
+def _beside(canvas: Canvas, words: str, at: Point, size: float, weight: int = 400) -> None:
+    """Write a measure at the nearest free place to a point [mm]."""
+    u, v = canvas.pixel(at)
+    write_name(canvas, words, (u - 4, v - 4, u + 4, v + 4), size, _INK, weight=weight)
 
 
 def _tick(canvas: Canvas, tip: Point, back: Point, color: Color) -> None:

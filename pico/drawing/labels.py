@@ -1,11 +1,12 @@
-"""Names of components in a picture: pills above them, moved up or aside until none hides another."""
+"""Names of components in a picture: pills at the nearest free place, so that none hides another or a component."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from pico.drawing.label_places import ABOVE, Box, free_place, nearest, overlap
 from pico.twin.lettering import extent, write
 
 if TYPE_CHECKING:
@@ -13,8 +14,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pico.drawing.viewpoint import Viewpoint
-
-Box = tuple[float, float, float, float]
 
 _INK = (34, 40, 49)
 _PILL = (255, 255, 255)
@@ -29,51 +28,54 @@ class Anchor:
     at: tuple[float, float, float]
 
 
-def label(image: NDArray[np.uint8], view: Viewpoint, anchors: Sequence[Anchor]) -> None:
-    """Write names into `image` (h, w, 3) above their anchors, with a line where one had to move away."""
+def label(
+    image: NDArray[np.uint8], view: Viewpoint, anchors: Sequence[Anchor], taken: Sequence[Box] = ()
+) -> Mapping[str, Box]:
+    """Write names into `image` (h, w, 3) at the nearest free place above their anchors, with a line to them.
+
+    `taken`: what is not to be covered [pixels]. Returns where each name is; one that finds no room is left out.
+    """
     import numpy as np
 
     if not anchors:
-        return
+        return {}
     size = max(11.0, image.shape[0] / 52)
     spots = view.project(np.array([a.at for a in anchors]))
+    within = (3.0, 3.0, image.shape[1] - 3.0, image.shape[0] - 3.0)
     boxes: dict[int, Box] = {}
-    for index in sorted(range(len(anchors)), key=lambda i: spots[i][1], reverse=True):  # the lowest first
+    for index in sorted(range(len(anchors)), key=lambda i: (spots[i][1], spots[i][0])):  # the highest first
         u, v, _ = (float(x) for x in spots[index])
-        name = anchors[index].name
-        width = extent(name, size, _WEIGHT)[0] + 0.9 * size
-        boxes[index] = _free(u, v, width, 1.4 * size, list(boxes.values()), image.shape[1])
-        _line(image, (u, v), boxes[index], size)
+        width, height = extent(anchors[index].name, size, _WEIGHT)[0] + 0.9 * size, 1.4 * size
+        around = (u - 2.0, v - 0.3 * height, u + 2.0, v)
+        found = free_place(around, width, height, [*taken, *boxes.values()], within, (ABOVE,))
+        if found is not None:
+            boxes[index] = found[0]
+            _line(image, (u, v), found[0])
     for index, box in boxes.items():
         _pill(image, box)
         _, rise, _ = extent("x", size, _WEIGHT)
         foot = ((box[0] + box[2]) / 2, (box[1] + box[3] + rise) / 2 - 0.5)
         write(image, anchors[index].name, foot, size, _INK, align="center", weight=_WEIGHT)
+    return {anchors[index].name: box for index, box in boxes.items()}
 
 
-def _free(u: float, v: float, width: float, height: float, taken: list[Box], limit: int) -> Box:
-    """The nearest place over (u, v) for a pill that meets no other."""
-    gap = 0.45 * height
-    for rise in range(12):
-        for aside in (0.0, -0.3, 0.3, -0.55, 0.55):
-            left = min(max(u - width / 2 + aside * width, 3.0), limit - width - 3.0)
-            top = max(3.0, v - gap - height - rise * 0.5 * height)
-            box = (left, top, left + width, top + height)
-            if not any(_meet(box, other) for other in taken):
-                return box
-    return box
+def engrave(image: NDArray[np.uint8], view: Viewpoint, anchors: Sequence[Anchor], taken: Sequence[Box]) -> None:
+    """Write names of places flat into `image` (h, w, 3), where nothing stands in front and no other name is."""
+    import numpy as np
+
+    size, done = max(9.0, image.shape[0] / 68), list(taken)
+    for anchor, (u, v, _) in zip(anchors, view.project(np.array([a.at for a in anchors]).reshape(-1, 3)), strict=True):
+        width, rise, _ = extent(anchor.name, size, _WEIGHT)
+        box = (u - width / 2 - 1, v - rise / 2 - 1, u + width / 2 + 1, v + rise / 2 + 1)
+        if not any(overlap(box, other) for other in done):
+            write(image, anchor.name, (u, v + rise / 2), size, _INK, align="center", weight=_WEIGHT)
+            done.append(box)
 
 
-def _meet(a: Box, b: Box) -> bool:
-    return a[0] < b[2] + 4 and b[0] < a[2] + 4 and a[1] < b[3] + 4 and b[1] < a[3] + 4
-
-
-def _line(image: NDArray[np.uint8], anchor: tuple[float, float], box: Box, size: float) -> None:
+def _line(image: NDArray[np.uint8], anchor: tuple[float, float], box: Box) -> None:
     import cv2
 
-    left, _, right, bottom = box
-    foot = (round(anchor[0] * 16), round((anchor[1] - 0.15 * size) * 16))
-    start = (round(min(max(anchor[0], left + size / 2), right - size / 2) * 16), round(bottom * 16))
+    foot, start = (tuple(round(x * 16) for x in at) for at in (anchor, nearest(box, anchor)))
     cv2.line(image, start, foot, _PILL, 2, cv2.LINE_AA, 4)
     cv2.line(image, start, foot, _INK, 1, cv2.LINE_AA, 4)
 

@@ -20,3 +20,8 @@ def circle(center: Point, radius: float, count: int) -> list[Point]:
     """Return `count` points of a circle."""
     angles = (2 * math.pi * i / count for i in range(count))
     return [(center[0] + radius * math.cos(a), center[1] + radius * math.sin(a)) for a in angles]
+
+
+def square(pose: Pose, half: float) -> list[tuple[float, float]]:
+    """Return the corners of a square around a pose [mm], `half` of a side from its middle."""
+    return [pose.apply(x * half, y * half) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]

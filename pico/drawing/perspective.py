@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 _SOLID = (OPAQUE_GROUP, 2)  # 2: arms
-_FLOOR = -TABLE_THICKNESS
+FOOT = 0.06
+"""How high the table stands above the floor [m]."""
+FLOOR = -TABLE_THICKNESS - FOOT
 _PAPER = (0.925, 0.937, 0.950)  # the floor and, far away, what is behind everything
 _PAPER_FROM, _PAPER_OVER = (
     1.0,
@@ -85,7 +87,7 @@ def _see(stage: Stage, view: Viewpoint, rays: Array) -> Hits:
 
     hits = cast(stage.model, stage.data, view.eye, rays, _SOLID)
     missed = (hits.geom < 0) & (rays[:, 2] < -1e-3)
-    hits.distance[missed] = np.minimum((_FLOOR - view.eye[2]) / rays[missed, 2], FAR)
+    hits.distance[missed] = np.minimum((FLOOR - view.eye[2]) / rays[missed, 2], FAR)
     hits.point[missed] = view.eye + hits.distance[missed, None] * rays[missed]
     hits.normal[missed] = (0.0, 0.0, 1.0)
     return hits

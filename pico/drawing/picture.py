@@ -109,11 +109,30 @@ def _perspective(
     stage = Stage(model, data, surfaces(setup, model, places), light, center_of(setup))
     image = photograph(stage, view)
     if labels:
-        from pico.drawing.labels import Anchor, label
+        from pico.drawing.labels import Anchor, engrave, label
 
         tops = {n: (p.position[0], p.position[1], top_of(setup, n, p)) for n, p in places.items()}
-        label(image, view, [Anchor(name, at) for name, at in sorted(tops.items())])
+        anchors = [Anchor(name, at) for name, at in sorted(tops.items())]
+        taken = shadows(view, model, data)
+        named = label(image, view, anchors, taken)
+        slots = sorted(setup.lab.slots.items())
+        plates = [Anchor(name.rpartition("/")[2], (s.x / 1000, s.y / 1000, 0.0)) for name, s in slots]
+        engrave(image, view, plates, [*taken, *named.values()])
     return image
+
+
+def shadows(view: Viewpoint, model: mujoco.MjModel, data: mujoco.MjData) -> list[tuple[float, float, float, float]]:
+    """Return the boxes (left, top, right, bottom) [pixels] in which each shape of components and arms is seen."""
+    import numpy as np
+
+    boxes = []
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    for geom in np.flatnonzero((model.geom_bodyid > 0) & (model.geom_group < 4)):
+        center, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
+        points = data.geom_xpos[geom] + (center + corners * half) @ data.geom_xmat[geom].reshape(3, 3).T
+        u, v, _ = view.project(points).T
+        boxes.append((float(u.min()), float(v.min()), float(u.max()), float(v.max())))
+    return boxes
 
 
 def posed_model(
@@ -133,9 +152,27 @@ def model_of(setup: Setup, places: Mapping[str, Placement]) -> tuple[mujoco.MjMo
     from pico.twin.scene import SceneBody, build_scene
 
     things = {name: SceneBody(setup.type_of(name).geometry, place) for name, place in places.items()}
-    model = build_scene(setup, things).compile()
+    scene = build_scene(setup, things)
+    _add_feet(scene, setup)
+    model = scene.compile()
     model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)  # else what is not free stays where it was at first
     return model, mujoco.MjData(model)
+
+
+def _add_feet(scene: mujoco.MjSpec, setup: Setup) -> None:
+    """Let the table stand on four feet; nothing meets them."""
+    import mujoco
+
+    from pico.drawing.perspective import FLOOR, FOOT
+    from pico.twin.scene import OPAQUE_GROUP
+
+    width, depth = (v / 1000 for v in setup.lab.table.size)
+    for x in (0.12, width - 0.12):
+        for y in (0.12, depth - 0.12):
+            scene.worldbody.add_geom(
+                type=mujoco.mjtGeom.mjGEOM_CYLINDER, pos=[x, y, FLOOR + FOOT / 2], size=[0.055, FOOT / 2, 0],
+                rgba=[0.16, 0.17, 0.19, 1], contype=0, conaffinity=0, group=OPAQUE_GROUP,
+            )  # fmt: skip
 
 
 def pose_model(
@@ -209,8 +246,10 @@ def scene_extent(setup: Setup, model: mujoco.MjModel, data: mujoco.MjData) -> An
     """Return points (n, 3) [m] that enclose table, components and arms."""
     import numpy as np
 
+    from pico.drawing.perspective import FLOOR
+
     width, depth = (v / 1000 for v in setup.lab.table.size)
-    corners = [(x, y, z) for x in (0, width) for y in (0, depth) for z in (-0.06, 0.0)]
+    corners = [(x, y, z) for x in (0, width) for y in (0, depth) for z in (FLOOR, 0.0)]
     visible = (model.geom_bodyid > 0) & (model.geom_group < 4)
     reach = model.geom_rbound[visible, None] * 0.8
     centers = data.geom_xpos[visible]

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from pico.drawing import parts_list as partslist
 from pico.drawing.beams import Place, beam_paths, flat
-from pico.drawing.label_places import free_place, overlap
-from pico.drawing.outlines import outline
-from pico.drawing.svg import Box, Drawing, Point, text_box, text_width
+from pico.drawing.label_places import Box, bounds, free_place, middle, nearest, overlap
+from pico.drawing.outlines import circle, outline, square
+from pico.drawing.svg import Drawing, Point, text_box, text_width
 from pico.model.lab import Box2, Setup, Slot
 from pico.model.pose import Pose
 from pico.motion.kinematics import span
@@ -99,8 +99,7 @@ def _fixed(drawing: Drawing, setup: Setup, places: Mapping[str, Pose], size: flo
 
 
 def _plate(slot: Slot) -> list[Point]:
-    h = _HALF_SLOT
-    return [slot.pose.apply(x, y) for x, y in ((-h, -h), (h, -h), (h, h), (-h, h))]
+    return square(slot.pose, _HALF_SLOT)
 
 
 def _areas(setup: Setup) -> list[tuple[str, Box2, str]]:
@@ -138,7 +137,6 @@ def _write(
 
 def _arcs(drawing: Drawing, setup: Setup, center: Point, radius: float, size: float) -> None:
     """The part of a circle that lies on the table."""
-    from pico.drawing.outlines import circle
     from pico.drawing.topview import on_table
 
     for arc in on_table(setup, circle(center, radius, 180)):
@@ -180,21 +178,19 @@ def _names(drawing: Drawing, setup: Setup, places: Mapping[str, Pose], taken: li
     drawing.group("names")
     for name, shape in sorted(shapes.items(), key=lambda item: (item[1][1], item[1][0])):
         wide = text_width(name, letters, bold=True)
-        box, beside = free_place(shape, wide, letters, [*taken, *labels, *shapes.values()], within)
+        others = [*taken, *labels, *shapes.values()]
+        box, beside = free_place(shape, wide, letters, others, within) or (shape, True)
         labels.append(box)
-        middle = ((box[0] + box[2]) / 2, box[1] + 0.77 * letters)
+        foot = ((box[0] + box[2]) / 2, box[1] + 0.77 * letters)
         if not beside:
-            x, y = (shape[0] + shape[2]) / 2, (shape[1] + shape[3]) / 2
-            near = (min(max(x, box[0]), box[2]), min(max(y, box[1]), box[3]))
-            drawing.rule((x, y), near, _FAINT, 0.08 * size)
-        drawing.text(name, middle, letters, _INK, anchor="middle", bold=True, halo=True)
+            drawing.rule(middle(shape), nearest(box, middle(shape)), _FAINT, 0.08 * size)
+        drawing.text(name, foot, letters, _INK, anchor="middle", bold=True, halo=True)
     slots = [_around(drawing, _plate(slot)) for slot in setup.lab.slots.values()]
     _area_names(drawing, setup, [*taken, *labels, *shapes.values(), *slots], size)
 
 
 def _around(drawing: Drawing, points: Sequence[Point]) -> Box:
-    us, vs = zip(*map(drawing.at, points), strict=True)
-    return min(us), min(vs), max(us), max(vs)
+    return bounds([drawing.at(point) for point in points])
 
 
 def _columns(rows: Sequence[tuple[str, ...]], size: float) -> list[float]:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from pico.drawing.canvas import Canvas, Point
+from pico.drawing.label_places import bounds
+from pico.drawing.names import write_name
 from pico.drawing.outlines import outline
 from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
@@ -57,10 +59,8 @@ def draw_way(canvas: Canvas, setup: Setup, name: str, start: Pose, goal: Pose, s
         canvas.arrow((start.x, start.y), (goal.x, goal.y), MOVE, 1.6, 10.0)
     turn = angle_between(start.yaw, goal.yaw)
     if stays(setup, name, start, goal) and abs(turn) > 0.05:
-        top = max(y for _, y in outline(setup.type_of(name).geometry.footprint, goal))
-        canvas.text(
-            f"{turn:+.3g}°", (goal.x, top), 0.85 * size, MOVE, align="center", weight=600, shift=(0, -4), halo=_WHITE
-        )
+        around = bounds([canvas.pixel(p) for p in outline(setup.type_of(name).geometry.footprint, goal)])
+        write_name(canvas, f"{turn:+.3g}°", around, 0.85 * size, MOVE, weight=600)
 
 
 def stays(setup: Setup, name: str, start: Pose, goal: Pose) -> bool:

@@ -10,9 +10,9 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from typing import Literal
 
+from pico.drawing.label_places import Box
+
 Point = tuple[float, float]
-Box = tuple[float, float, float, float]
-"""left, top, right, bottom [mm], y down as SVG has it."""
 
 _FONT = "Helvetica, Arial, 'Liberation Sans', sans-serif"
 _NARROW, _WIDE = "ijltfrI.,:;|!'()[] /°·", "mwMW@%→"

@@ -10,8 +10,9 @@ from pico.drawing.beams import Place, beam_paths, flat
 from pico.drawing.canvas import Canvas, Point
 from pico.drawing.conflict_marks import LEGEND, Mark, draw_marks
 from pico.drawing.dimensions import Dimension, draw_dimensions, legend
-from pico.drawing.names import Named, write_names
-from pico.drawing.outlines import circle, outline
+from pico.drawing.label_places import bounds
+from pico.drawing.names import Named, write_first, write_name, write_names
+from pico.drawing.outlines import circle, outline, square
 from pico.drawing.steps import MOVE, DrawnStep, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
 from pico.model.catalog import Footprint
 from pico.model.lab import Box2, Robot, Setup
@@ -42,6 +43,10 @@ _COLORS: dict[str, Color] = {
 }
 _OPTIC_WIDTH = 3.0  # pixels
 REACH_LEGEND = "dashed arcs: reach of the arm · tick: where a component faces"
+_PLATE = 36.0  # mm, half of what is drawn for a slot
+_LENS = 16.0  # mm, of a camera's circle
+_DATUM: Color = (60, 66, 76)
+_EYE: Color = (96, 76, 140)
 _GRASP_HEIGHT = 100.0  # mm, where nothing that can be grasped says otherwise
 
 
@@ -61,37 +66,67 @@ def draw(
     dimensions: Sequence[Dimension] = (),
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.drawing.picture.render`."""
-    canvas = new_canvas(setup, width, height)
-    size = max(9.0, min(width / 64, height / 48))
+    canvas = drawn(
+        setup, poses, joints, width=width, height=height, ghosts=ghosts, labels=labels, beams=beams, values=values,
+        marks=marks, steps=steps, dimensions=dimensions,
+    )  # fmt: skip
+    return with_list(canvas.finished(), steps, 0.95 * letters(width, height))
+
+
+def letters(width: int, height: int) -> float:
+    """Return the size of the letters on a drawing [pixels]."""
+    return max(9.0, min(width / 64, height / 48))
+
+
+def drawn(
+    setup: Setup,
+    poses: Mapping[str, Place],
+    joints: Mapping[str, Joints],
+    *,
+    width: int,
+    height: int,
+    ghosts: Mapping[str, Pose],
+    labels: bool,
+    beams: bool,
+    values: Values | None = None,
+    marks: Sequence[Mark] = (),
+    steps: Sequence[DrawnStep] = (),
+    dimensions: Sequence[Dimension] = (),
+) -> Canvas:
+    """Return the canvas with everything on it but the list of the steps."""
+    canvas, size = new_canvas(setup, width, height), letters(width, height)
     _draw_table(canvas, setup)
-    _draw_areas(canvas, setup, size)
-    _draw_slots(canvas, setup, [*flat(poses).values(), *ghosts.values()], size)
+    _draw_areas(canvas, setup)
+    _draw_slots(canvas, setup)
     for robot in setup.lab.robots.values():
         if robot.model == "xarm7":
             _draw_reach(canvas, setup, robot)
     if beams:
         for _, start, end in beam_paths(setup, poses, values):
             canvas.line((start[:2], end[:2]), _BEAM, 1.2)
+            canvas.occupy_line(start[:2], end[:2])
     places = flat(poses)
     for name, pose in sorted(places.items()):
         _draw_component(canvas, setup, name, pose)
-    moves = [step for step in steps if step.goal is not None]
-    ghosts = {**ghosts, **goals_of(moves)}
-    _draw_goals(canvas, setup, places, ghosts, moves, size)
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model == "xarm7":
             _draw_arm(canvas, name, robot, joints.get(name), size)
+    _draw_legend(canvas, setup, size, LEGEND if marks else legend(dimensions) if dimensions else REACH_LEGEND)
+    _draw_eyes(canvas, setup)
+    moves = [step for step in steps if step.goal is not None]
+    ghosts = {**ghosts, **goals_of(moves)}
+    _draw_goals(canvas, setup, places, ghosts, moves, size)
+    draw_numbers(canvas, setup, moves, size)
+    draw_marks(canvas, setup, marks, places, ghosts, size)
+    draw_dimensions(canvas, dimensions, size)
     if labels:
         gone = {n: goal for n, goal in ghosts.items() if n not in places or not stays(setup, n, places[n], goal)}
         named = [(name, pose, _INK) for name, pose in places.items()]
         named += [(name, goal, MOVE) for name, goal in gone.items()]
         things = [Named(n, outline(setup.type_of(n).geometry.footprint, pose), ink) for n, pose, ink in named]
         write_names(canvas, things, size)
-    draw_marks(canvas, setup, marks, places, ghosts, size)
-    draw_dimensions(canvas, dimensions, size)
-    _draw_legend(canvas, setup, size, LEGEND if marks else legend(dimensions) if dimensions else REACH_LEGEND)
-    draw_numbers(canvas, setup, moves, size)
-    return with_list(canvas.finished(), steps, 0.95 * size)
+    _name_places(canvas, setup, size)
+    return canvas
 
 
 def _draw_goals(
@@ -104,6 +139,7 @@ def _draw_goals(
     for name, _, goal in ways:
         if goal is not None:
             draw_ghost(canvas, setup, name, goal)
+            canvas.occupy(outline(setup.type_of(name).geometry.footprint, goal))
     for name, start, goal in ways:
         if start is not None and goal is not None:
             draw_way(canvas, setup, name, start, goal, size)
@@ -135,31 +171,59 @@ def _draw_table(canvas: Canvas, setup: Setup) -> None:
     canvas.line(outline, _EDGE, 1.2, closed=True)
 
 
-def _draw_areas(canvas: Canvas, setup: Setup, size: float) -> None:
-    for name, region in sorted(setup.lab.regions.items()):
+def _draw_areas(canvas: Canvas, setup: Setup) -> None:
+    for _, region in sorted(setup.lab.regions.items()):
         canvas.fill(_corners(region.area), _REGION, 0.55)
         canvas.dashes(_closed(region.area), (160, 184, 214), 1.0, (6, 4))
-        at = (region.area.x[1], region.area.y[1])
-        canvas.text(name, at, 0.8 * size, (96, 124, 160), align="right", shift=(0, -3))
-    for name, zone in sorted(setup.lab.keep_out.items()):
+    for _, zone in sorted(setup.lab.keep_out.items()):
         canvas.fill(_corners(zone.area), (250, 226, 226), 0.7)
         canvas.dashes(_closed(zone.area), _FORBIDDEN, 1.2, (5, 4))
-        at = (zone.area.x[0], zone.area.y[1])
-        canvas.text(f"keep out: {name}", at, 0.8 * size, _FORBIDDEN, shift=(5, 1.05 * size))
 
 
-def _draw_slots(canvas: Canvas, setup: Setup, taken: Sequence[Pose], size: float) -> None:
-    """Plates, with their names where nothing stands on them."""
-    half = 36.0
+def _draw_slots(canvas: Canvas, setup: Setup) -> None:
+    for _, slot in sorted(setup.lab.slots.items()):
+        canvas.fill(square(slot.pose, _PLATE), (255, 255, 255), 0.8)
+        canvas.line(square(slot.pose, _PLATE), _SLOT, 1.0, closed=True)
+
+
+def _draw_eyes(canvas: Canvas, setup: Setup) -> None:
+    """Markers that lie on the table, and the cameras over it with a tick to where they look."""
+    for datum in setup.lab.datums.values():
+        corners = square(Pose(datum.x, datum.y, datum.yaw), datum.size / 2)
+        canvas.fill(corners, _DATUM)
+        canvas.fill(square(Pose(datum.x, datum.y, datum.yaw), datum.size / 6), (255, 255, 255))
+        canvas.occupy(corners)
+    for camera in setup.lab.cameras.values():
+        if camera.robot is not None:
+            continue
+        (x, y, _), (to_x, to_y, _) = camera.position, camera.look_at
+        away = math.hypot(to_x - x, to_y - y)
+        if away > 1.0:
+            ux, uy = (to_x - x) / away, (to_y - y) / away
+            canvas.line(((x + _LENS * ux, y + _LENS * uy), (x + 45 * ux, y + 45 * uy)), _EYE, 1.6)
+        body = circle((x, y), _LENS, 24)
+        canvas.dashes([*body, body[0]], _EYE, 1.6, (3, 2))  # it hangs over what stands there
+        canvas.occupy(body)
+
+
+def _name_places(canvas: Canvas, setup: Setup, size: float) -> None:
+    """Name cameras, slots and areas where there is room for it."""
+    for name, camera in sorted(setup.lab.cameras.items()):
+        if camera.robot is None:
+            body = circle(camera.position[:2], _LENS, 24)
+            write_name(canvas, name, bounds([canvas.pixel(p) for p in body]), 0.85 * size, _EYE)
     for name, slot in sorted(setup.lab.slots.items()):
-        corners = [slot.pose.apply(sx * half, sy * half) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        canvas.fill(corners, (255, 255, 255), 0.8)
-        canvas.line(corners, _SLOT, 1.0, closed=True)
-        if all(slot.pose.distance(pose) > half for pose in taken):
-            at = (slot.x, slot.y)
-            canvas.text(
-                name.rpartition("/")[2], at, 0.95 * size, _FAINT, align="center", shift=(0, 0.35 * size), weight=500
-            )
+        u, v = canvas.pixel((slot.x, slot.y))
+        write_first(canvas, name.rpartition("/")[2], [(u, v + 0.35 * size)], 0.95 * size, _FAINT)
+    for _, slot in sorted(setup.lab.slots.items()):
+        canvas.occupy(square(slot.pose, _PLATE))
+    areas = [(name, region.area, (96, 124, 160)) for name, region in sorted(setup.lab.regions.items())]
+    areas += [(f"keep out: {name}", zone.area, _FORBIDDEN) for name, zone in sorted(setup.lab.keep_out.items())]
+    for words, area, color in areas:
+        wide = canvas.room(words, 0.8 * size)[0] / 2 + 3
+        (left, foot), (right, top) = canvas.pixel((area.x[0], area.y[0])), canvas.pixel((area.x[1], area.y[1]))
+        tops, sides = (top - 4, foot + 1.1 * size, top + 1.1 * size, foot - 4), (right - wide, left + wide)
+        write_first(canvas, words, [(u, v) for v in tops for u in sides], 0.8 * size, color)
 
 
 def _draw_reach(canvas: Canvas, setup: Setup, robot: Robot) -> None:
@@ -177,6 +241,7 @@ def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None
     kind = setup.type_of(name)
     color = _COLORS.get(kind.optics.element, _COLORS["none"])
     corners = outline(kind.geometry.footprint, pose)
+    canvas.occupy(corners)
     canvas.fill(corners, _mixed(color, 0.80))
     canvas.line(corners, color, 1.3, closed=True)
     front = _front(kind.geometry.footprint)
@@ -202,9 +267,11 @@ def _draw_arm(canvas: Canvas, name: str, robot: Robot, joints: Joints | None, si
         jaw = [hand.apply(side * (38 + 8 * a), 11 * b) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         canvas.fill(jaw, (88, 98, 114), 0.8)
     base = circle((mount.x, mount.y), 62.0, 48)
+    canvas.occupy([hand.apply(a * 55, b * 24) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
     canvas.fill(base, (214, 221, 230))
     canvas.line(base, (96, 108, 126), 1.5, closed=True)
     canvas.text(name, (mount.x, mount.y), 0.95 * size, _INK, align="center", weight=600, shift=(0, 0.35 * size))
+    canvas.taken[-1] = bounds([canvas.pixel(p) for p in base])
 
 
 def _draw_legend(canvas: Canvas, setup: Setup, size: float, words: str) -> None:

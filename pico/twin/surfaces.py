@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup
-from pico.twin.lettering import write
+from pico.model.lab import Datum, Setup
+from pico.model.pose import Pose
 
 if TYPE_CHECKING:
     import mujoco
@@ -20,7 +20,7 @@ STEEL = (0.700, 0.712, 0.728)
 HOLE_RADIUS = 3.3
 """Of a tapped hole with its chamfer [mm]."""
 _HOLE = (0.25, 0.26, 0.28)
-_PLATE, _RIM, _INK = (0.600, 0.625, 0.660), (0.46, 0.49, 0.53), (0.24, 0.27, 0.32)
+_PLATE, _RIM = (0.600, 0.625, 0.660), (0.46, 0.49, 0.53)
 _SLOT_HALF, _CORNER = 36.0, 6.0  # mm, of the plate that is drawn for a slot
 _DENSITY, _LARGEST = 2.0, 3600  # pixels a mm of the painted table, and at most along an edge
 _DICTIONARY = "DICT_4X4_1000"
@@ -106,22 +106,39 @@ def marker_image(marker: int, pixels: int = 96) -> NDArray[np.uint8]:
 
 
 def _paint(setup: Setup) -> NDArray[np.uint8]:
-    """What is painted on the table: the slots with their names, seen from above, y up (RGB)."""
+    """What lies flat on the table: the plates of the slots and the datums, seen from above, y up (RGB)."""
     import cv2
     import numpy as np
 
     width, depth = setup.lab.table.size
     scale = min(_DENSITY, _LARGEST / max(width, depth))
     image = np.full((round(depth * scale), round(width * scale), 3), _bytes(STEEL), np.uint8)
-    for name, slot in sorted(setup.lab.slots.items()):
+    for slot in setup.lab.slots.values():
         for inset, color in ((0.0, _RIM), (1.2, _PLATE)):
             corners = _rounded(_SLOT_HALF - inset, _CORNER - inset)
             placed = np.array([slot.pose.apply(x, y) for x, y in corners])
             pixels = np.column_stack((placed[:, 0], depth - placed[:, 1])) * scale * 16 - 8
             cv2.fillConvexPoly(image, pixels.round().astype(np.int32), _bytes(color), cv2.LINE_AA, 4)
-        at = (slot.x * scale, (depth - slot.y + _SLOT_HALF - 6) * scale)
-        write(image, name.rpartition("/")[2], at, 15 * scale, _bytes(_INK), align="center", weight=600)
+    for datum in setup.lab.datums.values():
+        _lay(image, datum, depth, scale)
     return image
+
+
+def _lay(image: NDArray[np.uint8], datum: Datum, depth: float, scale: float) -> None:
+    """Lay a datum's marker on the table, with a white rim."""
+    import cv2
+    import numpy as np
+
+    marker = np.pad(marker_image(datum.marker), 12, constant_values=255)
+    side, half = marker.shape[0], datum.size / 2 * marker.shape[0] / (marker.shape[0] - 24)
+    pose = Pose(datum.x, datum.y, datum.yaw)
+    corners = [pose.apply(*c) for c in ((-half, half), (half, half), (half, -half), (-half, -half))]
+    there = np.array([(x * scale, (depth - y) * scale) for x, y in corners], np.float32)
+    here = np.array([(0, 0), (side, 0), (side, side), (0, side)], np.float32)
+    turn, size = cv2.getPerspectiveTransform(here, there), (image.shape[1], image.shape[0])
+    laid = cv2.warpPerspective(cv2.cvtColor(marker, cv2.COLOR_GRAY2RGB), turn, size, flags=cv2.INTER_AREA)
+    covered = cv2.warpPerspective(np.full((side, side), 255, np.uint8), turn, size) > 127
+    image[covered] = laid[covered]
 
 
 def _rounded(half: float, radius: float) -> list[tuple[float, float]]:

@@ -24,7 +24,7 @@ from pico.model.state import home_state, place_of
 from pico.twin.placement import upright
 from pico.twin.snapshot import Recording, Snapshot, at
 
-SIZE = (192, 108)
+SIZE = (224, 126)
 
 
 @pytest.fixture(scope="module")

@@ -7,11 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from pico.drawing.lighting import KEY
-from pico.drawing.perspective import Beam, Stage, photograph
+from pico.drawing.perspective import FLOOR, Beam, Stage, photograph
 from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, top_of, viewpoint
 from pico.model.lab import Setup
 from pico.twin.placement import Placement
-from pico.twin.scene import TABLE_THICKNESS
 from pico.twin.snapshot import Snapshot
 from pico.twin.surfaces import surfaces
 
@@ -114,7 +113,7 @@ def _reach(centers: Array, radius: Array) -> Array:
 
     corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     points = (centers[:, None] + radius[:, None, None] * corners).reshape(-1, 3)
-    fall = np.maximum(0.0, points[:, 2] + TABLE_THICKNESS)[:, None]
+    fall = np.maximum(0.0, points[:, 2] - FLOOR)[:, None]
     shadow = points - fall * np.array(KEY) / KEY[2]
     blur = _PENUMBRA * fall * np.array([(x, y, 0) for x in (-1, 1) for y in (-1, 1)])[:, None]
     return np.vstack([points, (shadow + blur).reshape(-1, 3)])
