@@ -62,8 +62,10 @@ def moved(answer: MovePath | Blocked) -> MovePath:
     return answer
 
 
-def refused(answer: MovePath | Blocked | None) -> Blocked:
+def refused(answer: MovePath | Blocked | None, *, by_second: bool = False) -> Blocked:
+    """Return why something is blocked: the first collision check has found it, or only the second one."""
     assert isinstance(answer, Blocked), "not blocked"
+    assert ("the two collision checks disagree" in answer.text) is by_second, answer.text
     return answer
 
 

@@ -11,6 +11,7 @@ sys.path.append(str(Path(__file__).resolve().parent.parent / "execution"))
 
 from benches import shel
 
+from pico.model.catalog import Footprint, Geometry
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
 from pico.motion.setdown import tool_of
@@ -58,7 +59,23 @@ def test_a_place_that_is_taken_is_refused_by_name(motion: ArmMotion) -> None:
     standing = {"p2": StandingObject(GOAL, GEOMETRY)}
     found = motion.set_down("arm1", "p1", START, GOAL, standing, joints)
     assert isinstance(found, Blocked)
-    assert found.obstacle == "p2"
+    assert (found.obstacle, found.segment, found.kind) == ("p2", "lower", "collision")
+    assert "p2" in found.text and "disagree" not in found.text
+
+
+def test_a_wall_on_the_way_and_a_roof_over_the_hand_are_told_with_what_the_arm_does_there(motion: ArmMotion) -> None:
+    path = moved(motion, {})
+    tall = Geometry(footprint=Footprint(box=(40, 40)), height=500, mass=2.0)
+    over = next(s for s in path.segments if s.name == "transit").joints[0]
+    wall = {f"w{n}": StandingObject(Pose(250 + 12 * n, 180 + 42 * n), tall) for n in range(7)}
+    found = motion.set_down("arm1", "p1", START, GOAL, wall, over)
+    assert isinstance(found, Blocked) and found.segment == "transit" and found.obstacle in wall
+    assert "disagree" not in found.text and str(found.obstacle) in found.text
+    low = next(s for s in path.segments if s.name == "lift").joints[0]
+    beside = {"near": StandingObject(Pose(START.x + 66, START.y), tall)}
+    struck = motion.set_down("arm1", "p1", START, GOAL, beside, low)
+    assert isinstance(struck, Blocked) and (struck.segment, struck.obstacle) == ("lift", "near")
+    assert "disagree" not in struck.text
 
 
 def test_an_arm_that_was_stopped_at_speed_among_neighbours_sets_down(motion: ArmMotion) -> None:
