@@ -16,7 +16,8 @@ from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose
 from pico.model.report import RunReport
 from pico.model.state import Expectation
-from pico.policy.expectations import check_expectations
+from pico.policy.expectations import check_expectations, shown
+from pico.policy.reaching import reaching
 from pico.resources import labs_dir
 
 
@@ -48,6 +49,21 @@ def test_a_failing_expectation_shows_what_the_bench_shows(shel: Setup) -> None:
     found = expected(shel, "p1.angle < 45 && p2.pose.x > 0")
     assert found.holds is False
     assert found.why == "p1.angle is 90, p2.pose.x is 520"
+
+
+def test_what_is_shown_reads_as_in_an_expression() -> None:
+    values: dict[str, object] = {
+        "a.on": True,
+        "a.b": False,
+        "a.x": 1 / 3,
+        "a.n": 12345678,
+        "a.s": "open",
+        "a.xy": 1.0,
+        "n": 2,
+    }
+    assert shown("a.on && a.x > a.n", values) == "a.n is 1.23457e+07, a.on is true, a.x is 0.333333"
+    assert shown("!a.b || a.s == 'x' && n > 1", values) == "a.b is false, a.s is `open`"
+    assert shown("b.a.on", values) == "" == shown("a.onto", values)
 
 
 @pytest.mark.parametrize(("that", "part", "why"), [
@@ -105,3 +121,17 @@ def test_an_expectation_that_does_not_hold_or_is_unknown_ends_a_command_with_6(h
     assert RunReport(run="r", goal="e1", outcome="done", expectations=found).exit_code == code
     assert RunReport(run="r", goal="e1", outcome="failed", expectations=found).exit_code == ExitCode.ERROR
     assert RunReport(run="r", goal="e1", outcome="interrupted", expectations=found).exit_code == ExitCode.INTERRUPTED
+
+
+def test_where_a_beam_comes_is_asked_of_lasers_and_of_what_is_seen(shel: Setup) -> None:
+    at = {"laser": Pose(100, 420, 0), "p1": Pose(290, 420, 0), "p2": Pose(520, 300, 0)}
+    parts = {name: ObservedComponent(pose=pose) for name, pose in at.items()}
+    parts["lx_100"] = ObservedComponent(presence="toppled", pose=Pose(1, 1, 0))
+    reaches = reaching(shel, Observation(backend="sim", components=parts))
+    assert reaches("laser", "p1") and not reaches("laser", "p2")
+    for laser, part, says in (
+        ("laser", "lx_100", "lx_100 is toppled"), ("laser", "lx_125", "lx_125 is missing"),
+        ("p1", "laser", "p1 is no source of light"), ("laser", "p9", "there is no component `p9`"),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=says):
+            reaches(laser, part)

@@ -21,6 +21,7 @@ from pico.planning import place_after, set_one
 from pico.planning.actors import actors
 from pico.planning.checks.bolted import check_bolted
 from pico.planning.checks.contacts import Contact, ends_of, spot_of, starts_of
+from pico.planning.explaining.blocking import blocks_of
 from pico.planning.explaining.explain import why_after
 from pico.planning.explaining.refusal import before, explain, finger_hits
 from pico.planning.ordering.conflicts import Conflicts
@@ -333,6 +334,11 @@ def test_a_value_that_there_is_not_or_that_nobody_reads_back_can_not_be_set() ->
     assert "angle" in str(caught.value.diagnostics[0].hint) and caught.value.diagnostics[0].address == "a"
     with pytest.raises(PicoError, match=r"does not model a\.exposure"):
         set_one(setup, seen, "a", "exposure", 1.0)
+    for presence, hint in (("missing", "pico drift"), ("held", "pico recover")):
+        there = {**seen.components, "b": replace(seen.components["a"], presence=presence)}
+        with pytest.raises(PicoError, match=f"b is {presence}") as caught:
+            set_one(setup, replace(seen, components=there), "b", "angle", 1.0)
+        assert hint in str(caught.value.diagnostics[0].hint)
     with pytest.raises(PicoError, match="b is missing"):
         set_one(setup, seen, "b", "angle", 1.0)
 
@@ -387,3 +393,20 @@ def test_a_slot_must_be_empty_though_what_stands_in_its_mouth_would_not_touch_th
     assert body.text.startswith(
         "if b already stood at (290, 200, 0°) when a is put down at (330, 200, 0°), their bases"
     )
+
+
+def test_a_grasp_that_a_wall_excludes_does_not_count_and_where_walls_exclude_all_every_one_does() -> None:
+    wall, east = {"wall": (500.0, 364.0)}, {"east": (564.0, 364.0)}
+    for walls, grasps in ((wall, "block"), (east, "block")):
+        parts = {"a": "block", "b": grasps, **dict.fromkeys(walls, part(seating="bolted"))}
+        setup = bench(parts)
+        seen = see(setup, {"a": (564, 300), "b": (300, 300), **walls})
+        made = planned(setup, seen, want({"a": (700, 100), "b": (500, 300), **walls}))
+        found = {(b.blocker, b.blocked, b.every_grasp) for b in blocks_of(setup, made)}
+        assert found == ({("a", "b", True)} if walls is wall else set()), walls
+    setup = bench({"a": "block", "b": "one_way", "wall": part(seating="bolted")})
+    walls = {"wall": (436.0, 300.0)}
+    seen = see(setup, {"a": (564, 300), "b": (300, 300), **walls})
+    made = planned(setup, seen, want({"a": (700, 100), "b": (500, 300), **walls}))
+    assert made.errored
+    assert {(b.blocker, b.blocked, b.every_grasp) for b in blocks_of(setup, made)} == {("a", "b", True)}
