@@ -43,6 +43,13 @@ def test_every_command_and_option_exists(line: str) -> None:
     assert {w for w in words[1:] if w.startswith("-")} <= known
 
 
+def test_what_is_installed_is_the_labs_own_pin_for_there_is_no_package_to_name() -> None:
+    (github,) = [step["run"] for step in STEPS if "pip install" in step.get("run", "")]
+    (gitlab,) = GITLAB["lab"]["before_script"]
+    assert [shlex.split(line, comments=True)[-2:] for line in (github, gitlab)] == 2 * [["-r", "pico.txt"]]
+    assert "`pico.txt`" in (CI / "README.md").read_text()
+
+
 @pytest.fixture
 def pull_request(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A clone as continuous integration makes it: of a branch merged into main, HEAD detached, and `pico` on PATH."""

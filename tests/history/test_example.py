@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+import pico
 from pico.bench.bench import new_lab
 from pico.diagnostics import PicoError
 from pico.history.examples.example import example_names, init_empty, make_example
@@ -178,6 +180,18 @@ def test_an_empty_lab_loads_and_can_be_committed(tmp_path: Path) -> None:
     assert repository.head().commit is None
     assert repository.changed() == ("lab.yaml", "state/table.yaml")
     assert repository.commit(repository.changed(), "first state").summary == "first state"
+
+
+@pytest.mark.parametrize(("beyond", "reached"), [(-0.02, False), (0.0, True), (0.5, True), (1.0, True), (1.02, False)])
+def test_the_reach_that_an_empty_lab_tells_is_that_of_its_arm(tmp_path: Path, beyond: float, reached: bool) -> None:
+    repository = init_empty(tmp_path / "bench")
+    told = re.search(r"reaches ([\d.]+) to ([\d.]+) m", (repository.root / "lab.yaml").read_text())
+    assert told is not None
+    near, far = (1000 * float(number) for number in told.groups())
+    with pico.open(repository.root) as bench:
+        away = near + (far - near) * beyond
+        plan = bench.single("lens", "move", {"x": "480", "y": f"{760 - away:g}", "yaw": "0"})
+        assert plan.errored != reached
 
 
 def test_an_empty_lab_joins_the_repository_it_lies_in_and_overwrites_nothing(repo: Path) -> None:
