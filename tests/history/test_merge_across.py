@@ -174,6 +174,9 @@ def test_plan_and_check_tell_of_a_part_that_gits_merge_kept_until_somebody_has_l
     git("merge", "-q", "-m", "merge", "theirs")
     told = planned(folder.root)
     assert [d.address for d in told] == ["p1"] and OTHER in told[0].summary
+    merge_commit, took = git("rev-parse", "HEAD").strip(), git("rev-parse", "HEAD^1").strip()
+    assert f"{took[:7]} took it out" in told[0].summary and f"git's merge {merge_commit[:7]} kept it" in told[0].summary
+    assert "git commit --allow-empty" in str(told[0].hint)
     assert "p1" in str(check(folder.root, None, environment={}).labs[0].diagnostics)
     assert [d.address for d in planned(folder.root, "ours")] == ["p1"]
     assert not planned(folder.root, targets=["p2"])
@@ -189,7 +192,10 @@ def test_plan_and_check_tell_of_a_part_that_gits_merge_kept_until_somebody_has_l
 def test_plan_tells_while_a_merge_is_under_way_and_not_once_pico_has_ended_it(branches: Branches, git: Git) -> None:
     folder = branches(moved("p1"), taken_out("p1"))
     git("merge", "-q", "--no-commit", "theirs")
-    assert [d.address for d in planned(folder.root)] == ["p1"]
+    (told,) = planned(folder.root)
+    moved_it = git("rev-parse", "HEAD").strip()
+    assert told.address == "p1" and f"{moved_it[:7]} moved it to {OTHER}" in told.summary
+    assert "`pico commit`, which ends the merge" in str(told.hint)
     with Bench.open(folder.root) as bench:
         bench.commit("p1 stays", "planned")
     assert len(git("show", "-s", "--format=%P").split()) == 2 and not planned(folder.root)

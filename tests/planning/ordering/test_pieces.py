@@ -25,10 +25,10 @@ from pico.planning.checks.contacts import footprint_at
 from pico.planning.ordering.clock import FAR, HANDLING, SPEED, TURN, Clock
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.fewest_stagings import BOUND
-from pico.planning.ordering.realize import _arriving, _order, _peak, _roomiest, realized, slots_needed
+from pico.planning.ordering.realize import _arriving, _order, _peak, _Replay, _roomiest, realized, slots_needed
 from pico.planning.ordering.relaxed import _shared, relaxation
 from pico.planning.ordering.search import OrderedMove, ranked_storage
-from pico.planning.ordering.several_arms import _near
+from pico.planning.ordering.several_arms import _near, work_of
 from pico.planning.ordering.shorten import shortened, valid
 from pico.planning.parts.movers import Hold
 from pico.planning.parts.situation import read_situation
@@ -324,3 +324,42 @@ def test_a_move_is_in_a_zone_where_the_arm_comes_there_straight_from_its_base() 
     assert {key for key, said in near.items() if said} == {
         ("a", "arm2"), ("b", "arm1"), ("b", "arm2"), ("c", "arm1"), ("c", "arm2"), ("d", "arm1"),
     }  # fmt: skip
+
+
+def test_what_two_arms_have_to_do_is_told_by_arm_with_the_ways_of_each() -> None:
+    class Telling:
+        def travel(self, robot: str, a: Pose | None, b: Pose | None, *_: float) -> float:
+            far = {"arm1": 1.0, "arm2": 100.0}[robot]
+            return far * (a.distance(b) if isinstance(a, Pose) and b else 7.0 if a is None else 3.0)
+
+        def carry(self, robot: str, name: str, a: Pose, b: Pose, yaw: float) -> float:
+            return 50.0 + a.distance(b)
+
+    arms = {f"arm{n}": Robot(mount=Mount(x=x, y=250)) for n, x in ((1, 0), (2, 5000))}
+    setup = bench(dict.fromkeys("abc", "block"), robots=arms)
+    seen = see(setup, {"a": (100, 300), "b": (300, 300), "c": (600, 300)})
+    made = table(setup, seen, {"a": (100, 400), "b": (300, 100), "c": (600, 100)})
+    steps = [OrderedMove(i, 0, 1, Hold(arm), 0) for i, arm in enumerate(("arm1", "arm2", "arm1"))]
+    work = work_of(Clock(made, seen, Telling()), steps)  # type: ignore[arg-type]
+    assert (work.arms, work.arm, work.zones) == (2, (0, 1, 0), ())
+    assert work.loaded == (150.0, 250.0, 250.0)
+    assert work.start == work.again == (7.0, 700.0, 7.0) and work.end == (3.0, 300.0, 3.0)
+    there, back = Pose(100, 400).distance(Pose(600, 300)), Pose(600, 100).distance(Pose(100, 300))
+    assert work.between == ((0.0, 0.0, there), (0.0, 0.0, 0.0), (back, 0.0, 0.0))
+    assert work.before == work.enters == work.stays == (frozenset(),) * 3
+    assert (work.of(0), work.of(1)) == ((0, 2), (1,))
+    assert [work.arrival(j) for j in range(3)] == [7.0, 700.0, 7.0]
+
+
+def test_slots_for_an_order_are_looked_for_in_so_many_moves_and_no_more() -> None:
+    made = swap()
+    order: list[Act] = [(0, "leaves"), (1, "direct"), (0, "arrives")]
+    enough, too_few = _Replay(made, order, 3), _Replay(made, order, 2)
+    assert enough.run() and not too_few.run()
+    storage = made.movers[0].staging
+    assert [(s.mover, s.start == 0, s.goal in storage) for s in enough.steps] == [
+        (0, True, True), (1, True, False), (0, False, False)
+    ]  # fmt: skip
+    assert valid(made, enough.steps) is not None
+    assert not _Replay(made, [(0, "direct"), (1, "direct")], 1000).run(), "they stand in one another's way"
+    assert not _Replay(made, [(1, "direct"), (0, "leaves"), (0, "arrives")], 1000).run()
