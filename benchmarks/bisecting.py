@@ -38,6 +38,7 @@ from bisecting_labs import EXPECT, Written, history  # noqa: E402
 from pico_cli.main import main as pico  # noqa: E402
 
 from pico.bench.bench import Bench  # noqa: E402
+from pico.bench.bisecting import under_way  # noqa: E402
 from pico.bench.bisecting.costs import PlanSeconds  # noqa: E402
 from pico.bench.bisecting.step import step  # noqa: E402
 from pico.history.bisect.git_state import GitBisect  # noqa: E402
@@ -85,7 +86,7 @@ def cheapest(lab: Written, measure: float, suspicion: float) -> Found:
 def halved(lab: Written, measure: float) -> Found:
     """Search as `git bisect run pico bisect-step` does, from the good end."""
     with Bench.open(lab.root, fidelity="kinematic") as bench:
-        bench.bisection().git.reset()
+        under_way(bench).git.reset()
         _stand(bench, "main")
         _stand(bench, "good")
         git = GitBisect.start(lab.root, lab.bad, lab.good)

@@ -314,7 +314,7 @@ def killed(kills: int, seed: int) -> int:
             before = ask(folder, "rev-parse", "HEAD").strip()
             old = value_of((folder / "state" / "group000.yaml").read_text(), part, "angle")
             with Bench.open(folder) as bench:
-                run = bench.run(bench.single(part, "set", {"angle": str(value)}))
+                run = bench.run(bench.plans.single(part, "set", {"angle": str(value)}))
                 runs.append(next(e.run for e in run))
                 for _ in run:
                     pass

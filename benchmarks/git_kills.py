@@ -197,7 +197,8 @@ def lost(root: Path, name: str) -> Iterator[tuple[str, str]]:
         yield "lost", "the edit of the manifest"
 
 
-LOADED = ("pygit2", "pico_cli.app", "pico.bench.bench", "pico.bench.commits", "pico.backends.sim.device",
+LOADED = ("pygit2", "pico_cli.app", "pico.bench.bench", "pico.bench.commits", "pico.bench.plans",
+          "pico.backends.sim.device",
           "pico.history.restoring.checked", "pico.history.restoring.stash", "pico.planning")  # fmt: skip
 """What the commands need: loaded once, before processes are forked."""
 

@@ -79,7 +79,7 @@ def committed(folder: Path, run: str) -> list[str]:
         done = bench.commit(f"after {run}", "capture")
         if run not in done.runs:
             return [f"the commit carries {done.runs}"]
-        document = bench.recorded_run(run)[0].document
+        document = bench.history.recorded_run(run)[0].document
         return (
             [] if document.outcome == "done" and document.evidence != "planned" else [f"carried as {document.outcome}"]
         )

@@ -22,7 +22,7 @@ from .views.style import inert_json
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.diagnostics import Diagnostic
-    from pico.history.reader import Reader
+    from pico.history.lab_history import LabHistory
 
     from .standing import Standing
 
@@ -74,14 +74,15 @@ class Session:
                 bench.wait_until_free(self.lock_timeout)
         return bench
 
-    def history(self) -> Reader:
+    def history(self) -> LabHistory:
         """Open the history of this session's lab, also while its manifests are wrong; raises PicoError."""
-        from pico.history.reader import HistoryReader
+        from pico.history.lab.folder import LabFolder
+        from pico.history.lab_history import LabHistory
 
-        reader = HistoryReader(self.folder)
+        folder = LabFolder(self.folder, history=True)
         loaded()
-        self.tell(reader.folder.recovered)
-        return reader
+        self.tell(folder.recovered)
+        return LabHistory(folder)
 
     def wire(self, folder: Path) -> None:
         """Let git merge the manifests by PICO where the repository asks for it; said once."""

@@ -65,11 +65,11 @@ def apply(
     bench = session.bench(fidelity, writing=True)
     targets = (*(target or ()), *scope_of(context))
     options = {"exact": exact, "prefer": prefer, "targets": targets, "exclude": exclude or ()}
-    plan = bench.plan_of(what, folder=session.folder, **options)
-    if what is not None and not isinstance(bench.find(what, session.folder), str):
+    plan = bench.plans.plan_of(what, folder=session.folder, **options)
+    if what is not None and not isinstance(bench.history.find(what, session.folder), str):
         if refresh:
-            plan = bench.refreshed(plan)
-        bench.require_fresh(plan)
+            plan = bench.plans.refreshed(plan)
+        bench.plans.require_fresh(plan)
     elif refresh:
         raise PicoError(error("usage", "--refresh is for a saved plan", hint="without one every plan is a new one"))
     return approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)

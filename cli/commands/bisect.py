@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from pico.bench.bisecting import begin, under_way
+
 from ..arguments import Fidelity, LockTimeout, Yes
 from ..runs.trying import go_on
 from ..session import Session
@@ -88,7 +90,7 @@ def continue_(
     """Go on with the bisection under way, from the bench as it stands."""
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity, writing=True)
-    return go_on(session, bench, bench.bisection(expect=expect), auto_approve)
+    return go_on(session, bench, under_way(bench, expect=expect), auto_approve)
 
 
 @app.command()
@@ -123,15 +125,15 @@ def status(context: typer.Context) -> None:
     """Show what was tried, what is under trial, and how many are left."""
     session = Session.of(context)
     bench = session.bench()
-    search = bench.bisection()
-    session.show(view.StandingView, search, search.outcome(), bench.name_of)
+    search = under_way(bench)
+    session.show(view.StandingView, search, search.outcome(), bench.history.name_of)
 
 
 @app.command()
 def log(context: typer.Context) -> None:
     """Print git's log of the bisection, for `git bisect replay`."""
     session = Session.of(context)
-    text = session.bench().bisection().git.log()
+    text = under_way(session.bench()).git.log()
     if session.json:
         session.document({"schema": "pico.bisect/v1", "kind": "log", "log": text})
     else:
@@ -142,7 +144,7 @@ def log(context: typer.Context) -> None:
 def reset(context: typer.Context) -> None:
     """End the bisection. Files and bench stay as they are."""
     session = Session.of(context)
-    session.bench().bisection().git.reset()
+    under_way(session.bench()).git.reset()
     if session.json:
         session.document({"schema": "pico.bisect/v1", "kind": "reset"})
     session.say("The bisection is over. The bench stays where it is; `pico apply` brings it to the manifest.")
@@ -153,7 +155,7 @@ def _begin(
 ) -> int:  # fmt: skip
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity, writing=True)
-    search = bench.bisect(bad, good, **how)
+    search = begin(bench, bad, good, **how)
     session.show(view.Begun, search)
     return go_on(session, bench, search, auto_approve)
 
@@ -163,7 +165,7 @@ def _told(
 ) -> int:  # fmt: skip
     session = _approving(context, auto_approve)
     bench = session.bench(fidelity, writing=True)
-    search = bench.bisection()
+    search = under_way(bench)
     tried = search.told(verdict, bench.folder.history().resolve(commit).id if commit else None)
     session.show(view.TriedView, search, tried)
     return go_on(session, bench, search, auto_approve)

@@ -49,7 +49,7 @@ def _seconds(session: Session, bench: Bench, plan: Plan) -> float:
     """Run a plan, and return how long the bench took [s]; raises PicoError where it did not get there."""
     seconds, code = bring(session, bench, plan)
     if code:
-        text = f"the bench did not get to {bench.goal_name(plan)}"
+        text = f"the bench did not get to {bench.history.goal_name(plan)}"
         hint = "`pico status` shows how it stands; `git bisect run` again goes on"
         raise PicoError(error("not-there", text, hint=hint), ExitCode(code))
     return seconds

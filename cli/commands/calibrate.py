@@ -19,4 +19,4 @@ def calibrate(context: typer.Context) -> None:
     session = Session.of(context)
     bench = session.bench(writing=True)
     session.say("Taking pictures of the calibration board (about half a minute) ...")
-    session.show(view, bench.calibrate(), shown=FILE)
+    session.show(view, bench.cameras.calibrate(), shown=FILE)

@@ -43,13 +43,13 @@ def checkout(
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)
     named = scope_of(context)
-    what = bench.parts_at(revision, named) if named else revision
-    before = bench.here()
+    what = bench.history.parts_at(revision, named) if named else revision
+    before = bench.history.here()
     if files_only:
         return _files(session, bench, what, before)
-    plan = bench.checkout_plan(what)
-    goal = bench.goal_name(plan) if isinstance(what, str) else view.goal(bench.name_of(revision))
-    if code := show(session, plan, auto_approve, head=bench.head_name(), goal=goal):
+    plan = bench.plans.checkout_plan(what)
+    goal = bench.history.goal_name(plan) if isinstance(what, str) else view.goal(bench.history.name_of(revision))
+    if code := show(session, plan, auto_approve, head=bench.history.head_name(), goal=goal):
         return code
     if plan.operations and not session.confirm("\n" + question(plan), auto_approve):
         session.say("Nothing moved; the files are where they were.")
@@ -61,9 +61,9 @@ def _go(session: Session, bench: Bench, what: str | SelectedParts, plan: Plan, b
     """Bring files and bench there, and return the exit code."""
     if plan.operations:
         require_attached(bench.root)
-    bench.checkout_files(what)
+    bench.history.checkout(what)
     if isinstance(what, str):
-        session.say(f"\nThe files are at {bench.head_name()}. Go back with `pico checkout {before}`.")
+        session.say(f"\nThe files are at {bench.history.head_name()}. Go back with `pico checkout {before}`.")
         back = ""
     else:
         session.say(f"\n{view.text(what)}")
@@ -78,12 +78,12 @@ def _files(session: Session, bench: Bench, what: str | SelectedParts, before: st
     """Bring the files there and nothing else."""
     if isinstance(what, str):
         bench.folder.refuse_edits()
-    bench.checkout_files(what)
+    bench.history.checkout(what)
     if session.json:
-        session.document(view.data(what, commit=bench.head_commit()))
+        session.document(view.data(what, commit=bench.history.head_commit()))
         return ExitCode.DONE
     if isinstance(what, str):
-        session.say(f"The files are at {bench.head_name()}; nothing moved: `pico plan` shows what would.")
+        session.say(f"The files are at {bench.history.head_name()}; nothing moved: `pico plan` shows what would.")
         session.say(f"Go back with `pico checkout {before} --files-only`.")
     else:
         session.say(f"{view.text(what)}\nNothing moved: `pico plan` shows what would.")

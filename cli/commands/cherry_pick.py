@@ -25,7 +25,7 @@ def cherry_pick(
     """
     session = Session.of(context)
     bench = session.bench(writing=True)
-    before = bench.head_commit()
-    done = bench.cherry_pick(revisions, mainline=mainline, commit=not no_commit)
+    before = bench.history.head_commit()
+    done = bench.history.cherry_pick(revisions, mainline=mainline, commit=not no_commit)
     session.tell([d for one in done for d in one.diagnostics])
     session.show(view, done, before=before or "")

@@ -12,7 +12,7 @@ from ..session import Session
 from ..views import commit as view
 
 if TYPE_CHECKING:
-    from pico.bench.bench import CommitMode
+    from pico.bench.commits import CommitMode
 
 
 def commit(
@@ -50,8 +50,8 @@ def commit(
     if edit:
         from ..terminal.editing import edited
 
-        text = edited(bench, text if text is not None else bench.draft(mode, only=only or ()))
-    made = bench.commit(text, mode, only=only or (), meta=recorded)
+        text = edited(bench, text if text is not None else bench.commits.draft(mode, only=only or ()))
+    made = bench.commits.commit(text, mode, only=only or (), meta=recorded)
     session.tell(made.diagnostics)
     session.show(view, made)
 

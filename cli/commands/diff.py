@@ -39,9 +39,9 @@ def diff(
     small; `pico plan` knows tolerances and the bench.
     """
     session = Session.of(context)
-    bench = session.history()
+    history = session.history()
     names = scope_of(context)
-    found = bench.compare(a, b, names, at=session.folder)
+    found = history.compare(a, b, names, at=session.folder)
     step = (
         f"`pico plan {found.b}` shows how the bench would get there."
         if found.b
@@ -49,8 +49,10 @@ def diff(
     )
     with paged(session):
         session.show(
-            view, found, a=bench.name_of(found.a), b=bench.name_of(found.b) if found.b else "the manifest",
+            view, found, a=history.name_of(found.a), b=history.name_of(found.b) if found.b else "the manifest",
             next_step="" if names else step, stat=stat,
         )  # fmt: skip
-    session.draw(picture, "the difference", lambda path: session.bench().render_diff(found.a, found.b, out=path))
+    session.draw(
+        picture, "the difference", lambda path: session.bench().pictures.render_diff(found.a, found.b, out=path)
+    )
     return int(exit_code and not found.same)

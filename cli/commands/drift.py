@@ -18,6 +18,6 @@ def drift(context: typer.Context, detailed_exitcode: DetailedExit = False) -> in
     --detailed-exitcode exits with 2 where something has drifted beyond its tolerance.
     """
     session = Session.of(context)
-    found = session.bench().look()
+    found = session.bench().drift.look()
     session.show(view, found)
     return ExitCode.CHANGES if detailed_exitcode and found.beyond else ExitCode.DONE

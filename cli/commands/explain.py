@@ -34,13 +34,13 @@ def explain(
     bench = session.bench(fidelity)
     if component is None and what in bench.setup.lab.inventory:
         what, component = None, what
-    plan = bench.plan_of(what, folder=session.folder)
+    plan = bench.plans.plan_of(what, folder=session.folder)
     return show(session, bench, plan, component)
 
 
 def show(session: Session, bench: Bench, plan: Plan, component: str | None) -> int:
     """Show the explanation of a plan, or of one component in it, and return the exit code."""
-    found = bench.explain(plan, component)
-    session.show(view, plan, found, head=bench.head_name(), goal=bench.goal_name(plan))
+    found = bench.plans.explain(plan, component)
+    session.show(view, plan, found, head=bench.history.head_name(), goal=bench.history.goal_name(plan))
     session.tell(found.diagnostics)
     return ExitCode.IMPOSSIBLE if plan.errored else ExitCode.DONE

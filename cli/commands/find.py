@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -26,18 +27,19 @@ def find(context: typer.Context, part: Component, picture: Picture = None) -> in
     Its pose, the nearest hole of the table, its slot, how surely. Exits with 1 where nobody sees it; then says where it
     was last.
     """
-    from pico.bench.looking import problems_of
+    from pico.bench.cameras import problems_of
 
     session = Session.of(context)
     bench = session.bench()
     require_component(bench.setup, part)
     with waiting("Looking"):
-        look = bench.scan()
+        look = bench.cameras.scan()
     found = look.observation.components[part]
     problems = problems_of(look, part)
     session.show(view, bench.setup, part, found, problems)
     session.tell([p for p in problems if p.severity != "note"])
     if found.pose is not None:
-        session.draw(picture, f"what is around {part}", lambda path: bench.scan_picture(look, out=path, component=part))
+        draw = partial(bench.cameras.picture, look, component=part)
+        session.draw(picture, f"what is around {part}", lambda path: draw(out=path))
     wrong = found.pose is None or any(p.severity == "error" for p in problems)
     return ExitCode.ERROR if wrong else ExitCode.DONE

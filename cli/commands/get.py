@@ -22,4 +22,4 @@ def get(
     assured, which `pico do COMPONENT measure` does.
     """
     session = Session.of(context)
-    session.show(view, session.bench().read(component, tunable), component=component)
+    session.show(view, session.bench().measurements.read(component, tunable), component=component)

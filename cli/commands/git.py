@@ -32,7 +32,7 @@ def attach(context: typer.Context) -> None:
     from pico.edge.lease import attach
 
     session = Session.of(context)
-    root = session.history().root
+    root = session.history().folder.root
     session.show(attached, root, attach(root))
 
 

@@ -37,18 +37,18 @@ def graph(
 
     session = Session.of(context)
     bench = session.bench(fidelity)
-    plan = bench.plan_of(what, folder=session.folder)
+    plan = bench.plans.plan_of(what, folder=session.folder)
     found = graph_of(plan)
     if out:
         kind = form or _SUFFIXES.get(out.suffix, "dot")
         path = session.folder / out
         write_whole(path, (FORMATS[kind](plan, found) + "\n").encode())
-        session.show(written, path, shown=out, what=f"the graph of the plan for {bench.goal_name(plan)}")
+        session.show(written, path, shown=out, what=f"the graph of the plan for {bench.history.goal_name(plan)}")
     elif form and not session.json:
         session.say(FORMATS[form](plan, found))
     else:
-        goal = bench.goal_name(plan)
+        goal = bench.history.goal_name(plan)
         step = f"`pico graph{f' {what}' if what else ''} --format dot | dot -Tsvg > plan.svg` draws it."
-        session.show(view, plan, found, head=bench.head_name(), goal=goal, next_step=step)
+        session.show(view, plan, found, head=bench.history.head_name(), goal=goal, next_step=step)
     session.tell(plan.diagnostics)
     return ExitCode.IMPOSSIBLE if plan.errored else ExitCode.DONE

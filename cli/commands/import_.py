@@ -30,5 +30,5 @@ def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False
     session = Session.of(context)
     bench = session.bench(writing=not dry_run)
     with waiting("Looking"):
-        found = bench.import_parts(types or [], write=not dry_run)
+        found = bench.lab.import_parts(types or [], write=not dry_run)
     session.show(view, found, dry_run=dry_run)

@@ -15,7 +15,7 @@ from ..terminal.paging import paged
 from ..views import log as view
 
 if TYPE_CHECKING:
-    from pico.history.reader import Reader
+    from pico.history.lab_history import LabHistory
 
 Words = Annotated[
     list[str] | None,
@@ -51,19 +51,19 @@ def log(
                                                        ("grep", grep)) if value is not None]  # fmt: skip
     options += [f"--{name}" for name, asked in (("first-parent", first_parent), ("merges", merges),
                                                 ("no-merges", no_merges)) if asked]  # fmt: skip
-    bench = session.history()
-    _revisions(bench, words)
-    found = bench.log(
+    history = session.history()
+    _revisions(history, words)
+    found = history.log(
         *words, every=every or (graph and not words), limit=limit, names=scope_of(context), at=session.folder,
         options=options, graph=graph,
     )  # fmt: skip
     if session.json:
-        session.document(view.data(found, graph=graph, oneline=oneline, head=bench.head_commit()))
+        session.document(view.data(found, graph=graph, oneline=oneline, head=history.head_commit()))
         return
     with paged(session):
         for part, notes in found.notes().items():
             session.say(view.noted(part, notes))
-        for block in view.blocks(found, graph=graph, oneline=oneline, head=bench.head_commit()):
+        for block in view.blocks(found, graph=graph, oneline=oneline, head=history.head_commit()):
             if not session.say(block):
                 break
 
@@ -82,9 +82,9 @@ def _counted(words: list[str], number: int | None) -> tuple[list[str], int | Non
     return kept, number
 
 
-def _revisions(bench: Reader, words: list[str]) -> None:
+def _revisions(history: LabHistory, words: list[str]) -> None:
     """Raise PicoError for a component or a file among the revisions: these go after `--`."""
     for word in words:
-        known = word.partition(".")[0] in bench.setup.lab.inventory or (bench.root / word).is_file()
-        if known and not bench.is_revision(word):
+        known = word.partition(".")[0] in history.folder.setup.lab.inventory or (history.folder.root / word).is_file()
+        if known and not history.is_revision(word):
             raise PicoError(error("revision", f"`{word}` is no revision", hint=f"`pico log -- {word}`"))

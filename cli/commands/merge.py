@@ -21,6 +21,6 @@ def merge(
     (exit 3). Nothing moves: `pico plan` then shows what would.
     """
     session = Session.of(context)
-    made = session.bench(writing=True).merge(revision, message)
+    made = session.bench(writing=True).history.merge(revision, message)
     session.tell(made.diagnostics)
     session.show(view, made)

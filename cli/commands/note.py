@@ -21,5 +21,5 @@ def note(
     """
     session = Session.of(context)
     bench = session.bench(writing=bool(text))
-    added = bench.note(part, " ".join(text)) if text else None
-    session.show(view, part, bench.notes(part), added)
+    added = bench.history.note(part, " ".join(text)) if text else None
+    session.show(view, part, bench.history.notes(part), added)

@@ -16,4 +16,4 @@ def parts(
 ) -> None:
     """List the parts of this bench and where they are."""
     session = Session.of(context)
-    session.show(view, session.bench().parts(free=free), free=free)
+    session.show(view, session.bench().measurements.parts(free=free), free=free)

@@ -24,4 +24,4 @@ def place(
     """Place a component a distance after another along the beam."""
     session = Session.of(context)
     bench = session.bench(fidelity, speed, writing=not dry_run)
-    return finish(session, bench, bench.place(component, after=after, distance=distance), dry_run)
+    return finish(session, bench, bench.plans.place(component, after=after, distance=distance), dry_run)

@@ -63,11 +63,11 @@ def plan(
         session.show(
             view,
             found,
-            head=bench.head_name(),
-            goal=bench.goal_name(found),
+            head=bench.history.head_name(),
+            goal=bench.history.goal_name(found),
             next_step=_next(revision, out, _again(target, exclude, prefer), named),
         )
-    session.draw(picture, "the plan", lambda path: bench.render(view="top", plan=found, out=path))
+    session.draw(picture, "the plan", lambda path: bench.pictures.render(view="top", plan=found, out=path))
     if not explain:
         session.tell(found.diagnostics)
     if found.exit_code:

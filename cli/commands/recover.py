@@ -33,9 +33,9 @@ def recover(
     bench = session.bench(fidelity, writing=True)
     for keys, was_done in ((done, True), (not_done, False)):
         for key in keys or ():
-            bench.answer(key, done=was_done)
-    questions = bench.open_questions()
+            bench.recovery.answer(key, done=was_done)
+    questions = bench.recovery.open_questions()
     if questions:
         session.report(questions)
         return ExitCode.ERROR
-    return approve(session, bench, bench.recover_plan(), auto_approve)
+    return approve(session, bench, bench.recovery.recover_plan(), auto_approve)

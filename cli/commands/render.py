@@ -50,14 +50,14 @@ def render(
     path = session.folder / out
     with waiting("Drawing"):
         if out.suffix.lower() == ".svg":
-            write_whole(path, bench.sheet(revision, manifest=manifest).encode())
+            write_whole(path, bench.pictures.sheet(revision, manifest=manifest).encode())
         else:
-            bench.render(revision, manifest=manifest, view=looking, plan=plan, size=pixels, out=path)
+            bench.pictures.render(revision, manifest=manifest, view=looking, plan=plan, size=pixels, out=path)
     session.show(view, path, shown=out, what=_what(bench, revision, manifest, plan))
 
 
 def _what(bench: Bench, revision: str | None, manifest: bool, plan: bool) -> str:
-    goal = bench.name_of(revision) if revision else "the manifest"
+    goal = bench.history.name_of(revision) if revision else "the manifest"
     if plan:
         return f"the bench as it is, and dashed where parts go for {goal}"
     return goal if revision or manifest else "the bench as it is"

@@ -23,5 +23,5 @@ def resume(
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)
-    plan, run = bench.resume_plan()
+    plan, run = bench.recovery.resume_plan()
     return approve(session, bench, plan, auto_approve, resumes=run, stop_on_error=stop_on_error)

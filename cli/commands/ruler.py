@@ -26,6 +26,6 @@ def ruler(context: typer.Context, a: A, b: B, picture: Picture = None) -> None:
     """
     session = Session.of(context)
     bench = session.bench()
-    found = bench.ruler(a, b)
+    found = bench.pictures.ruler(a, b)
     session.show(view, found)
-    session.draw(picture, "it", lambda path: bench.render_ruler(found, out=path))
+    session.draw(picture, "it", lambda path: bench.pictures.render_ruler(found, out=path))

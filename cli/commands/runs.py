@@ -39,7 +39,8 @@ def list_(
     """
     session = Session.of(context)
     wrong: list[Diagnostic] = []
-    session.show(table, session.bench().runs(revision, every=every, component=component, diagnostics=wrong), wrong)
+    history = session.bench().history
+    session.show(table, history.runs(revision, every=every, component=component, diagnostics=wrong), wrong)
     session.tell(wrong)
 
 
@@ -47,7 +48,7 @@ def list_(
 def show(context: typer.Context, run: Run = None) -> None:
     """Show everything about a run: its operations with their times, what it changed, what proves it."""
     session = Session.of(context)
-    found, commit = session.bench().recorded_run(run)
+    found, commit = session.bench().history.recorded_run(run)
     session.show(view, found, commit)
     session.tell(found.diagnostics)
 
@@ -60,4 +61,4 @@ def compare(
 ) -> None:
     """Compare two runs: where each ended, the seconds of each operation, and what was otherwise."""
     session = Session.of(context)
-    session.show(compared, session.bench().compare_runs(a, b))
+    session.show(compared, session.bench().history.compare_runs(a, b))

@@ -27,9 +27,9 @@ def scan(context: typer.Context, picture: Picture = None) -> int:
     session = Session.of(context)
     bench = session.bench()
     with waiting("Looking"):
-        look = bench.scan()
+        look = bench.cameras.scan()
     session.show(view, bench.setup, look)
     session.tell(look.observation.problems)
-    session.draw(picture, "what the cameras see", lambda path: bench.scan_picture(look, out=path))
+    session.draw(picture, "what the cameras see", lambda path: bench.cameras.picture(look, out=path))
     wrong = any(problem.severity == "error" for problem in look.observation.problems)
     return ExitCode.ERROR if wrong else ExitCode.DONE

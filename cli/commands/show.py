@@ -20,11 +20,11 @@ def show(context: typer.Context, what: PlanOrRevision = None) -> None:
     `REV:COMPONENT`: that component alone, with what was noted on it. Text of files: `git show REV:FILE`.
     """
     session = Session.of(context)
-    bench = session.history()
-    found = bench.find(what or "HEAD", folder=session.folder)
+    history = session.history()
+    found = history.find(what or "HEAD", folder=session.folder)
     if isinstance(found, Plan):
-        session.show(plan_view, found, goal=bench.goal_name(found), next_step=f"Apply with `pico apply {what}`.")
+        session.show(plan_view, found, goal=history.goal_name(found), next_step=f"Apply with `pico apply {what}`.")
         return
-    shown = bench.show(found)
+    shown = history.show(found)
     with paged(session):
         session.show(revision_view, shown)

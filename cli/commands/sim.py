@@ -70,7 +70,7 @@ def view(context: typer.Context) -> None:
     from pico.drawing.viewer import require_display
 
     require_display()
-    Session.of(context).bench().view()
+    Session.of(context).bench().pictures.view()
 
 
 @app.command()

@@ -30,12 +30,12 @@ def stash(
     session = Session.of(context)
     bench = session.bench(writing=action != "list")
     if action == "list":
-        session.show(view, action, bench.stash.shelves())
+        session.show(view, action, bench.history.stash.shelves())
         return
     if action == "push":
-        shelf = bench.stash.push(message or name)
+        shelf = bench.history.stash.push(message or name)
     else:
-        shelf = bench.stash.pop(name) if action == "pop" else bench.stash.drop(name)
+        shelf = bench.history.stash.pop(name) if action == "pop" else bench.history.stash.drop(name)
     apart = _apart(bench) if shelf and action != "drop" else None
     session.show(view, action, (shelf,) if shelf else (), apart=apart)
 

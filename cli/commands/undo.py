@@ -18,4 +18,4 @@ def undo(
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)
-    return approve(session, bench, bench.undo_plan(), auto_approve)
+    return approve(session, bench, bench.recovery.undo_plan(), auto_approve)

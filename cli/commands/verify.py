@@ -40,7 +40,7 @@ def verify(
     session = Session.of(context)
     bench = session.bench(writing=measure)
     taken: Mapping[str, Measurement] = {}
-    plan = bench.to_measure(revision) if measure else None
+    plan = bench.plans.to_measure(revision) if measure else None
     if plan and plan.operations:
         if code := show(session, plan, auto_approve, goal="measurements") or declined(session, plan, auto_approve):
             return code
@@ -48,7 +48,7 @@ def verify(
         if report.exit_code:
             return report.exit_code
         taken = report.measurements
-    found = bench.verify(revision, taken)
+    found = bench.measurements.verify(revision, taken)
     session.show(view, found)
     if found.standing and not session.json:
         session.report(found.standing.diagnostics)

@@ -26,7 +26,7 @@ def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None
     session = Session.of(context)
     bench = session.bench(writing=heal)
     try:
-        for told in bench.watch(interval=interval, looks=looks, heal=heal):
+        for told in bench.drift.watch(interval=interval, looks=looks, heal=heal):
             if told.new:
                 session.show(view, told)
             elif told.first:

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 def approve(
     session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
 ) -> int:
-    """Show a plan, ask, run it, and return the exit code; `options` are those of `AsyncBench.run`."""
-    if code := show(session, plan, auto_approve, head=bench.head_name(), goal=bench.goal_name(plan)):
+    """Show a plan, ask, run it, and return the exit code; `options` are those of `Moves.run`."""
+    if code := show(session, plan, auto_approve, head=bench.history.head_name(), goal=bench.history.goal_name(plan)):
         return code
     if not plan.operations:
-        bench.settle()
+        bench.recovery.settle()
         return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
     if code := declined(session, plan, auto_approve):
         return code
@@ -52,7 +52,7 @@ def single(
 ) -> int:
     """Plan one operation and run it."""
     bench = session.bench(fidelity, speed, writing=not dry_run)
-    return finish(session, bench, bench.single(component, primitive, arguments), dry_run)
+    return finish(session, bench, bench.plans.single(component, primitive, arguments), dry_run)
 
 
 def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool) -> int:
@@ -78,7 +78,7 @@ def _expected(session: Session, bench: Bench, plan: Plan) -> int:
     """Check the expectations of a goal that the bench has reached already."""
     if not plan.target.expect or plan.target.scope:
         return ExitCode.DONE
-    found = bench.expected(plan)
+    found = bench.measurements.expected(plan)
     if session.json:
         session.document(verified.data(found))
     session.say("\n".join(report_view.expectations(found.expectations)))

@@ -19,7 +19,7 @@ from ..views.run import Progress
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
-    from pico.bench.running.blocking import Execution
+    from pico.bench.running.execution import Execution
     from pico.model.event import Event
     from pico.model.plan import Plan
     from pico.model.report import RunReport
@@ -67,7 +67,7 @@ def ran(
 ) -> RunReport:
     """Run a plan, show how it goes and what became of it; return that.
 
-    `record`: where a film of it goes; `after`: what to do once it is done; `options` are those of `AsyncBench.run`.
+    `record`: where a film of it goes; `after`: what to do once it is done; `options` are those of `Moves.run`.
     """
     recording = None
     if record:

@@ -49,7 +49,7 @@ def go_on(session: Session, bench: Bench, search: Bisection, auto_approve: bool)
 
 def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, auto_approve: bool) -> int | None:
     """Bring the bench to a configuration and have it judged; return an exit code where that is the end of it."""
-    name = bench.name_of(proposal.commit)
+    name = bench.history.name_of(proposal.commit)
     if not search.task.expect or (proposal.plan.operations and not auto_approve):
         session.show(view.Proposed, search, proposal, name)
     if proposal.plan.operations and not session.confirm(view.question(proposal), auto_approve):
@@ -72,7 +72,7 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
 def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
     """Run the plan of a configuration; return how long the bench took [s], and 0 where it stands as planned."""
     if not plan.operations:
-        bench.settle()
+        bench.recovery.settle()
         return 0.0, ExitCode.DONE
     run = bench.run(plan)
     screen = Quiet(session, Progress(plan))
@@ -98,6 +98,6 @@ class Quiet(Screen):
 
 def _over(session: Session, bench: Bench, search: Bisection) -> int:
     outcome = search.outcome()
-    entry = bench.entry(outcome.first_bad) if outcome.first_bad else None
-    session.show(view.EndView, search, outcome, entry, bench.name_of)
+    entry = bench.history.entry(outcome.first_bad) if outcome.first_bad else None
+    session.show(view.EndView, search, outcome, entry, bench.history.name_of)
     return ExitCode.DONE if outcome.first_bad else ExitCode.ERROR

@@ -7,11 +7,12 @@ is in one commit or in the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
 from datetime import datetime
+from types import MappingProxyType
 from typing import Literal
 
-from pico.diagnostics import PicoError, error
+from pico.bench.opened import Opened
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.link.opening import remembered
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
@@ -31,72 +32,91 @@ from pico.runs.evidence import changed_by, evidence, never_here, stands
 CommitMode = Literal["strict", "capture", "planned"]
 
 
-@dataclass(frozen=True)
-class CommitRequest:
-    """What somebody wants to be committed.
+class Commits:
+    """Captures and commits of one bench."""
 
-    `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`: the
-    bench wins; `planned`: the manifest wins. `only`: components, or single tunables, whose files are to be committed
-    and that may be captured; all where empty. `meta`: what else is to be recorded.
-    """
+    def __init__(self, opened: Opened) -> None:
+        self.opened, self.folder = opened, opened.folder
 
-    message: str | None = None
-    mode: CommitMode = "strict"
-    only: Collection[str] = ()
-    meta: Mapping[str, str] = field(default_factory=dict)
+    def capture(self, *only: str, write: bool = True) -> Captured:
+        """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest.
 
+        `only`: these components or tunables (`p2`, `p1.angle`). Without `write`, say what would be written.
+        """
+        named = read_addresses(self.folder.setup, only) if only else None
+        return self.folder.capture(self._live(self.opened.observe()), named, write=write)
 
-def commit(folder: LabFolder, seen: Observation, asked: CommitRequest, *, observed: str) -> Committed:
-    """Capture and commit; return the commit. `observed`: what the observation counts as.
+    def _live(self, seen: Observation) -> LabState:
+        return live_state(self.folder.setup, seen, sure=True)
 
-    A commit that ends a merge, a cherry-pick or a revert captures nothing: it is about two histories, and a hypothesis
-    until the bench stands so. Every commit at whose state the bench stands carries the runs that no other has yet.
-    Raises PicoError: for edits that were never applied, nothing to commit, and what git refuses.
-    """
-    require_meta(asked.meta)
-    repository = folder.history()
-    with folder.writing("pico commit"):
+    def commit(
+        self,
+        message: str | None = None,
+        mode: CommitMode = "strict",
+        *,
+        only: Collection[str] = (),
+        meta: Mapping[str, str] = MappingProxyType({}),
+    ) -> Committed:
+        """Capture and commit the manifests, with the runs that led to what they say.
+
+        `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`:
+        the bench wins; `planned`: the manifest wins where all of it can stand (exit code IMPOSSIBLE else), and the
+        commit says where it was never realized. `only`: components, or single tunables, whose files are to be committed
+        and that may be captured; all where empty. `meta`: what else is to be recorded.
+
+        A commit that ends a merge, a cherry-pick or a revert captures nothing: it is about two histories, and a
+        hypothesis until the bench stands so. Every commit at whose state the bench stands carries the runs that no
+        other has yet. Raises PicoError: for edits that were never applied, nothing to commit, and what git refuses.
+        """
+        if mode == "planned":
+            from pico.history.merge.checked import overlapping
+
+            if found := overlapping(self.folder.manifests):
+                raise PicoError(found, ExitCode.IMPOSSIBLE)
+        seen = self.opened.observe()
+        require_meta(meta)
+        folder, repository = self.folder, self.folder.history()
+        with folder.writing("pico commit"):
+            ending = require_resolved(repository.root, repository.own)
+            named = read_addresses(folder.setup, only) if only and not ending else None
+            captured = Captured()
+            if not ending:
+                _refuse(folder, seen, mode, named)
+            if not ending and mode != "planned":
+                captured = folder.capture(self._live(seen), named)
+            content = contents(folder, named)
+            realized = stands(folder.setup, seen, content.state)
+            runs = recording.pending(folder, seen, content.state) if realized else {}
+            if not (content.paths or runs or ending):
+                raise PicoError([*repository.noticed, nothing(named)])
+            changes = _changes(folder, content.state)
+            if message is None:
+                message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
+            counts = _evidence(folder, seen, content.state, changes, runs, self.opened.fidelity)
+            return committed(folder, message, captured.changes, counts, runs=runs, meta=meta, named=named)
+
+    def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = ()) -> str:
+        """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
+        seen, folder, repository = self.opened.observe(), self.folder, self.folder.history()
         ending = require_resolved(repository.root, repository.own)
-        named = read_addresses(folder.setup, asked.only) if asked.only and not ending else None
-        captured = Captured()
-        if not ending:
-            _refuse(folder, seen, asked, named)
-        if not ending and asked.mode != "planned":
-            captured = folder.capture(live_state(folder.setup, seen, sure=True), named)
+        if ending:
+            return message_of(repository.own)
+        named = read_addresses(folder.setup, only) if only else None
+        _refuse(folder, seen, mode, named)
+        captured, state = (Captured(), folder.state)
+        if mode != "planned":
+            captured, state = folder.preview(self._live(seen), named)
         content = contents(folder, named)
-        realized = stands(folder.setup, seen, content.state)
-        runs = recording.pending(folder, seen, content.state) if realized else {}
-        if not (content.paths or runs or ending):
-            raise PicoError([*repository.noticed, nothing(named)])
-        changes = _changes(folder, content.state)
-        message = asked.message
-        if message is None:
-            message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
-        counts = _evidence(folder, seen, content.state, changes, runs, observed)
-        return committed(folder, message, captured.changes, counts, runs=runs, meta=asked.meta, named=named)
+        if not (captured.files or content.paths or recording.unrecorded(folder)):
+            raise PicoError(nothing(named))
+        among = named.keys() | (content.components or ()) if named else folder.setup.lab.inventory
+        changes = tuple(c for c in _changes(folder, state) if c.component in among)
+        return default_message(changes, captured.files or content.paths)
 
 
-def draft(folder: LabFolder, seen: Observation, asked: CommitRequest) -> str:
-    """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
-    repository = folder.history()
-    ending = require_resolved(repository.root, repository.own)
-    if ending:
-        return message_of(repository.own)
-    named = read_addresses(folder.setup, asked.only) if asked.only else None
-    _refuse(folder, seen, asked, named)
-    live = live_state(folder.setup, seen, sure=True)
-    captured, state = (Captured(), folder.state) if asked.mode == "planned" else folder.preview(live, named)
-    content = contents(folder, named)
-    if not (captured.files or content.paths or recording.unrecorded(folder)):
-        raise PicoError(nothing(named))
-    among = named.keys() | (content.components or ()) if named else folder.setup.lab.inventory
-    changes = tuple(c for c in _changes(folder, state) if c.component in among)
-    return default_message(changes, captured.files or content.paths)
-
-
-def _refuse(folder: LabFolder, seen: Observation, asked: CommitRequest, named: Named | None) -> None:
+def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named | None) -> None:
     """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins."""
-    if asked.mode != "strict":
+    if mode != "strict":
         return
     components = contents(folder, named).components if named else None
     refuse_unapplied(folder.setup, folder.committed(), folder.state, seen, components)

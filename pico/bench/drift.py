@@ -1,4 +1,4 @@
-"""Where the bench has left the last commit: by how much, how surely, and who did it; and bringing it back."""
+"""Where a bench has left the last commit: by how much, how surely, and who did it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
-from pico.model.drift import drift_of
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, Uncertainty
 from pico.model.pose import Pose, angle_between
@@ -16,8 +15,6 @@ from pico.model.primitive import primitive
 from pico.model.record import record
 
 if TYPE_CHECKING:
-    from pico.bench.async_bench import AsyncBench
-    from pico.model.plan import Plan
     from pico.runs.journal import JournalRecord
 
 Who = Literal["operation", "person", "unknown"]
@@ -62,23 +59,6 @@ class Drifted:
     held: str = ""
 
 
-async def look(bench: AsyncBench) -> Drifted:
-    """Look at the bench and return where it has left HEAD. Moves nothing, needs no lock; raises PicoError."""
-    seen = await bench.observe()
-    changes = drift_of(bench.setup, seen, bench.state_at("HEAD"))
-    rules = set(bench.setup.lab.policy.ignore)
-    ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
-    kept = [c for c in changes if c not in ignored]
-    records = _records(bench) if any(not c.tolerated for c in kept) else ()
-    found = [drift(bench.setup, seen, change, records) for change in kept]
-    beyond = tuple(d for d in found if not d.change.tolerated)
-    return Drifted(
-        head=bench.head_name(), observed_at=seen.observed_at, beyond=beyond,
-        within=tuple(d for d in found if d.change.tolerated),
-        ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=await _held(bench, seen, beyond),
-    )  # fmt: skip
-
-
 def news(before: Sequence[Drift], now: Sequence[Drift]) -> tuple[list[Drift], list[str]]:
     """Return what has drifted, or drifted on, since an earlier look, and the addresses of what is right again."""
     known = {d.address: d.change for d in before}
@@ -90,21 +70,6 @@ def _moved_on(before: Change, now: Change) -> bool:
     return before.text != now.text
 
 
-async def heal_plan(bench: AsyncBench, found: Drifted) -> Plan | None:
-    """Return the plan that brings back what drifted and no operation put where it is; None where there is nothing.
-
-    Raises PicoError: DENIED where the lab's policy does not allow it, and where the plan can't or must not be run.
-    """
-    require_heal(bench.setup)
-    names = sorted({d.change.component for d in found.beyond if d.by != "operation"})
-    if found.held or not names:
-        return None
-    plan = await bench.plan("HEAD", targets=names)
-    if plan.errored:
-        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
-    return plan.because("heal") if plan.operations else None
-
-
 def require_heal(setup: Setup) -> None:
     """Raise PicoError (exit code DENIED) unless the lab allows that what drifted is brought back unasked."""
     if not setup.lab.policy.heal:
@@ -112,20 +77,6 @@ def require_heal(setup: Setup) -> None:
         raise PicoError(
             error("denied", f"the policy of {setup.lab.name} does not allow to heal", hint=hint), ExitCode.DENIED
         )
-
-
-async def _held(bench: AsyncBench, seen: Observation, beyond: Sequence[Drift]) -> str:
-    """Return why nothing may be brought back now."""
-    holder = await bench.edge.holder()
-    if holder is not None:
-        return f"a run goes on: {holder.user} (process {holder.pid}): {holder.what}"
-    if seen.person is not False:
-        return "somebody is at the table" if seen.person else "nothing tells whether somebody is at the table"
-    hands = [name for name, robot in sorted(seen.robots.items()) if robot.holding]
-    if hands:
-        return f"{hands[0]} holds {seen.robots[hands[0]].holding}: `pico recover` first"
-    wrong = next((p for p in seen.problems if p.severity == "error"), None)
-    return wrong.summary if wrong else calibration_drift(bench.setup, beyond)
 
 
 def calibration_drift(setup: Setup, beyond: Sequence[Drift]) -> str:
@@ -222,11 +173,3 @@ def _as_left(setup: Setup, change: Change, part: ObservedComponent, after: Mappi
     pose, tolerance = Pose(**after["pose"]), kind.pose.tolerance
     turned = abs(angle_between(pose.yaw, part.pose.yaw))
     return pose.distance(part.pose) <= tolerance.position and turned <= tolerance.yaw
-
-
-def _records(bench: AsyncBench) -> Sequence[JournalRecord]:
-    """Return what the bench remembers; nothing where that can't be read: looking must not fail for it."""
-    try:
-        return memory.records() if (memory := bench.edge.memory) else ()
-    except PicoError:
-        return ()

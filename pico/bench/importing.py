@@ -20,7 +20,7 @@ from pico.vision.localize import component_pose
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
-    from pico.bench.async_bench import AsyncBench
+    from pico.history.lab.folder import LabFolder
     from pico.model.lab import Setup
     from pico.vision.sighting import Stranger
 
@@ -58,7 +58,7 @@ def read_types(texts: Sequence[str]) -> dict[int, MarkerIdentity]:
     return found
 
 
-def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity]) -> tuple[Adopted, ...]:
+def importable(folder: LabFolder, look: Look, types: Mapping[int, MarkerIdentity]) -> tuple[Adopted, ...]:
     """Return the parts that `look` shows and the inventory lacks, as they would be taken in.
 
     Raises PicoError for a look that can't be trusted, and, all at once, for markers of which nobody said what they are,
@@ -66,7 +66,7 @@ def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity
     """
     from pico.backends.sight import require_trusted
 
-    seen, setup = require_trusted(look.observation), bench.setup
+    seen, setup = require_trusted(look.observation), folder.setup
     problems = [
         _not_there(setup, number) for number in sorted(types) if f"unknown/{number}" not in look.sighting.unknown
     ]
@@ -75,7 +75,7 @@ def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity
     # Those that stand in a slot first, so that it becomes their home and not that of another part.
     for stranger in sorted(look.sighting.unknown.values(), key=lambda s: (slot_at(setup, s.pose) is None, s.marker)):
         try:
-            parts.append(_adopted(bench, seen, stranger, types.get(stranger.marker), parts, free))
+            parts.append(_adopted(folder, seen, stranger, types.get(stranger.marker), parts, free))
         except PicoError as exc:
             problems += exc.diagnostics
     if problems:
@@ -83,7 +83,7 @@ def importable(bench: AsyncBench, look: Look, types: Mapping[int, MarkerIdentity
     return tuple(sorted(parts, key=lambda part: part.marker))
 
 
-def take_in(bench: AsyncBench, parts: Sequence[Adopted], *, write: bool = True) -> Imported:
+def take_in(folder: LabFolder, parts: Sequence[Adopted], write: bool = True) -> Imported:
     """Write parts into inventory and state, for the bench to adopt; raises PicoError, before anything is written, where
     that would be wrong, or where the lab's files propose something else already.
 
@@ -91,17 +91,17 @@ def take_in(bench: AsyncBench, parts: Sequence[Adopted], *, write: bool = True) 
     """
     if not parts:
         return Imported()
-    if bench.folder.proposed:
-        told = bench.folder.proposed[0].summary
+    if folder.proposed:
+        told = folder.proposed[0].summary
         raise PicoError(error("bench-lab", told, hint="adopt that first: `pico bench update`; or `git restore` it"))
-    written = adopt(read_folder(bench.root)[0], parts)
+    written = adopt(read_folder(folder.root)[0], parts)
     if write:
         write_all({Path(path): data for path, data in written.items()})
     return Imported(parts=tuple(parts), files=tuple(sorted(written)))
 
 
 def _adopted(
-    bench: AsyncBench,
+    folder: LabFolder,
     seen: Observation,
     stranger: Stranger,
     wanted: MarkerIdentity | None,
@@ -114,7 +114,7 @@ def _adopted(
     if wanted is None:
         hint = f"say what it is: `--types {stranger.marker}=TYPE`; `pico catalog list` lists the types"
         raise PicoError(error("no-type", f"{place} is not in the inventory, and nothing says what it is", hint=hint))
-    kind = _type(bench, wanted.type)
+    kind = _type(folder, wanted.type)
     plate = kind.geometry.marker
     if plate is None:
         raise PicoError(error("no-type", f"{place} is no {wanted.type}: that carries no marker"))
@@ -124,14 +124,14 @@ def _adopted(
     step = kind.pose.resolution
     raw = component_pose(stranger.pose, plate)
     pose = Pose(_to(raw.x, step.position), _to(raw.y, step.position), _to(raw.yaw, step.yaw))
-    slot = slot_at(bench.setup, raw)
+    slot = slot_at(folder.setup, raw)
     home = slot if slot in free else next(iter(sorted(free, key=lambda name: (free[name].distance(raw), name))), None)
     if home is None:
         hint = "add slots to the lab: each part needs a home of its own"
         raise PicoError(error("no-slot", f"{place}: no slot is left that could be its home", hint=hint))
     del free[home]
-    name = wanted.name or _name(bench.setup, wanted.type, stranger.marker)
-    if name in bench.setup.lab.inventory or name in {p.name for p in before}:
+    name = wanted.name or _name(folder.setup, wanted.type, stranger.marker)
+    if name in folder.setup.lab.inventory or name in {p.name for p in before}:
         raise PicoError(error("duplicate", f"there is a part `{name}` already", hint="give it another name"))
     at_home = slot is not None and slot == home
     return Adopted(
@@ -140,8 +140,8 @@ def _adopted(
     )  # fmt: skip
 
 
-def _type(bench: AsyncBench, name: str) -> ComponentType:
-    own = {kind.name: kind for kind in _own(bench)}
+def _type(folder: LabFolder, name: str) -> ComponentType:
+    own = {kind.name: kind for kind in _own(folder)}
     known = [*catalog_names(), *own]
     if name not in known:
         hint = did_you_mean(name, known) or "`pico catalog list` lists them"
@@ -149,8 +149,8 @@ def _type(bench: AsyncBench, name: str) -> ComponentType:
     return own.get(name) or packaged_type(name)
 
 
-def _own(bench: AsyncBench) -> Iterator[ComponentType]:
-    for document in bench.folder.manifests.documents.get("ComponentType", ()):
+def _own(folder: LabFolder) -> Iterator[ComponentType]:
+    for document in folder.manifests.documents.get("ComponentType", ()):
         kind, _ = read_type(document)
         if kind is not None:
             yield kind

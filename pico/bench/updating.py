@@ -1,16 +1,17 @@
 """The bench's own Lab against the one that the working tree describes: what differs, and adopting it.
 
-No bench is opened for it: a state that names a part of the new Lab can't be read against the old one.
+No bench need be open for it: a state that names a part of the new Lab can't be read against the old one.
 """
 
 from __future__ import annotations
 
-import asyncio
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.bench.opened import Opened
+from pico.bench.running.loop import LoopThread
 from pico.edge import own_lab
 from pico.edge.link.opening import opened
 from pico.edge.link.opening import own_lab as kept
@@ -18,7 +19,7 @@ from pico.execution.stale import edited
 from pico.model.record import record
 
 if TYPE_CHECKING:
-    from pico.edge.protocol import Edge, OwnLab
+    from pico.bench.importing import Imported
 
 DOING = "pico bench update"
 
@@ -49,27 +50,41 @@ def proposal(root: Path) -> Proposal:
     return Proposal(bench=now.digest(), tree=wanted.digest(), differences=tuple(edited(now, wanted)), patch=patch)
 
 
-async def adopt(edge: Edge, root: Path) -> OwnLab:
-    """Let the bench of an edge adopt what the working tree in `root` describes, and return that; raises PicoError as
-    `Edge.adopt` does."""
-    tree = own_lab.proposed(root)
-    await edge.adopt(tree, DOING)
-    return tree
-
-
 def update(root: Path, backend: str) -> None:
-    """Let the bench of the lab in `root` adopt what the working tree describes; raises PicoError as `adopt` does."""
-    own = kept(root) or own_lab.proposed(root)
-    setup = own_lab.setup_of(own)
+    """Let the bench of the lab in `root` adopt what the working tree describes; raises PicoError as `Edge.adopt`."""
+    tree = own_lab.proposed(root)
+    own = kept(root) or tree
+    setup, thread = own_lab.setup_of(own), LoopThread()
+    edge = opened(setup, root, backend, setup.lab.sim.fidelity, own)
+    try:
+        thread.wait(edge.adopt(tree, DOING))
+    finally:
+        thread.wait(edge.close())
+        thread.close()
 
-    async def go() -> None:
-        edge = opened(setup, root, backend, setup.lab.sim.fidelity, own)
-        try:
-            await adopt(edge, root)
-        finally:
-            await edge.close()
 
-    asyncio.run(go())
+class BenchLab:
+    """The Lab of a bench that is open, to be changed under it."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def adopt(self) -> None:
+        """Let the bench adopt what the working tree describes; raises PicoError as `Edge.adopt` does."""
+        tree = own_lab.proposed(self.opened.root)
+        self.opened.wait(self.opened.edge.adopt(tree, DOING))
+        self.opened.folder.adopt(tree)
+
+    def import_parts(self, types: Sequence[str] = (), *, write: bool = True) -> Imported:
+        """Take what stands on the table and is not in the inventory into it; see `pico.bench.importing`."""
+        from pico.bench import importing
+
+        wanted = importing.read_types(types)
+        look = self.opened.wait(self.opened.edge.look())
+        found = importing.take_in(self.opened.folder, importing.importable(self.opened.folder, look, wanted), write)
+        if found.parts and write:
+            self.adopt()
+        return found
 
 
 def _patch(before: Mapping[str, str], after: Mapping[str, str]) -> Iterator[str]:

@@ -1,15 +1,25 @@
-"""Looking at a bench again and again: what leaves HEAD, what is right again, and what was brought back."""
+"""How a bench stands against HEAD, once or again and again: what leaves it, what is right again or brought back."""
 
 from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from pico.bench.drift import Drift, Drifted, news
-from pico.diagnostics import PicoError
+from pico.bench.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
+from pico.bench.moves import Moves
+from pico.bench.opened import Opened
+from pico.bench.plans import Plans
+from pico.diagnostics import ExitCode, PicoError
+from pico.model.drift import drift_of
+from pico.model.observation import Observation
 from pico.model.record import record
 from pico.model.report import RunReport
+
+if TYPE_CHECKING:
+    from pico.model.status import Status
+    from pico.runs.journal import JournalRecord
 
 Heal = Callable[[Drifted], RunReport | None]
 
@@ -31,11 +41,82 @@ class Told:
         return bool(self.fresh or self.right or self.note)
 
 
-def watch(look: Callable[[], Drifted], heal: Heal | None, interval: float, looks: int | None) -> Iterator[Told]:
-    """Yield every look, `interval` seconds apart, without an end where `looks` is None; raises PicoError as they do.
+class Watch:
+    """How one bench stands against the last commit, and what keeps it there."""
 
-    `heal`: brings back what drifted, once for each thing that happens.
-    """
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def status(self) -> Status:
+        """Return committed, desired and live side by side."""
+        from pico.model.status import compare
+
+        folder, seen = self.opened.folder, self.opened.observe()
+        return compare(folder.setup, folder.committed(), folder.state, seen, self.opened.history.head_name())
+
+    def look(self) -> Drifted:
+        """Look at the bench and return where it has left HEAD: by how much, how surely, and who did it. Moves nothing,
+        needs no lock; raises PicoError."""
+        setup, seen = self.opened.setup, self.opened.observe()
+        changes = drift_of(setup, seen, self.opened.folder.state_at("HEAD"))
+        rules = set(setup.lab.policy.ignore)
+        ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
+        kept = [c for c in changes if c not in ignored]
+        records = self._records() if any(not c.tolerated for c in kept) else ()
+        found = [drift(setup, seen, change, records) for change in kept]
+        beyond = tuple(d for d in found if not d.change.tolerated)
+        return Drifted(
+            head=self.opened.history.head_name(), observed_at=seen.observed_at, beyond=beyond,
+            within=tuple(d for d in found if d.change.tolerated),
+            ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
+        )  # fmt: skip
+
+    def _records(self) -> Sequence[JournalRecord]:
+        """Return what the bench remembers; nothing where that can't be read: looking must not fail for it."""
+        try:
+            return memory.records() if (memory := self.opened.edge.memory) else ()
+        except PicoError:
+            return ()
+
+    def _held(self, seen: Observation, beyond: Sequence[Drift]) -> str:
+        """Return why nothing may be brought back now."""
+        holder = self.opened.wait(self.opened.edge.holder())
+        if holder is not None:
+            return f"a run goes on: {holder.user} (process {holder.pid}): {holder.what}"
+        if seen.person is not False:
+            return "somebody is at the table" if seen.person else "nothing tells whether somebody is at the table"
+        hands = [name for name, robot in sorted(seen.robots.items()) if robot.holding]
+        if hands:
+            return f"{hands[0]} holds {seen.robots[hands[0]].holding}: `pico recover` first"
+        wrong = next((p for p in seen.problems if p.severity == "error"), None)
+        return wrong.summary if wrong else calibration_drift(self.opened.setup, beyond)
+
+    def heal(self, found: Drifted) -> RunReport | None:
+        """Bring back what drifted and no operation put where it is; None where there is nothing.
+
+        Raises PicoError: DENIED where the lab's policy does not allow it, and where that can't or must not be run.
+        """
+        require_heal(self.opened.setup)
+        names = sorted({d.change.component for d in found.beyond if d.by != "operation"})
+        if found.held or not names:
+            return None
+        plan = Plans(self.opened).plan("HEAD", targets=names)
+        if plan.errored:
+            raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
+        return Moves(self.opened).apply(plan.because("heal")) if plan.operations else None
+
+    def watch(self, *, interval: float = 10.0, looks: int | None = None, heal: bool = False) -> Iterator[Told]:
+        """Return the looks at the bench, `interval` seconds apart, without an end where `looks` is None.
+
+        `heal`: bring back what drifted, once for each thing that happens. Raises PicoError, DENIED at once where the
+        lab's policy does not allow that.
+        """
+        if heal:
+            require_heal(self.opened.setup)
+        return _watch(self.look, self.heal if heal else None, interval, looks)
+
+
+def _watch(look: Callable[[], Drifted], heal: Heal | None, interval: float, looks: int | None) -> Iterator[Told]:
     before: tuple[Drift, ...] = ()
     tried: set[str] = set()
     for number in itertools.count() if looks is None else range(looks):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
@@ -73,7 +74,7 @@ class LocalEdge:
         self._running: Running | None = None
         self._obeying: asyncio.Task[None] | None = None
         self._journal: Journal | None = None
-        self._memory: Journal | None = None
+        self._memories: dict[int, Journal] = {}
 
     async def describe(self) -> Capabilities:
         """Return what the device can do."""
@@ -384,12 +385,14 @@ class LocalEdge:
 
     @property
     def memory(self) -> Journal | None:
-        """What the bench remembers of its runs, to be read from any disk; None where there was none yet."""
-        if self._memory is None and self._journal_path.exists():
+        """What the bench remembers of its runs, to be read from any disk; None where there was none yet. Each thread
+        has a connection of its own: the loop of the edge reads, too."""
+        here = threading.get_ident()
+        if here not in self._memories and self._journal_path.exists():
             from pico.runs.journal import Journal
 
-            self._memory = Journal(self._journal_path, self._clock, looking=True)
-        return self._memory
+            self._memories[here] = Journal(self._journal_path, self._clock, looking=True)
+        return self._memories.get(here)
 
     @property
     def _journal_path(self) -> Path:
@@ -429,10 +432,11 @@ class LocalEdge:
         await self._ended()
         if self._lease is not None:
             await self._leave()
-        for journal in (self._journal, self._memory):
-            if journal is not None:
-                journal.close()
-        self._journal = self._memory = None
+        if self._journal is not None:
+            self._journal.close()
+            self._journal = None
+        while self._memories:
+            self._memories.popitem()[1].close()
 
 
 def embedded(

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 import shutil
 from pathlib import Path
 
 import pytest
+from attended import ended_when
 
 import pico
-from pico.bench.bench import AsyncBench, Bench
+from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.history.examples.example import make_example
 from pico.model.plan import plan_from_json
@@ -45,9 +45,9 @@ def test_the_same_question_has_the_same_plan(bench: Bench) -> None:
 
 def test_a_plan_says_where_it_starts_and_leads(bench: Bench) -> None:
     plan = bench.plan("e1")
-    entry = bench.entry("e1")
+    entry = bench.history.entry("e1")
     assert plan.target.commit == entry.commit.id
-    assert plan.base.commit == bench.entry("HEAD").commit.id
+    assert plan.base.commit == bench.history.entry("HEAD").commit.id
     assert plan.target.state["lx_125"]["pose"] == {"x": 395, "y": 420, "yaw": 0}
     assert plan.base.state["lx_125"]["pose"] == {"x": 290, "y": 310, "yaw": 0}
 
@@ -76,20 +76,11 @@ def test_a_report_is_not_there_before_the_end(bench: Bench) -> None:
 
 def test_a_halted_run_starts_nothing_more_and_the_next_plan_continues(bench: Bench) -> None:
     plan = bench.plan("e1")
-
-    async def halted() -> tuple[int, str, int]:
-        inner = await asyncio.to_thread(AsyncBench.open, bench.root)
-        run = inner.run(plan)
-        async for event in run:
-            if event.kind == "operation_done" and event.component in ("lx_125", "ly_150", "p1", "p2"):
-                await run.halt()
-        await inner.close()
-        return run.report.done, run.report.outcome, run.report.skipped
-
-    done, outcome, skipped = asyncio.run(halted())
-    assert outcome == "interrupted"
-    assert skipped > 0
-    assert 0 < done < len(plan.operations)
+    moved = ("lx_125", "ly_150", "p1", "p2")
+    report = ended_when(bench, plan, lambda event: event.kind == "operation_done" and event.component in moved)
+    assert report.outcome == "interrupted"
+    assert report.skipped > 0
+    assert 0 < report.done < len(plan.operations)
     rest = bench.plan("e1")
     assert 0 < len(rest.operations) < len(plan.operations)
     assert bench.apply(rest).exit_code == ExitCode.DONE
@@ -106,7 +97,7 @@ def test_a_stale_plan_is_refused_and_says_what_moved(bench: Bench) -> None:
 
 def test_an_impossible_plan_is_data_and_is_not_run(bench: Bench) -> None:
     bench.apply("C3")
-    plan = bench.single("p2", "move", {"x": "300"})
+    plan = bench.plans.single("p2", "move", {"x": "300"})
     assert plan.errored
     assert plan.operations == ()
     with pytest.raises(PicoError) as caught:
@@ -202,6 +193,6 @@ def test_the_bench_closes_and_opens_again(bench: Bench) -> None:
 
 
 def test_a_picture_of_the_bench_is_an_image(bench: Bench, tmp_path: Path) -> None:
-    image = bench.render(out=tmp_path / "bench.png")
+    image = bench.pictures.render(out=tmp_path / "bench.png")
     assert image.ndim == 3
     assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import asyncio
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from attended import ended_when
 
 import pico
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
-from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
-from pico.bench.pictures.contents import goals, marks, places
+from pico.bench.picture_contents import goals, marks, places
 from pico.drawing.conflict_marks import Mark
 from pico.history.examples.example import make_example
-from pico.model.plan import Plan
 
 P2 = "  p2:\n    pose:\n      x: 520"
 
@@ -47,20 +45,10 @@ def red(image: np.ndarray) -> int:
 
 
 def carrying(bench: Bench) -> str:
-    """Stop a run at once while a component is in the gripper; return which. In the loop of the run, which a blocking
-    caller would race."""
-
-    async def stopped(plan: Plan) -> str:
-        own = AsyncBench.open(bench.root)
-        run = own.run(plan)
-        async for event in run:
-            if event.data.get("phase") == "transit":
-                await run.stop()
-        await own.close()
-        (held,) = run.report.held.values()
-        return held
-
-    return asyncio.run(stopped(bench.plan("e1")))
+    """Stop a run at once while a component is in the gripper; return which."""
+    carried = ended_when(bench, bench.plan("e1"), lambda event: event.data.get("phase") == "transit", at_once=True)
+    (held,) = carried.held.values()
+    return held
 
 
 @pytest.mark.slow
@@ -70,9 +58,9 @@ def test_a_held_component_is_drawn_in_the_hand(folder: Path) -> None:
         in_space = bench.sim.placements()
         assert in_space[held].position[2] > 0.1  # m above the table
         assert places(bench.setup, bench.observe(), in_space)[held] == in_space[held]
-        shown = bench.render()
+        shown = bench.pictures.render()
         bench.sim.remove(held)
-        assert np.mean(np.any(shown != bench.render(), axis=2)) > 0.002
+        assert np.mean(np.any(shown != bench.pictures.render(), axis=2)) > 0.002
 
 
 def test_a_toppled_component_lies_where_it_fell(folder: Path) -> None:
@@ -85,7 +73,7 @@ def test_a_toppled_component_lies_where_it_fell(folder: Path) -> None:
         placement = places(bench.setup, bench.observe(), bench.sim.placements())["p2"]
         assert placement == bench.sim.placements()["p2"]
         assert placement.tilt == pytest.approx(90, abs=0.1)
-        assert bench.render(view="top").shape == (720, 960, 3)
+        assert bench.pictures.render(view="top").shape == (720, 960, 3)
 
 
 def test_what_nobody_knows_in_space_is_left_out(folder: Path) -> None:
@@ -98,13 +86,13 @@ def test_goals_that_overlap_are_outlined_in_red(folder: Path) -> None:
     with pico.open(folder) as bench:
         bench.apply()
     fine = pico.open(folder)
-    assert red(fine.render(view="top", plan=True)) == 0
+    assert red(fine.pictures.render(view="top", plan=True)) == 0
     write(folder / "state" / "table.yaml", P2, P2.replace("520", "310"))
     with pico.open(folder) as bench:
         plan = bench.plan()
         assert marks(bench.setup, plan) == (Mark("p2", "p1", "40 mm", goals=True),)
         assert goals(bench.setup, plan)["p2"].x == 310
-        assert red(bench.render(view="top", plan=plan)) > 200
+        assert red(bench.pictures.render(view="top", plan=plan)) > 200
 
 
 def test_a_ring_is_drawn_as_arrows_between_two(folder: Path) -> None:
@@ -116,10 +104,10 @@ def test_a_ring_is_drawn_as_arrows_between_two(folder: Path) -> None:
     write(table, P2, P2.replace("520", "290"))
     write(table, "  p1:\n    pose:\n      x: 290", "  p1:\n    pose:\n      x: 520")
     with pico.open(folder) as bench:
-        bench.adopt()
+        bench.lab.adopt()
         plan = bench.plan()
         assert plan.errored
         assert set(marks(bench.setup, plan)) == {Mark("p1", "p2", "60 mm"), Mark("p2", "p1", "60 mm")}
-        image = bench.render(view="top", plan=plan)
+        image = bench.pictures.render(view="top", plan=plan)
         # p1 at x = 290, p2 at 520: the arrows bend to either side of the line between them
         assert red(image[:, 300:400]) > 60

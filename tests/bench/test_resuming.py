@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import asyncio
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from attended import ended_when
 
-from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
 from pico.diagnostics import PicoError
 from pico.history.examples.example import make_example
-from pico.model.plan import Plan, plan_from_json
+from pico.model.plan import plan_from_json
 from pico.model.pose import Pose
 from pico.runs.journal import Journal
 
@@ -43,14 +42,14 @@ def cut_short(bench: Bench, goal: str) -> str:
 
 def test_a_resumed_run_keeps_its_id_repeats_nothing_and_reaches_the_goal(bench: Bench) -> None:
     id = cut_short(bench, "e1")
-    plan, run = bench.resume_plan()
+    plan, run = bench.recovery.resume_plan()
     assert run == id
     assert {op.id.split(".")[0] for op in plan.operations} == {"r1"}
     report = _run(bench, plan, run)
     assert (report.outcome, report.run) == ("done", id)
     assert bench.plan("e1").operations == ()
     with pytest.raises(PicoError, match="nothing to resume"):
-        bench.resume_plan()
+        bench.recovery.resume_plan()
 
 
 def _run(bench: Bench, plan, run):  # type: ignore[no-untyped-def]
@@ -59,21 +58,12 @@ def _run(bench: Bench, plan, run):  # type: ignore[no-untyped-def]
     return going.report
 
 
-async def halted_on_its_way(lab: Path, plan: Plan) -> None:
-    """Halt before the part is gripped: in the loop of the run, which a blocking caller would race."""
-    bench = AsyncBench.open(lab)
-    run = bench.run(plan)
-    async for event in run:
-        if event.data.get("phase") == "approach":
-            await run.halt()
-    await bench.close()
-
-
 def test_a_resumed_single_operation_moves_only_what_was_asked(bench: Bench) -> None:
     bench.apply("C3")
-    asyncio.run(halted_on_its_way(bench.folder.root, bench.single("p2", "move", {"x": "600"})))
+    move = bench.plans.single("p2", "move", {"x": "600"})
+    ended_when(bench, move, lambda event: event.data.get("phase") == "approach")  # before the part is gripped
     bench.sim.nudge("p1", dx=4)
-    plan, _ = bench.resume_plan()
+    plan, _ = bench.recovery.resume_plan()
     assert {op.component for op in plan.operations if op.primitive == "move"} == {"p2"}
 
 
@@ -81,14 +71,14 @@ def test_undo_takes_back_what_the_run_moved_and_nothing_else(bench: Bench) -> No
     bench.apply("C3")
     bench.apply("e1")
     bench.sim.nudge("hwp", dx=3)
-    plan = bench.undo_plan()
+    plan = bench.recovery.undo_plan()
     assert plan.target.name.startswith("the bench before")
     assert bench.apply(plan).outcome == "done"
     seen = bench.observe().components
     assert seen["lx_125"].pose == Pose(290, 310, 0)
     assert seen["p2"].pose == Pose(520, 420, 0)
     assert seen["hwp"].pose == Pose(225, 420, 0)
-    again = bench.undo_plan()
+    again = bench.recovery.undo_plan()
     assert bench.apply(again).outcome == "done"
     assert bench.observe().components["lx_125"].pose == Pose(395, 420, 0)
 
@@ -104,23 +94,23 @@ def put(bench: Bench, part: str, pose: Pose) -> Pose:
 def test_a_part_off_the_center_of_a_slot_comes_back_exactly(bench: Bench) -> None:
     stood = put(bench, "p2", Pose(206.4, 213.6, 45))
     bench.apply("C3")
-    assert bench.apply(bench.undo_plan()).outcome == "done"
+    assert bench.apply(bench.recovery.undo_plan()).outcome == "done"
     assert bench.observe().components["p2"].pose == stood
 
 
 def test_a_part_that_stands_elsewhere_in_its_slot_is_not_called_equal(bench: Bench) -> None:
     put(bench, "p2", Pose(206.4, 213.6, 45))
-    bench.apply(bench.single("p2", "move", {"x": "201", "y": "219", "yaw": "0"}))
-    plan = bench.undo_plan()
+    bench.apply(bench.plans.single("p2", "move", {"x": "201", "y": "219", "yaw": "0"}))
+    plan = bench.recovery.undo_plan()
     assert not plan.reached
     assert [op.component for op in plan.operations if op.primitive == "move"] == ["p2"]
 
 
 def test_what_else_was_changed_since_is_left_and_named(bench: Bench) -> None:
     bench.apply("C3")
-    bench.apply(bench.single("p1", "set", {"angle": "7"}))
+    bench.apply(bench.plans.single("p1", "set", {"angle": "7"}))
     put(bench, "p1", Pose(640, 420, 0))
-    report = bench.apply(bench.undo_plan())
+    report = bench.apply(bench.recovery.undo_plan())
     assert (report.whole, report.scope, report.left) == (False, "only p1.angle", ("p1.pose",))
     assert bench.observe().components["p1"].pose == Pose(640, 420, 0)
 
@@ -135,7 +125,7 @@ def test_a_journal_that_keeps_names_of_slots_is_undone_into_them(bench: Bench, m
         return replace(plan, base=replace(plan.base, state=state)).sealed().to_json()
 
     monkeypatch.setattr(Journal, "document", older)
-    assert bench.apply(bench.undo_plan()).reached
+    assert bench.apply(bench.recovery.undo_plan()).reached
     assert bench.observe().components["p2"].pose == Pose(200, 220, 0)
 
 

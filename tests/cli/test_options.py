@@ -184,7 +184,7 @@ def test_a_mistake_in_pico_itself_is_one_line_with_what_to_report(
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("division by zero")
 
-    monkeypatch.setattr("pico.bench.bench.AsyncBench.status", broken)
+    monkeypatch.setattr("pico.bench.watching.Watch.status", broken)
     answer = pico("status")
     assert answer.code == 1
     assert "error[internal]: PICO itself failed: ZeroDivisionError: division by zero" in answer.err

@@ -15,6 +15,7 @@ import pytest
 from commanding import Pico
 from data_labs import git
 
+from pico.bench.publishing import publish
 from pico.history.data.lab import LabData
 
 
@@ -289,8 +290,8 @@ def test_a_script_publishes_too(lab: Path, tmp_path: Path) -> None:
     import pico
 
     with pico.open(lab) as bench:
-        made = bench.publish("HEAD", tmp_path / "crate", pictures=False)
-        assert bench.data.status().absent == ()
+        made = publish(bench.folder, "HEAD", tmp_path / "crate", pictures=False)
+        assert bench.history.data.status().absent == ()
     assert made.evidence == "kinematic"
     assert entities(tmp_path / "crate")["./"]["identifier"] == made.commit
 

@@ -15,8 +15,9 @@ from pico_cli.runs.approving import question
 from pico_cli.runs.running import execute
 from pico_cli.session import Session
 
-from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
+from pico.bench.moves import Moves
+from pico.bench.plans import Plans
 from pico.model.event import Event
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
@@ -110,12 +111,12 @@ def test_ctrl_c_while_it_plans_does_not_wait_for_the_plan(
 ) -> None:
     enough, planned = threading.Event(), threading.Event()
 
-    async def endless(self: AsyncBench, *_: Any, **__: Any) -> None:
+    def endless(self: Plans, *_: Any, **__: Any) -> None:
         os.kill(os.getpid(), signal.SIGINT)
         enough.wait(60)
         planned.set()
 
-    monkeypatch.setattr(AsyncBench, "plan", endless)
+    monkeypatch.setattr(Plans, "plan", endless)
     answer = pico("apply", "e1", "--auto-approve")
     assert (answer.code, planned.is_set()) == (130, False)
     assert "interrupted; nothing has moved" in answer.err
@@ -127,7 +128,7 @@ def test_ctrl_c_in_a_script_halts_the_run_before_the_script_hears_of_it(
     shel: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = Interrupted(1)
-    monkeypatch.setattr(Bench, "run", lambda *_: run)
+    monkeypatch.setattr(Moves, "run", lambda *_: run)
     with Bench.open(shel) as bench, pytest.raises(KeyboardInterrupt):
         bench.apply(PLAN)
     assert run.calls == ["halt"]

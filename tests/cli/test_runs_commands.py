@@ -28,9 +28,9 @@ def ran(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     with Bench.open(folder) as bench:
         bench.apply()
         bench.commit("e1 stands")
-        bench.apply(bench.single("p1", "set", {"angle": "5"}))
+        bench.apply(bench.plans.single("p1", "set", {"angle": "5"}))
         bench.commit("p1 at 5", mode="capture")
-        bench.apply(bench.single("p1", "set", {"angle": "9"}))
+        bench.apply(bench.plans.single("p1", "set", {"angle": "9"}))
     return folder
 
 

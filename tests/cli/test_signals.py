@@ -16,8 +16,8 @@ from commanding import Pico
 from killed_commands import git
 from test_stopping_commands import PROGRAM, moving, started
 
-from pico.bench.async_bench import AsyncBench
 from pico.bench.bench import Bench
+from pico.bench.plans import Plans
 from pico.bench.running.attending import attend
 from pico.model.event import Event
 from pico.runs.journal import Journal
@@ -158,13 +158,13 @@ def test_a_plan_is_not_waited_for(
 
     enough, planned = threading.Event(), threading.Event()
 
-    async def endless(self: AsyncBench, *_: object, **__: object) -> None:
+    def endless(self: Plans, *_: object, **__: object) -> None:
         os.kill(os.getpid(), number)
         enough.wait(60)
         planned.set()
 
     before = signal.signal(number, signal.SIG_DFL)
-    monkeypatch.setattr(AsyncBench, "plan", endless)
+    monkeypatch.setattr(Plans, "plan", endless)
     answer = pico("plan", "e1")
     enough.set()
     assert (answer.code, planned.is_set()) == (130, False)

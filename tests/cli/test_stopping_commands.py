@@ -20,9 +20,9 @@ PROGRAM = """
 import sys, time
 from pathlib import Path
 from pico.backends.sim import session
-from pico.bench.running import blocking
+from pico.bench.running import execution
 
-halt, tell, notes = blocking.Execution.halt, session.WorldSession._tell, Path(".pico")
+halt, tell, notes = execution.Execution.halt, session.WorldSession._tell, Path(".pico")
 
 def waits(self, kind, operation, key, data):
     tell(self, kind, operation, key, data)
@@ -36,7 +36,7 @@ def halts(self):
     halt(self)
     (notes / "goes_on").write_text("")
 
-blocking.Execution.halt, session.WorldSession._tell = halts, waits
+execution.Execution.halt, session.WorldSession._tell = halts, waits
 from pico_cli.main import main
 sys.exit(main(sys.argv[1:]))
 """

@@ -133,8 +133,8 @@ def test_a_laser_that_is_off_throws_no_beam(tmp_path: Path) -> None:
     make_example("minimal", tmp_path / "lab")
     with Bench.open(tmp_path / "lab") as bench:
         laser = next(n for n in bench.setup.lab.inventory if bench.setup.type_of(n).optics.element == "source")
-        shown = [bench.render(view="top", size=(W, H)).astype(int)]
+        shown = [bench.pictures.render(view="top", size=(W, H)).astype(int)]
         bench.apply()
-        shown.append(bench.render(view="top", size=(W, H)).astype(int))
+        shown.append(bench.pictures.render(view="top", size=(W, H)).astype(int))
     red = [((image[:, :, 0] - image[:, :, 2] > 90) & (image[:, :, 1] < 110)).sum() for image in shown]
     assert bench.state.components[laser].values["emission"] is True and red[0] < red[1]

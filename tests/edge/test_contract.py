@@ -7,6 +7,7 @@ import shutil
 import stat
 import subprocess
 import sys
+import threading
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import replace
@@ -19,7 +20,7 @@ from benches import plan_to, shel, sim
 from serving import served
 
 from pico.bench.bench import Bench
-from pico.bench.running.async_execution import AsyncExecution
+from pico.bench.running.execution import Execution
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.link import place
 from pico.edge.link.client import RemoteEdge
@@ -56,12 +57,12 @@ def kept(request: pytest.FixtureRequest, lab: Path) -> Iterator[type]:
 @pytest.fixture
 def bench(lab: Path, kept: type) -> Iterator[Bench]:
     with Bench.open(lab) as opened_bench:
-        assert type(opened_bench._bench.edge) is kept
+        assert type(opened_bench.edge) is kept
         yield opened_bench
 
 
 def edge_of(bench: Bench) -> Edge:
-    return bench._bench.edge
+    return bench.edge
 
 
 def on_edge(bench: Bench, act: Callable[[Edge], Awaitable[Any]]) -> Any:
@@ -70,7 +71,7 @@ def on_edge(bench: Bench, act: Callable[[Edge], Awaitable[Any]]) -> Any:
     async def go() -> Any:
         return await asyncio.wait_for(act(edge_of(bench)), 60)
 
-    return bench._thread.wait(go())
+    return bench.wait(go())
 
 
 async def ran(edge: Edge, plan: Plan, run: str, **options: Any) -> list[Event]:
@@ -186,7 +187,7 @@ def test_a_run_is_ended_safely_or_at_once(bench: Bench, how: str) -> None:
     assert on_edge(bench, lambda edge: edge.holder()) is None
     if how != "stop":
         assert not report.held
-    bench.apply(bench.resume_plan()[0])
+    bench.apply(bench.recovery.resume_plan()[0])
     assert not bench.plan("e1").operations
 
 
@@ -197,16 +198,16 @@ def test_resume_undo_and_recover_go_by_what_it_remembers(bench: Bench) -> None:
         if event.kind == "operation_done" and "error_mm" in event.data:
             run.halt()
     assert run.report.outcome == "interrupted"
-    plan, id = bench.resume_plan()
+    plan, id = bench.recovery.resume_plan()
     assert id == run.report.run
     going = bench.run(plan, resumes=id)
     list(going)
     assert going.report.run == id and not bench.plan("e1").operations
-    bench.apply(bench.undo_plan())
+    bench.apply(bench.recovery.undo_plan())
     assert {name: part.pose for name, part in bench.observe().components.items()} == before
-    assert not bench.recover_plan().operations
+    assert not bench.recovery.recover_plan().operations
     with pytest.raises(PicoError, match="nobody asks about"):
-        bench.answer("r9/op1/1", done=True)
+        bench.recovery.answer("r9/op1/1", done=True)
 
 
 def test_its_runs_are_committed_with_their_evidence(bench: Bench) -> None:
@@ -214,9 +215,9 @@ def test_its_runs_are_committed_with_their_evidence(bench: Bench) -> None:
     bench.capture()
     done = bench.commit("as e1")
     assert done.realized and done.evidence == "kinematic" and len(done.runs) == 1
-    document, commit = bench.recorded_run(done.runs[0])
+    document, commit = bench.history.recorded_run(done.runs[0])
     assert document.document.evidence == "kinematic" and commit is not None
-    found = bench.look()
+    found = bench.drift.look()
     assert not found.beyond and not found.held
 
 
@@ -250,7 +251,7 @@ def test_the_simulated_world_is_changed_as_by_a_hand(bench: Bench) -> None:
 
 @pytest.mark.slow
 def test_cameras_look(bench: Bench) -> None:
-    found = bench.scan()
+    found = bench.cameras.scan()
     assert {"p1", "p2"} <= found.sighting.components.keys()
     assert all(frame.gray.dtype == np.uint8 and frame.gray.any() for frame in found.frames)
     assert found.calibration.cameras.keys() >= {frame.camera for frame in found.frames}
@@ -259,15 +260,14 @@ def test_cameras_look(bench: Bench) -> None:
 def test_who_is_interrupted_while_it_waits_does_not_stop_the_one_that_moves(bench: Bench) -> None:
     plan = bench.plan("e1")
 
+    lease = on_edge(bench, lambda edge: edge.acquire("first"))
+    waiting = Execution(plan, bench.edge, bench.thread, wait=30.0)
+    threading.Timer(0.1, waiting.halt).start()
+    with pytest.raises(PicoError) as caught:
+        next(waiting)
+    assert caught.value.exit_code == ExitCode.INTERRUPTED and waiting.over
+
     async def act(edge: Edge) -> None:
-        lease = await edge.acquire("first")
-        waiting = AsyncExecution(plan, edge, wait=30.0)
-        end = asyncio.create_task(anext(aiter(waiting)))
-        await asyncio.sleep(0.1)
-        await waiting.halt()
-        with pytest.raises(PicoError) as caught:
-            await end
-        assert caught.value.exit_code == ExitCode.INTERRUPTED
         turn = Operation(
             id="op1", primitive="set", component="p1", arguments={"tunable": "angle", "to": 20.0},
             reason=Reason(kind="asked"),

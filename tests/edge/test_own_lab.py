@@ -67,11 +67,11 @@ def test_what_the_tree_describes_is_a_proposal_until_it_is_adopted(lab: Path) ->
         assert bench.setup.digest() == own and "lx_125" in bench.setup.lab.inventory
         (told,) = (d for d in bench.plan().diagnostics if d.code == "bench-lab")
         assert "inventory.lx_125 removed" in told.summary and told.severity == "warning"
-        proposal = bench.proposal()
+        proposal = updating.proposal(lab)
         assert proposal.bench == own != proposal.tree and "-  lx_125:" in proposal.patch
-        bench.adopt()
+        bench.lab.adopt()
         assert bench.setup.digest() == proposal.tree and "lx_125" not in bench.setup.lab.inventory
-        assert not bench.proposal().new
+        assert not updating.proposal(lab).new
         assert not [d for d in bench.plan().diagnostics if d.code == "bench-lab"]
         assert bench.apply().outcome == "done"
     kept = own_lab.read(lab)
@@ -84,7 +84,7 @@ def test_an_old_revision_is_planned_with_the_bench_of_today(lab: Path) -> None:
     edit(lab / "lab.yaml", "seed: 1", "seed: 2")
     subprocess.run(["git", "commit", "-qam", "another seed"], cwd=lab, check=True)
     with Bench.open(lab) as bench:
-        bench.adopt()
+        bench.lab.adopt()
         own = bench.setup.digest()
         plan = bench.plan("e1")
         assert plan.lab.digest == own
@@ -109,7 +109,7 @@ def test_a_plan_of_before_is_stale_once_another_lab_is_adopted(lab: Path) -> Non
         plan = bench.plan("e1")
         edit(lab / "lab.yaml", "seed: 1", "seed: 2")
         with Bench.open(lab) as other:
-            other.adopt()
+            other.lab.adopt()
         with pytest.raises(PicoError) as refused:
             bench.apply(plan)
         assert refused.value.exit_code == ExitCode.STALE
@@ -140,7 +140,7 @@ def test_what_is_wrong_with_a_proposal_is_said_and_the_bench_stays(lab: Path) ->
         bench.apply("e1")
         edit(lab / "lab.yaml", "seed: 1", "seeed: 1")
         with pytest.raises(PicoError) as refused:
-            bench.adopt()
+            bench.lab.adopt()
         assert "seeed" in refused.value.diagnostics[0].summary
     kept = own_lab.read(lab)
     assert kept is not None and "seeed" not in kept.files["lab.yaml"]
@@ -148,14 +148,14 @@ def test_what_is_wrong_with_a_proposal_is_said_and_the_bench_stays(lab: Path) ->
 
 def test_nobody_adopts_while_the_bench_is_in_use(lab: Path) -> None:
     with Bench.open(lab) as bench, Bench.open(lab) as other:
-        edge = bench._bench.edge
-        lease = bench._thread.wait(edge.acquire("somebody"))
+        edge = bench.edge
+        lease = bench.wait(edge.acquire("somebody"))
         edit(lab / "lab.yaml", "seed: 1", "seed: 2")
         with pytest.raises(PicoError) as refused:
-            other.adopt()
+            other.lab.adopt()
         assert refused.value.exit_code == ExitCode.LOCKED
-        bench._thread.wait(edge.release(lease))
-        other.adopt()
+        bench.wait(edge.release(lease))
+        other.lab.adopt()
 
 
 @pytest.mark.parametrize(
@@ -172,7 +172,7 @@ def test_a_kept_lab_that_cannot_be_read_is_told_with_its_file(tmp_path: Path, te
 def test_a_kept_lab_that_makes_no_sense_any_more_says_how_to_get_on(tmp_path: Path) -> None:
     root = make_example("minimal", tmp_path / "minimal").root
     with Bench.open(root) as bench:
-        bench.adopt()
+        bench.lab.adopt()
     kept = own_lab.read(root)
     assert kept is not None
     own_lab.write(root, replace(kept, files={"lab.yaml": kept.files["lab.yaml"].replace("table:", "tabel:")}))

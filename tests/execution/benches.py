@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncGenerator, Callable, Mapping
-from contextlib import aclosing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,9 +11,8 @@ from typing import Any
 from results import RunResult
 
 from pico.backends.sim.device import SimDevice
-from pico.bench.running.async_execution import AsyncExecution
 from pico.edge.local import LocalEdge
-from pico.edge.protocol import Edge
+from pico.edge.protocol import Edge, Job
 from pico.manifest.load import load_folder
 from pico.model.event import Event
 from pico.model.lab import Setup
@@ -78,13 +76,12 @@ async def run(
     planned: Plan, edge: Edge, *, run_id: str, cancelled: Callable[[], bool] = lambda: False, **options: Any
 ) -> AsyncGenerator[Event, None]:
     """Run a plan under an id and yield its events; once `cancelled()`, it is cancelled."""
-    execution = AsyncExecution(planned, edge, holder="test", **options)
-    execution.id = run_id
-    async with aclosing(execution.__aiter__()) as events:
-        async for event in events:
-            yield event
-            if cancelled():
-                await edge.cancel(run_id)
+    await edge.start(Job(plan=planned, holder="test", **options), run_id)
+    async for event in edge.events(run_id):
+        yield event
+        if cancelled():
+            await edge.cancel(run_id)
+    await edge.report(run_id)
 
 
 def apply(backend: LocalEdge, wanted: LabState, run_id: str = "r1") -> tuple[Plan, RunResult, list[Event]]:

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 from benches import apply, changed, execute, plan_to, run, shel, sim
-from oracles.unfinished import unfinished
 from results import RunResult
 from tables import change_world
 
@@ -199,52 +198,6 @@ def test_interrupted_by_a_callable_finishes_what_is_under_way_and_starts_nothing
     assert apply(bench, C3, "r2")[1].outcome == "done"
 
 
-def test_a_cancelled_reader_still_hears_the_end_and_is_cancelled_then(bench: LocalEdge) -> None:
-    planned = asyncio.run(plan_to(bench, C3))
-    events: list[Event] = []
-
-    async def read() -> None:
-        async for event in run(planned, bench, run_id="r1"):
-            events.append(event)
-
-    async def go() -> bool:
-        task = asyncio.create_task(read())
-        while not any(e.kind == "operation_started" for e in events):
-            await asyncio.sleep(0)
-        task.cancel()
-        await asyncio.wait([task])
-        return task.cancelled()
-
-    assert asyncio.run(go())
-    assert RunResult.of(events).outcome == "interrupted"
-    assert not unfinished(bench.journal)
-
-
-def test_cancelled_twice_it_stops_at_once_and_the_gripper_holds(bench: LocalEdge) -> None:
-    planned = asyncio.run(plan_to(bench, C3))
-    events: list[Event] = []
-
-    async def read() -> None:
-        async for event in run(planned, bench, run_id="r1"):
-            events.append(event)
-
-    async def go() -> None:
-        task = asyncio.create_task(read())
-        while not any(e.data.get("phase") == "transit" for e in events):
-            await asyncio.sleep(0)
-        task.cancel()
-        await asyncio.sleep(0)
-        task.cancel()
-        await asyncio.wait([task])
-
-    asyncio.run(go())
-    result = RunResult.of(events)
-    assert result.outcome == "interrupted"
-    assert {r.data["diagnostic"]["code"] for r in result.operations.values() if r.outcome == "failed"} == {"stopped"}
-    carried = next(op.component for op in planned.operations if op.primitive == "move")
-    assert asyncio.run(bench.observe()).robots["arm1"].holding == carried
-
-
 def chain(planned: Plan) -> Plan:
     """The plan with a long setting of the laser beside short ones of the camera, one after the other."""
     laser = next(op for op in planned.operations if op.arguments.get("tunable") == "emission")
@@ -278,22 +231,6 @@ def test_a_slow_reader_changes_nothing(tmp_path: Path) -> None:
         return events
 
     assert asyncio.run(read("quick", 0)) == asyncio.run(read("slow", 50))
-
-
-def test_a_reader_that_leaves_ends_the_run_safely_and_gives_the_bench_back(bench: LocalEdge) -> None:
-    planned = asyncio.run(plan_to(bench, C3))
-
-    async def leave() -> None:
-        events = run(planned, bench, run_id="r1")
-        async for event in events:
-            if event.kind == "operation_progress":
-                break
-        await events.aclose()
-
-    asyncio.run(leave())
-    assert bench.journal.runs()[0].outcome == "interrupted"
-    assert not unfinished(bench.journal)
-    assert apply(bench, C3, "r2")[1].outcome == "done"
 
 
 def test_halt_lets_the_move_end_and_stop_leaves_the_part_in_the_gripper(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from pico.planning import plan
 from pico.planning.checks.target import Source
 
 if TYPE_CHECKING:
-    from pico.bench.running.blocking import LoopThread
+    from pico.bench.running.loop import LoopThread
     from pico.edge.protocol import Edge
 
 CALIBRATION = "calibration.json"
@@ -91,13 +91,12 @@ def after_hands(seen: Observation, operations: tuple[Operation, ...]) -> Observa
 def run(setup: Setup, seen: Observation, plan: Plan, *, fidelity: str, lab: Path) -> RunReport:
     """Run a plan on a simulated bench of its own that stands as `seen`, with the calibration of the folder `lab`, and
     return what became of it; raises PicoError where the simulator refuses the plan."""
-    from pico.bench.running.async_execution import AsyncExecution
-    from pico.bench.running.blocking import Execution
+    from pico.bench.running.execution import Execution
 
     plan = replace(plan, fidelity=fidelity, lab=LabRef(name=plan.lab.name, digest=simulated(setup).digest()))
     with _bench(setup, fidelity, lab) as (edge, thread):
         edge.world.put(seen)
-        execution = Execution(AsyncExecution(plan, edge, holder="pico check"), thread)
+        execution = Execution(plan, edge, thread, holder="pico check")
         for _ in execution:
             pass
         return execution.report
@@ -106,7 +105,7 @@ def run(setup: Setup, seen: Observation, plan: Plan, *, fidelity: str, lab: Path
 @contextmanager
 def _bench(setup: Setup, fidelity: str = "kinematic", lab: Path | None = None) -> Iterator[tuple[Edge, LoopThread]]:
     """Give a simulated bench in a temporary folder, with every part at home, and the thread that it lives in."""
-    from pico.bench.running.blocking import LoopThread
+    from pico.bench.running.loop import LoopThread
     from pico.edge.local import embedded
 
     thread = LoopThread()

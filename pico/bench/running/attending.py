@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
-from pico.bench.running.blocking import Execution
+from pico.bench.running.execution import Execution
 from pico.model.event import Event
 
 SAFELY = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"

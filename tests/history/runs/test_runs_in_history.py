@@ -150,7 +150,7 @@ def test_a_run_that_was_interrupted_and_resumed_is_one(lab: Path) -> None:
             if event.kind == "operation_done":
                 run.halt()
         assert run.report.outcome == "interrupted"
-        plan, name = bench.resume_plan()
+        plan, name = bench.recovery.resume_plan()
         again = bench.run(plan, resumes=name)
         assert [e.kind for e in again][-1] == "run_finished"
     git(lab, "checkout", "-q", "e1")
@@ -170,7 +170,7 @@ def test_what_is_resumed_after_a_commit_is_carried_by_the_next_one(lab: Path) ->
                 run.halt()
     commit(lab, "half way")
     with Bench.open(lab) as bench:
-        plan, name = bench.resume_plan()
+        plan, name = bench.recovery.resume_plan()
         for _ in bench.run(plan, resumes=name):
             pass
     made = commit(lab, "the other half").commit
@@ -392,7 +392,7 @@ def test_the_first_commit_of_a_lab_carries_its_runs_and_a_lab_may_lie_in_a_folde
 def begun(folder: Path, outcome: str | None) -> None:
     """Leave a run in the journal that began one operation and was killed, or ended."""
     with Bench.open(folder) as bench:
-        plan = bench.single("p1", "set", {"angle": "5"})
+        plan = bench.plans.single("p1", "set", {"angle": "5"})
         seen = bench.observe().components["p1"]
     with closing(Journal(folder / ".pico" / "journal.sqlite")) as journal:
         journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
@@ -422,7 +422,7 @@ def test_a_run_that_goes_on_is_not_carried_yet(lab: Path) -> None:
 
 def test_a_run_that_moved_nothing_is_not_carried(lab: Path) -> None:
     with Bench.open(lab) as bench:
-        plan = bench.single("p1", "set", {"angle": "5"})
+        plan = bench.plans.single("p1", "set", {"angle": "5"})
     with closing(Journal(lab / ".pico" / "journal.sqlite")) as journal:
         journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
         journal.intend("r1/op1/1", plan.operations[0], 1)

@@ -1,53 +1,37 @@
-"""What a bench offers that asks no backend: its manifests and their history. Both faces of a bench share it."""
+"""The history of a lab: what its folder and Git tell and do, without a bench."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
 from pico.history.lab.folder import CommitEntry, LabFolder
 from pico.history.lab.notes import Note
-from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.plan import Plan, plan_from_json
-from pico.model.state import LabState
 
 if TYPE_CHECKING:
     from pico.history.blame.blamed import Blamed
+    from pico.history.data.lab import LabData
     from pico.history.diff.states import StateDiff
+    from pico.history.git.commit import Commit
     from pico.history.log import Log
+    from pico.history.merge.commits import MergeMade
+    from pico.history.restoring.selected import SelectedParts
+    from pico.history.restoring.stash import Stash
+    from pico.history.restoring.transplant import Transplanted
+    from pico.history.runs.comparing import Comparison
     from pico.history.shown import Shown
+    from pico.model.run import Run
+    from pico.runs.document import RecordedRun
 
 
-class Reader:
-    """Reads the lab's folder, and states at revisions, for the class that has one as `folder`."""
+class LabHistory:
+    """Reads and makes the history of the lab in a folder; raises PicoError."""
 
-    folder: LabFolder
-
-    @property
-    def root(self) -> Path:
-        """The lab's folder."""
-        return self.folder.root
-
-    @property
-    def setup(self) -> Setup:
-        """The bench as it is now: lab and component types."""
-        return self.folder.setup
-
-    @property
-    def state(self) -> LabState:
-        """The desired state: what the manifests in the working tree say."""
-        return self.folder.state
-
-    def state_at(self, revision: str) -> LabState:
-        """Return the state that a revision holds; raises PicoError."""
-        return self.folder.state_at(revision)
-
-    def diff(self, a: str | None = None, b: str | None = None) -> tuple[Change, ...]:
-        """Return what differs from revision `a` (HEAD) to `b` (the working tree), exactly; raises PicoError."""
-        return self.folder.diff(a, b)
+    def __init__(self, folder: LabFolder) -> None:
+        self.folder = folder
 
     def compare(
         self, a: str | None = None, b: str | None = None, names: Sequence[str] = (), *, at: Path | None = None
@@ -59,7 +43,7 @@ class Reader:
         from pico.history.diff.states import compare
         from pico.history.lab.scope import read_scope
 
-        scope = read_scope(self.folder, names, at or self.root, past=True)
+        scope = read_scope(self.folder, names, at or self.folder.root, past=True)
         return compare(self.folder, a, b, scope)
 
     def log(
@@ -80,7 +64,7 @@ class Reader:
         from pico.history.lab.scope import read_scope
         from pico.history.log import Log, LogRequest
 
-        scope = read_scope(self.folder, names, at or self.root, past=True)
+        scope = read_scope(self.folder, names, at or self.folder.root, past=True)
         asked = LogRequest(
             revisions=revisions, every=every, options=tuple(options), limit=limit, scope=scope, topological=graph
         )
@@ -90,7 +74,7 @@ class Reader:
         """Return who last changed these components and tunables, all for none; see `pico.history.blame.blamed`."""
         from pico.history.blame.blamed import blame
 
-        return blame(self.root, what, at=at, history=history)
+        return blame(self.folder.root, what, at=at, history=history)
 
     def show(self, what: str = "HEAD") -> Shown:
         """Return what a revision, or `REV:COMPONENT`, did and holds; see `pico.history.shown`. Raises PicoError."""
@@ -159,9 +143,73 @@ class Reader:
         except PicoError:
             return False
 
+    def parts_at(self, revision: str, names: Sequence[str]) -> SelectedParts:
+        """Return what the manifests must say for parts of a state to be as in a revision; see `restoring.checked`."""
+        from pico.history.restoring import checked
 
-class HistoryReader(Reader):
-    """Reads the history of the lab that `path` lies in, also while its manifests are wrong; raises PicoError."""
+        return checked.select_parts(self.folder, revision, names)
 
-    def __init__(self, path: Path) -> None:
-        self.folder = LabFolder(path, history=True)
+    def runs(self, revision: str | None = None, **options: Any) -> tuple[tuple[Run, Commit | None], ...]:
+        """Return the runs that commits carry, and those that none has yet; see `runs.listing.list_runs`."""
+        from pico.history.runs.listing import list_runs
+
+        return list_runs(self.folder, revision, **options)
+
+    def recorded_run(self, word: str | None = None) -> tuple[RecordedRun, Commit | None]:
+        """Return a run by the beginning of its id, the last one for None; see `pico.history.runs.loading.load_run`."""
+        from pico.history.runs.loading import load_run
+
+        return load_run(self.folder, word)
+
+    def compare_runs(self, a: str, b: str) -> Comparison:
+        """Return two runs side by side; see `pico.history.runs.comparing`."""
+        from pico.history.runs.comparing import compare_runs
+
+        return compare_runs(self.folder.setup, self.recorded_run(a)[0], self.recorded_run(b)[0])
+
+    def merge(self, revision: str, message: str = "") -> MergeMade:
+        """Merge a revision into what is checked out, where the result can stand on the table; see `merge.checked`."""
+        from pico.history.merge.checked import merge
+
+        return merge(self.folder, revision, message)
+
+    @property
+    def data(self) -> LabData:
+        """The large data of the lab's runs: what is needed, here and where copies are kept; see `history.data.lab`."""
+        from pico.history.data.lab import LabData
+
+        return LabData(self.folder.history())
+
+    def revert(
+        self, revision: str, message: str = "", *, mainline: int | None = None, commit: bool = True
+    ) -> Transplanted:
+        """Take back what a revision changed, in the manifests; see `pico.history.restoring.checked`."""
+        from pico.history.restoring import checked
+
+        return checked.revert(self.folder, revision, message=message, mainline=mainline, commit=commit)
+
+    def cherry_pick(
+        self, revisions: Sequence[str], *, mainline: int | None = None, commit: bool = True
+    ) -> tuple[Transplanted, ...]:
+        """Do once more what revisions changed, in the manifests; see `pico.history.restoring.checked`."""
+        from pico.history.restoring import checked
+
+        return checked.cherry_pick(self.folder, revisions, mainline=mainline, commit=commit)
+
+    @property
+    def stash(self) -> Stash:
+        """The stash of the repository: edits of the manifests that are shelved; see `pico.history.restoring.stash`."""
+        from pico.history.restoring.stash import Stash
+
+        return Stash(self.folder)
+
+    def checkout(self, revision: str | SelectedParts) -> None:
+        """Check a revision out with git, or write what is taken from one. Moves nothing; raises PicoError.
+
+        The bench stays what it is, for a revision can't change which parts there are.
+        """
+        if not isinstance(revision, str):
+            revision.write(self.folder)
+            return
+        self.folder.history().checkout(revision)
+        self.folder.reload()

@@ -1,0 +1,61 @@
+"""Looking at a bench through its cameras: where everything is, in numbers and as a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.bench.opened import Opened
+from pico.diagnostics import Diagnostic
+from pico.model.request import require_component
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
+    from pico.drawing.picture import Image
+    from pico.vision.calibration import Calibration
+
+
+class Cameras:
+    """The cameras over one bench."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def scan(self) -> Look:
+        """Return what the cameras over the table see, also what is wrong with them; raises PicoError where there are
+        none. Observes by sight, whether or not the lab otherwise observes exactly."""
+        return self.opened.wait(self.opened.edge.look())
+
+    def picture(self, look: Look, *, out: Path | None = None, component: str | None = None) -> Image:
+        """Return the picture (height, width, 3) of a camera over the table with names and outlines drawn in.
+
+        `component`: only the part of the picture around it, large. `out`: write it there, too, as PNG. Raises
+        PicoError.
+        """
+        from pico.drawing.camera_picture import annotated
+        from pico.drawing.picture import write_png
+
+        setup = self.opened.setup
+        if component is not None:
+            require_component(setup, component)
+        image = annotated(setup, look.frames, look.calibration.cameras, look.observation, look.sighting, component)
+        if out is not None:
+            write_png(image, out)
+        return image
+
+    def calibrate(self) -> Calibration:
+        """Find out where the cameras are, from pictures of the board and the datums, and write that into the lab's
+        folder. Moves nothing, and takes about half a minute. Raises PicoError."""
+        from pico.cameras.calibrating import calibrate
+        from pico.vision.calibration import write_calibration
+
+        setup = self.opened.setup
+        found = calibrate(setup, self.opened.sim.true_cameras(), setup.lab.sim.seed)
+        write_calibration(self.opened.root, found)
+        return found
+
+
+def problems_of(look: Look, component: str) -> list[Diagnostic]:
+    """Return what is wrong with what a look says of a component, or with all of it."""
+    found = look.observation.problems
+    return [p for p in found if p.address in (component, "") or component in p.summary.split(":")[0]]

@@ -1,0 +1,70 @@
+"""What the bench shows now: its parts, their values, and whether it stands and reads as somebody expects."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from pico.bench.opened import Opened
+from pico.model.drift import drift_of
+from pico.model.plan import Plan
+from pico.model.request import read_peeked, read_values
+
+if TYPE_CHECKING:
+    from pico.model.expectation import Verified
+    from pico.model.measurement import Measurement
+    from pico.model.report import PartRow
+
+
+class Measurements:
+    """What is read off one bench. Nothing moves by it, and nothing is recorded."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def read(self, component: str, tunable: str | None = None) -> dict[str, dict[str, Any]]:
+        """Return the tunables of a component as observed: `value`, `unit`, `status` of each; raises PicoError.
+
+        A measurable, also of a camera over the bench, is peeked at: of its value nothing is assured.
+        """
+        opened = self.opened
+        declared = opened.setup.measurables_of(component).get(tunable or "")
+        if tunable and declared and declared.datatype in ("image", "float"):
+            return {tunable: read_peeked(opened.wait(opened.edge.peek(component, tunable)))}
+        return read_values(opened.setup, opened.observe(), component, tunable)
+
+    def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
+        """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""
+        from pico.model.report import parts_of
+
+        return parts_of(self.opened.setup, self.opened.state, self.opened.observe(), free=free)
+
+    def verify(
+        self, revision: str | None = None, measurements: Mapping[str, Measurement] = MappingProxyType({})
+    ) -> Verified:
+        """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
+        whether any bench ever stood as that commit (HEAD for the manifest) says. `measurements`: what was measured just
+        now, by address."""
+        from pico.history import runs as recording
+        from pico.model.expectation import Verified
+        from pico.policy.expectations import check_expectations
+
+        folder, setup = self.opened.folder, self.opened.setup
+        wanted = folder.state_at(revision) if revision else folder.state
+        seen = replace(self.opened.observe(), measurements=measurements)
+        return Verified(
+            goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(setup, seen, wanted),
+            expectations=check_expectations(setup, seen, wanted.expect),
+            standing=recording.standing_of(folder, revision),
+        )  # fmt: skip
+
+    def expected(self, plan: Plan) -> Verified:
+        """Return what became of the expectations of a plan's goal, which the bench has reached already."""
+        from pico.model.expectation import Verified
+        from pico.policy.expectations import check_expectations
+
+        seen = self.opened.observe()
+        found = check_expectations(self.opened.setup, seen, plan.target.expect or ())
+        return Verified(goal=plan.target.name, observed_at=seen.observed_at, expectations=found)

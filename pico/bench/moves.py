@@ -1,0 +1,80 @@
+"""Moving the bench: a plan is run, somebody attends it, and a film of it can be written."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Generator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.bench.opened import Opened
+from pico.bench.plans import Plans
+from pico.diagnostics import PicoError
+from pico.model.plan import Plan
+
+if TYPE_CHECKING:
+    from pico.bench.running.execution import Execution
+    from pico.drawing.film.film import Caption
+    from pico.model.report import RunReport
+    from pico.twin.snapshot import Recording
+
+
+class Moves:
+    """Runs of plans on one bench."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def run(self, plan: Plan, **options: Any) -> Execution:
+        """Return the run of a plan: iterate over it for its events, then read its `report`.
+
+        `options`: `recording`, which gets what a film of the run shows, see `film`; `resumes`: the run that goes on
+        under its id; `stop_on_error`: the first failure lets nothing more start.
+        """
+        from pico.bench.running.execution import Execution
+
+        opened = self.opened
+        opened.suit(plan)
+        named = partial(self._goal_now, plan)
+        return Execution(plan, opened.edge, opened.thread, named, wait=opened.lock_timeout, **options)
+
+    def apply(self, what: Plan | str | None = None) -> RunReport:
+        """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it.
+
+        In the main thread Ctrl-C, SIGTERM and SIGHUP halt the run at a safe waypoint (see `attending.interrupts`)
+        before they do what they would have done.
+        """
+        from pico.bench.running.attending import attend
+
+        run = self.run(what if isinstance(what, Plan) else Plans(self.opened).plan(what))
+        came = attend(run)
+        if came:
+            signal.raise_signal(came[0])
+        return run.report
+
+    def _goal_now(self, plan: Plan) -> str:
+        """Return what a plan leads to as a person calls it, and that it is not that any more where it was edited since
+        or a name in Git leads elsewhere."""
+        target, folder = plan.target, self.opened.folder
+        if target.revision:
+            try:
+                same = folder.history().resolve(target.revision).id == target.commit
+            except PicoError:
+                same = False
+            return target.name if same else f"{target.name} as it was when it was planned ({str(target.commit)[:7]})"
+        state = None if target.title else folder.state_now()
+        if target.title or (state and state.as_json() == dict(target.state)):
+            return target.name
+        return f"{target.name} as it was when it was planned; it was edited since"
+
+    def film(
+        self, recording: Recording, out: Path, *, captions: Sequence[Caption] = (), fps: float = 12.0
+    ) -> Generator[tuple[int, int], None, None]:
+        """Write a film of a run to `out`, .mp4 or .gif, in simulated time, `fps` pictures a second.
+
+        Yields (pictures done, of how many); ended early, the film is what was done until then. Raises PicoError.
+        """
+        from pico.drawing.film.film import write_film
+
+        return write_film(self.opened.setup, recording.snapshots, out, captions=captions, fps=fps)

@@ -1,0 +1,138 @@
+"""One bench that is open: its lab's folder, the edge that sees and moves it, and the one place that waits for it.
+
+The edge is asynchronous, and its loop runs in a private thread that does nothing else. What a service computes it
+computes in the thread of its caller: see `docs/decisions/0013-services.md`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Coroutine
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self, TypeVar
+
+from pico.backends.devices import SIMULATOR, opener
+from pico.bench.running.loop import LoopThread
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.history.lab.folder import LabFolder
+from pico.history.lab_history import LabHistory
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.plan import Plan
+from pico.model.state import LabState
+
+if TYPE_CHECKING:
+    from pico.backends.world import World
+    from pico.edge.protocol import Edge
+
+T = TypeVar("T")
+
+
+class Opened:
+    """One bench, opened by `open`: all that its services stand on. Close it when done; it opens again by itself."""
+
+    def __init__(self, folder: LabFolder, fidelity: str | None = None, backend: str = SIMULATOR) -> None:
+        self.folder, self.history = folder, LabHistory(folder)
+        self.backend_name = backend
+        self.fidelity = fidelity or folder.setup.lab.sim.fidelity
+        self.lock_timeout = 0.0
+        self.thread = LoopThread()
+        self._edge: Edge | None = None
+
+    @classmethod
+    def open(
+        cls,
+        path: str | Path = ".",
+        *,
+        backend: str = SIMULATOR,
+        fidelity: str | None = None,
+        speed: float | None = None,
+    ) -> Self:
+        """Open the lab that `path` lies in. Nothing is contacted yet.
+
+        `backend`: `sim`; `hardware` says what it lacks. `fidelity`: `kinematic` or `physics`, the lab's own word where
+        None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
+        """
+        _require_backend(backend, fidelity, speed)
+        folder = LabFolder(Path(path), bench=True)
+        if speed is not None:
+            robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
+            folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
+        bench = cls(folder, fidelity, backend)
+        if backend != SIMULATOR:
+            _ = bench.edge  # says what is missing
+        return bench
+
+    @property
+    def root(self) -> Path:
+        """The lab's folder."""
+        return self.folder.root
+
+    @property
+    def setup(self) -> Setup:
+        """The bench as it is now: lab and component types."""
+        return self.folder.setup
+
+    @property
+    def state(self) -> LabState:
+        """The desired state: what the manifests in the working tree say."""
+        return self.folder.state
+
+    @property
+    def edge(self) -> Edge:
+        """The edge, made when it is first needed; raises PicoError where its device can't be had."""
+        if self._edge is None:
+            from pico.edge.link.opening import opened
+
+            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own)
+        return self._edge
+
+    @property
+    def sim(self) -> World:
+        """The simulated world, to be changed as a hand would; raises PicoError where nothing is simulated."""
+        return self.edge.world
+
+    def wait(self, work: Coroutine[Any, Any, T]) -> T:
+        """Have the edge do something, and return what comes of it or raise what it raises; Ctrl-C ends the waiting."""
+        return self.thread.wait(work)
+
+    def observe(self) -> Observation:
+        """Look, and return what was seen."""
+        return self.wait(self.edge.observe())
+
+    def suit(self, plan: Plan) -> None:
+        """Have the fidelity that a plan was made for."""
+        if plan.backend == self.backend_name and plan.fidelity != self.fidelity:
+            self.fidelity, self._edge = plan.fidelity, None
+
+    def wait_until_free(self, seconds: float) -> None:
+        """Wait until nobody moves the bench, at most so long here and again when it is taken.
+
+        Raises PicoError (exit code LOCKED), naming who has it.
+        """
+        from pico.edge.lease import wait_until_free
+
+        self.lock_timeout = seconds
+        self.wait(wait_until_free(self.root, seconds))
+
+    def close(self) -> None:
+        """Let go of the edge and end its thread; one left busy by Ctrl-C is not waited for."""
+        if self._edge is not None and not self.thread.left_busy:
+            self.wait(self._edge.close())
+        self._edge = None
+        self.thread.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:
+    opener(backend)
+    if fidelity not in (None, "kinematic", "physics"):
+        known = ["kinematic", "physics"]
+        raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))
+    if speed is not None and not 0 < speed <= 1:
+        raise PicoError(error("speed", f"a speed of {speed:g} is no share of the joint limits", hint="0.01 to 1"))

@@ -1,0 +1,228 @@
+"""Plans from the bench as it stands: to a revision, to the manifest, of one operation, of what is to be measured."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.bench.opened import Opened
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
+from pico.model.observation import Observation, live_state
+from pico.model.plan import Base, Plan, Target
+from pico.model.request import PrimitiveRequest, asked, require_seen
+from pico.model.state import LabState
+from pico.motion.deferred import DeferredMotion
+from pico.vision.calibration import calibration_digest
+
+if TYPE_CHECKING:
+    from pico.history.restoring.selected import SelectedParts
+    from pico.manifest.load import Manifests
+    from pico.planning.explaining.explain import Explanation
+    from pico.planning.request import Preference
+
+
+class Plans:
+    """Plans on one bench. Nothing moves by them."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def plan(
+        self,
+        revision: str | None = None,
+        *,
+        exact: bool = False,
+        prefer: Preference = "fewest-moves",
+        targets: Collection[str] = (),
+        exclude: Collection[str] = (),
+        manifests: Manifests | None = None,
+        expecting: bool = True,
+    ) -> Plan:
+        """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
+
+        The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
+        `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what must make way
+        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. `expecting`: whether
+        the expectations of the state count; those of single components never do. Raises PicoError for a revision that
+        can't be read, for a component that there is not, and for an expectation that makes no sense; what is physically
+        impossible is in the plan's diagnostics.
+        """
+        from pico.history.merge.doubts import require_settled
+
+        _require_preference(prefer)
+        folder, given = self.opened.folder, manifests
+        manifests = folder.manifests_at(revision) if revision else given or folder.manifests
+        commit = folder.history().resolve(revision).id if revision else None
+        wanted = self._goal(manifests, revision, targets)
+        if not expecting:
+            wanted = replace(wanted, expect=())
+        if wanted.expect and not (targets or exclude):
+            from pico.manifest.expression_checks import check_expectations
+
+            _require_sense(check_expectations(manifests))
+        if manifests is not given:
+            require_settled(folder.repository, folder.root, manifests, commit, targets)
+        target = Target(
+            revision=revision,
+            commit=commit,
+            only=tuple(sorted(targets)) or None,
+            exclude=tuple(sorted(exclude)) or None,
+            state=wanted.as_json(),
+            expect=wanted.expect or None,
+        )
+        return self.to_state(
+            self.opened.observe(), wanted, target, told=manifests.told, calibration=calibration_digest(folder.root),
+            exact=exact, source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,
+        )  # fmt: skip
+
+    def _goal(self, manifests: Manifests, revision: str | None, targets: Collection[str]) -> LabState:
+        from pico.history.restoring.selected import state_for
+
+        if revision and targets:
+            return state_for(self.opened.folder, manifests, revision, targets)
+        return manifests.require()[1]
+
+    def to_state(
+        self, seen: Observation, wanted: LabState, target: Target, *, told: tuple[Diagnostic, ...] = (),
+        calibration: str | None = None, **options: Any,
+    ) -> Plan:  # fmt: skip
+        """Return the plan from the bench as `seen` to a state, called `target`, and what the policy of the lab says.
+
+        `told`: what is wrong with the manifests beside it; `options` are those of `pico.planning.plan`.
+        """
+        from pico.planning import plan
+
+        motion = DeferredMotion(self.opened.setup)
+        found = plan(
+            self.opened.setup, seen, wanted, motion=motion, target=target, **self._start(seen), **options
+        )  # fmt: skip
+        if told or calibration:
+            found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
+        return self._judged(found, seen)
+
+    def _start(self, seen: Observation) -> dict[str, Any]:
+        """Return what a plan from this observation starts from, and on what it is to run."""
+        head = self.opened.folder.head()
+        state = live_state(self.opened.setup, seen).as_json()
+        base = Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
+        return {"backend": self.opened.backend_name, "fidelity": self.opened.fidelity, "base": base}
+
+    def _judged(self, plan: Plan, seen: Observation) -> Plan:
+        """Return the plan with what the policy of the lab says of it."""
+        if not self.opened.setup.lab.policy.rules:
+            return plan
+        from pico.policy.rules import judged
+
+        if plan.operations:
+            from pico.manifest.expression_checks import check_rules
+
+            _require_sense(check_rules(self.opened.folder.manifests))
+        return judged(self.opened.setup, plan, seen)
+
+    def plan_of(self, word: str | None, *, folder: Path = Path(), **options: Any) -> Plan:
+        """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None).
+
+        `options` are those of `plan`; raises PicoError for any of them with a saved plan, which is what it is.
+        """
+        found = self.opened.history.find(word, folder) if word else None
+        if not isinstance(found, Plan):
+            return self.plan(found, **options)
+        if any(options.get(k) for k in ("exact", "targets", "exclude")) or options.get("prefer") == "shortest-time":
+            text = f"{word} is a saved plan, and is taken as it is"
+            raise PicoError(error("usage", text, hint="--exact, --target, --exclude and --prefer go with `pico plan`"))
+        return found
+
+    def refreshed(self, plan: Plan) -> Plan:
+        """Return a new plan from the bench as it stands to the goal of a saved one, for the same components."""
+        return self.plan(plan.target.revision, targets=plan.target.only or (), exclude=plan.target.exclude or ())
+
+    def require_fresh(self, plan: Plan) -> None:
+        """Look, and raise PicoError (exit code STALE) where the bench, the commit, the goal, the lab or the calibration
+        is not what a saved plan was made from, naming each with what changed and by how much."""
+        from pico.bench.saved_plans import changed_since
+
+        found = changed_since(self.opened, plan, self.opened.observe())
+        if found:
+            raise PicoError(found, ExitCode.STALE)
+
+    def explain(self, plan: Plan, component: str | None = None) -> Explanation:
+        """Return why a plan is as it is, or what it does with one component; raises PicoError for an unknown one."""
+        from pico.planning.explaining.explain import explain
+
+        return explain(self.opened.setup, plan, component)
+
+    def checkout_plan(self, revision: str | SelectedParts, *, exact: bool = False) -> Plan:
+        """Return the plan to a revision that is about to be checked out, or to what is taken from one for some
+        components; raises PicoError where edits would be lost."""
+        if not isinstance(revision, str):
+            found = self.plan(manifests=revision.manifests, targets=revision.names, exact=exact)
+            return found.because("checkout")
+        self.opened.folder.refuse_edits()
+        return self.plan(revision, exact=exact).because("checkout")
+
+    def to_measure(self, revision: str | None = None) -> Plan:
+        """Return the plan that measures what the expectations of a revision, or of the manifest, speak of, as far as
+        this bench can; it has no operations where that is nothing."""
+        from pico import planning
+        from pico.model.vocabulary import measured_in
+
+        opened, setup = self.opened, self.opened.setup
+        state = opened.folder.state_at(revision) if revision else opened.state
+        able, seen = opened.wait(opened.edge.describe()), opened.observe()
+        spoken = measured_in(setup, [one.that for one in state.expect])
+        wanted = [(name, m) for name, m in spoken if f"{name}.{m}" in able.measurables]
+        found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **self._start(seen))
+        return self._judged(found, seen)
+
+    def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
+        """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
+        from pico.execution.checks import require_able
+
+        seen = self.opened.observe()
+        found = self._one(seen, asked(self.opened.setup, seen, component, primitive, arguments or {}))
+        require_able(found, self.opened.wait(self.opened.edge.describe()))
+        return found
+
+    def place(self, component: str, *, after: str, distance: float) -> Plan:
+        """Return the plan that places a component `distance` mm after another along its beam; raises PicoError."""
+        from pico.planning import place_after
+
+        seen = self.opened.observe()
+        require_seen(self.opened.setup, seen, component, after)
+        pose = place_after(self.opened.setup, seen, component, after, distance)
+        return self._one(seen, PrimitiveRequest(component=component, primitive="move", pose=pose))
+
+    def _one(self, seen: Observation, request: PrimitiveRequest) -> Plan:
+        from pico import planning
+
+        name, setup, options = request.component, self.opened.setup, self._start(seen)
+        if request.primitive == "set":
+            assert request.tunable is not None and request.value is not None
+            found = planning.set_one(setup, seen, name, request.tunable, request.value, **options)
+        elif request.primitive == "home":
+            assert request.tunable is not None
+            found = planning.home_one(setup, seen, name, request.tunable, **options)
+        elif request.measurable is not None:
+            wanted = [(name, request.measurable)]
+            found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **options)
+        elif request.slot is None and request.pose is None:
+            found = planning.do_one(setup, seen, name, request.primitive, request.arguments, **options)
+        else:
+            goal = request.slot or request.pose
+            assert goal is not None
+            found = planning.move_one(setup, seen, name, goal, motion=DeferredMotion(setup), **options)
+        return self._judged(found, seen)
+
+
+def _require_sense(found: list[Diagnostic]) -> None:
+    """Raise PicoError, with their places, for expectations of a state or rules of a lab that can't be told."""
+    if found:
+        raise PicoError(found)
+
+
+def _require_preference(prefer: str) -> None:
+    known = ["fewest-moves", "shortest-time"]
+    if prefer not in known:
+        raise PicoError(error("prefer", f"a plan can't prefer `{prefer}`", hint=did_you_mean(prefer, known)))

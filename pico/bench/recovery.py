@@ -1,0 +1,185 @@
+"""After a run that was cut short: taking it up again, going back to before it, or only clearing the hands."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from pico.bench.opened import Opened
+from pico.bench.plans import Plans
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.model.drift import drift_of
+from pico.model.observation import Observation, live_state
+from pico.model.plan import Plan, Target, plan_from_json
+from pico.model.primitive import primitive
+from pico.model.state import LabState, state_from_json
+from pico.motion.deferred import DeferredMotion
+from pico.planning.parts.phrases import listed
+
+if TYPE_CHECKING:
+    from pico.model.lab import Setup
+    from pico.runs.journal import RunRecord
+    from pico.runs.memory import Memory
+
+
+class Recovery:
+    """What a run left behind on one bench, and the plans that go on from there."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+
+    def resume_plan(self) -> tuple[Plan, str]:
+        """Return the plan from the bench as it stands to the goal of the last run, and the id of that run.
+
+        Raises PicoError where the last run reached its end, or is still going on (exit code LOCKED).
+        """
+        from pico.execution.resume import renumbered
+
+        memory = self._memory()
+        self._refuse_while_held()
+        last = _last(memory)
+        if last.outcome == "done":
+            text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
+            raise PicoError(error("nothing-to-resume", text, hint="`pico plan` shows what differs now"))
+        began = _document(memory, last)
+        only = began.target.only or _asked(began)
+        seen = self.opened.observe()
+        wanted = state_from_json(began.lab.name, began.target.state)
+        plan = Plans(self.opened).to_state(
+            seen, wanted, began.target, targets=only or (), exclude=began.target.exclude or ()
+        )
+        return renumbered(plan, last.resumed + 1), last.run
+
+    def undo_plan(self) -> Plan:
+        """Return the plan that takes everything that the last run moved or set back to where it was before, exactly.
+
+        Runs that only emptied hands since belong to the one that they tidied up after. A part that a hand held when the
+        run began goes to where it stood before that. What nobody knew before it is left as it is; where something else
+        has changed since, the plan is for what the run changed alone. Raises PicoError where no run has moved anything.
+        """
+        memory = self._memory()
+        self._refuse_while_held()
+        moving = memory.moving()
+        runs = [run for run in reversed(memory.runs()) if run.run in moving]
+        last = next((n for n, run in enumerate(runs) if _document(memory, run).target.cause != "recover"), None)
+        if last is None:
+            raise PicoError(_no_run())
+        done = {one for run in runs[: last + 1] for one in _begun(memory, run)}
+        before, held = _before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
+        looked = self.opened.observe()
+        seen = self._emptied(looked)
+        live = live_state(self.opened.setup, seen)
+        wanted = replace(live, components={**live.components, **before.components})
+        off = {(c.component, c.tunable) for c in drift_of(self.opened.setup, seen, wanted) if not c.tolerated}
+        only = _addresses(done, off - done) if off - done else ()
+        taken = f", with {listed(held)} where it was picked" if held else ""
+        target = Target(
+            title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run,
+            state=wanted.as_json(),
+        )  # fmt: skip
+        return Plans(self.opened).to_state(looked, wanted, target, targets=only)
+
+    def recover_plan(self) -> Plan:
+        """Return the plan that sets down what hands still hold, and changes nothing else."""
+        self._refuse_while_held()
+        seen = self.opened.observe()
+        wanted = live_state(self.opened.setup, self._emptied(seen))
+        target = Target(title="the bench with empty hands", cause="recover", state=wanted.as_json())
+        return Plans(self.opened).to_state(seen, wanted, target)
+
+    def settle(self) -> None:
+        """Record what became of operations that a killed run had begun, though there is nothing left to move.
+
+        Raises PicoError for what only a person can tell.
+        """
+        edge = self.opened.edge
+        if edge.memory is not None and edge.memory.unsettled():
+            self.opened.wait(edge.release(self.opened.wait(edge.acquire("pico apply", self.opened.lock_timeout))))
+
+    def open_questions(self) -> list[Diagnostic]:
+        """Return an error for each operation that only a person can tell the end of."""
+        from pico.edge import recovery
+
+        memory = self.opened.edge.memory
+        return recovery.open_questions(memory.unsettled() if memory else ())
+
+    def answer(self, key: str, *, done: bool) -> None:
+        """Record what a person says of an operation that only a person can tell the end of; see `Edge.resolve`."""
+        from pico.edge.lease import user
+
+        self.opened.wait(self.opened.edge.resolve(key, "done" if done else "failed", user()))
+
+    def _emptied(self, seen: Observation) -> Observation:
+        """Return the bench as it is, with what hands hold where it will be set down."""
+        from pico.planning.parts.setdown import set_downs
+
+        return set_downs(self.opened.setup, seen, DeferredMotion(self.opened.setup)).seen
+
+    def _memory(self) -> Memory:
+        memory = self.opened.edge.memory
+        if memory is None:
+            raise PicoError(_no_run())
+        return memory
+
+    def _refuse_while_held(self) -> None:
+        holder = self.opened.wait(self.opened.edge.holder())
+        if holder is not None:
+            text = f"a run goes on: {holder.user} (process {holder.pid}, since {holder.since}): {holder.what}"
+            raise PicoError(error("locked", text, hint="`pico stop` ends it safely"), ExitCode.LOCKED)
+
+
+def _begun(memory: Memory, run: RunRecord) -> Iterator[tuple[str, str]]:
+    """Yield the components with their tunables that the operations change which a run began."""
+    records = memory.records(run=run.run)
+    begun = {r.key for r in records if r.kind == "started"}
+    for record in records:
+        if record.kind == "intent" and record.key in begun and primitive(record.data["primitive"]).changes != "nothing":
+            yield record.component, str(record.data["arguments"].get("tunable", "pose"))
+
+
+def _before(
+    setup: Setup, memory: Memory, runs: Sequence[RunRecord], touched: Collection[str]
+) -> tuple[LabState, list[str]]:
+    """Return the bench before the first of some runs, the newest first, and which of the components that were `touched`
+    a hand held then: they are where the run before found them."""
+    states = (state_from_json(setup.lab.name, _document(memory, run).base.state) for run in runs)
+    parts = dict(next(states).components)
+    held = [name for name in sorted(touched) if name not in parts]
+    for state in states:
+        parts = {**{n: p for n, p in state.components.items() if n in held}, **parts}
+        if parts.keys() >= set(held):
+            break
+    known = {name: part for name, part in parts.items() if name in setup.lab.inventory}
+    return LabState(lab=setup.lab.name, components=known), [name for name in held if name in known]
+
+
+def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, str]]) -> tuple[str, ...]:
+    """Return what a run did as it is named: a component, or its tunables where others of them are to be left alone."""
+    apart = {component for component, _ in left}
+    return tuple(sorted({f"{c}.{t}" if c in apart else c for c, t in done}))
+
+
+def _asked(plan: Plan) -> tuple[str, ...]:
+    """The components of a plan that was made for single operations."""
+    if plan.asked:
+        return tuple(sorted({op.component for op in plan.operations if op.reason.kind == "asked"}))
+    return ()
+
+
+def _document(memory: Memory, run: RunRecord) -> Plan:
+    text = memory.document(run.run)
+    if text is None:
+        raise PicoError(error("no-plan", f"the journal did not keep the plan of the run {run.run}", hint="`pico plan`"))
+    return plan_from_json(text)
+
+
+def _last(memory: Memory) -> RunRecord:
+    runs = memory.runs()
+    if not runs:
+        raise PicoError(_no_run())
+    return runs[-1]
+
+
+def _no_run() -> Diagnostic:
+    return error("no-run", "the journal of this bench knows no run that moved anything", hint="`pico plan`")

@@ -1,0 +1,133 @@
+"""A run that somebody attends: its events one by one, and in the end a report of the bench as it then is."""
+
+from __future__ import annotations
+
+import queue
+import secrets
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import replace
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+from pico.bench.running.loop import HEED, LoopThread
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.edge.protocol import Edge, Job
+from pico.model.event import Event
+from pico.model.plan import Plan
+from pico.model.report import RunReport
+
+if TYPE_CHECKING:
+    from pico.twin.snapshot import Recording
+
+
+class Execution:
+    """A plan to be run: an iterator over its events, which begins with the first; `report` once it is `over`.
+
+    An exception in the caller between two events does not end the run: go on iterating, or `halt` it first;
+    `attending.attend` does.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        edge: Edge,
+        thread: LoopThread,
+        named: Callable[[], str] | None = None,
+        holder: str = "pico apply",
+        *,
+        recording: Recording | None = None,
+        resumes: str | None = None,
+        stop_on_error: bool = False,
+        wait: float = 0.0,
+    ) -> None:
+        """`thread`: where the edge lives. `named`: what the goal is called once the run is over. `recording`: gets what
+        a film of it shows. `resumes`: the run that goes on under its id. `stop_on_error`, `wait`: see
+        `pico.edge.protocol.Job`.
+        """
+        self.plan, self.id = plan, resumes or new_run_id()
+        self._edge, self._thread, self._recording = edge, thread, recording
+        self._named = named or (lambda: plan.target.name)
+        self._job = Job(
+            plan=plan, holder=holder, resumes=resumes is not None, stop_on_error=stop_on_error,
+            filmed=recording is not None, wait=wait,
+        )  # fmt: skip
+        self._queue: queue.SimpleQueue[Event | RunReport | BaseException] = queue.SimpleQueue()
+        self._report: RunReport | None = None
+        self._asked = self._begun = self._cancelled = self.over = False
+
+    @property
+    def report(self) -> RunReport:
+        """What became of the run; raises RuntimeError before it is over."""
+        if self._report is None:
+            raise RuntimeError("the run is not over: iterate over it to the end")
+        return self._report
+
+    def __iter__(self) -> Iterator[Event]:
+        return self
+
+    def __next__(self) -> Event:
+        """Return the next event; raises PicoError, before anything moves, where the plan must not be run."""
+        if self.over:
+            raise StopIteration
+        if not self._asked:
+            self._asked = True
+            self._thread.submit(self._pump())
+        item = self._next()
+        if isinstance(item, Event):
+            return item
+        self.over = True
+        if isinstance(item, BaseException):
+            raise item
+        self._report = replace(item, goal=self._named()) if item.goal == self.plan.target.name else item
+        raise StopIteration
+
+    def _next(self) -> Event | RunReport | BaseException:
+        while True:
+            with suppress(queue.Empty):
+                return self._queue.get(timeout=HEED)
+
+    def halt(self) -> None:
+        """Start nothing more, and bring every robot to a safe waypoint; returns at once: go on iterating to the end."""
+        self._thread.submit(self._end(now=False))
+
+    def stop(self) -> None:
+        """Stop all motion now; returns at once: go on iterating to the end."""
+        self._thread.submit(self._end(now=True))
+
+    # in the loop of the edge
+
+    async def _pump(self) -> None:
+        try:
+            self._queue.put(await self._followed())
+        except BaseException as exc:
+            self._queue.put(exc)
+
+    async def _followed(self) -> RunReport:
+        """Start the run, hand on its events, and return what became of it."""
+        if self._cancelled:
+            raise PicoError(error("interrupted", "interrupted; nothing has moved"), ExitCode.INTERRUPTED)
+        await self._edge.start(self._job, self.id)
+        self._begun, over = True, False
+        try:
+            async for event in self._edge.events(self.id):
+                over = event.kind == "run_finished"
+                self._queue.put(event)
+        finally:
+            if not over:
+                await self._edge.cancel(self.id)
+                with suppress(PicoError):
+                    await self._edge.report(self.id)
+        if self._recording is not None:
+            self._recording.snapshots[:] = await self._edge.film(self.id)
+        return await self._edge.report(self.id)
+
+    async def _end(self, now: bool) -> None:
+        self._cancelled = True
+        at_once = now and self._begun  # who waits stops nobody else
+        await (self._edge.stop() if at_once else self._edge.cancel(self.id))
+
+
+def new_run_id() -> str:
+    """Return the id of a run: the time in UTC, and six random characters."""
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(3)}"
