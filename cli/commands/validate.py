@@ -19,8 +19,9 @@ def validate(
 ) -> int:
     """Check the manifests.
 
-    Also that everything has room where the state wants it, and where its beams end. All errors at once, each with its
-    place. Does not ask the bench; asks Git what it keeps out of the folder, and what its merge kept.
+    Also that everything has room where the state wants it, that an arm can grip what it is to move and reaches the
+    slots, and where beams end. All errors at once, each with its place. Does not ask the bench; asks Git what it keeps
+    out of the folder, and what its merge kept.
     """
     from pico.history.lab.missing_files import missing_files
     from pico.history.merge.checked import overlapping
@@ -28,11 +29,14 @@ def validate(
     from pico.manifest.folders import check_files, check_folder
     from pico.optics.ends import stray_beams
     from pico.planning.checks.bolted import check_bolted
+    from pico.planning.checks.grips import check_grips, check_slots
 
     session = Session.of(context)
     asked = (
         lambda root, read: [
             *check_bolted(read.require()[0], read.source),
+            *check_grips(read),
+            *check_slots(read.require()[0], read),
             *overlapping(read),
             *stray_beams(*read.require()),
             *doubts_in(root, read),

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pico_cli.commands
@@ -22,6 +24,7 @@ BLINK = '''"""The main job, 3: `pico blink-twice`."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -136,3 +139,39 @@ def test_a_type_without_its_file_is_not_known(tmp_path: Path, pico: Pico) -> Non
     )
     answer = pico("-C", str(tmp_path / "lab"), "validate")
     assert answer.code == 1 and "pinhole_25" in answer.err
+
+
+BODIES = re.compile(r"  bodies:.*?\n(?=  grasp)", re.DOTALL)
+
+
+@pytest.mark.parametrize(("change", "told"), [
+    (lambda text: BODIES.sub("", text), "its footprint, which is as high as all of it, stands 15 mm inside"),
+    (lambda text: text.replace("size: [30, 30, 40]", "size: [40, 40, 40]"), "grip stands 5 mm inside"),
+    (lambda text: text.replace("size: [30, 30, 40]", "size: [30, 50, 40]").replace("[0, 90]", "[90]"), "grip stands 10 mm"),
+])  # fmt: skip
+def test_a_type_that_no_gripper_can_hold_is_told_at_its_own_line(
+    tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch, change: Callable[[str], str], told: str
+) -> None:
+    lab = tmp_path / "lab"
+    shutil.copytree(labs_dir() / "minimal", lab)
+    monkeypatch.chdir(lab)
+    edit(lab / "lab.yaml", "  lens:\n", "  hole: {type: pinhole_25, marker: 2, home: storage/a1}\n  lens:\n")
+    page = (ROOT / "docs" / "how-to" / "component-type.md").read_text().split("```yaml\n")[1].split("```")[0]
+    (lab / "pinhole_25.yaml").write_text(page)
+    assert pico("validate").code == 0
+    (lab / "pinhole_25.yaml").write_text(change(page))
+    answer = pico("validate")
+    said = " ".join(answer.err.split())
+    assert answer.code == 1 and "error[grip]: pinhole_25 can't be gripped" in said and told in said
+    line = 1 + change(page).splitlines().index(next(x for x in change(page).splitlines() if x.startswith("  grasp:")))
+    assert f"--> pinhole_25.yaml:{line}:" in said
+
+
+def test_a_slot_that_no_arm_reaches_is_told(tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    lab = tmp_path / "lab"
+    shutil.copytree(labs_dir() / "minimal", lab)
+    monkeypatch.chdir(lab)
+    edit(lab / "lab.yaml", "slots:\n", "slots:\n  storage/z9: {x: 1150, y: 50}\n")
+    answer = pico("validate")
+    assert answer.code == 0 and "warning[slot-reach]: no arm reaches storage/z9" in " ".join(answer.err.split())
+    assert answer.err.count("slot-reach") == 1
