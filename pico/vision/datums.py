@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 ENOUGH = 3
 """Datums that a camera must see for its place to be told: with fewer, one that came loose looks like a bump."""
 _LIMIT = 0.5  # mm on the table, beyond which a camera has moved, where the calibration is better than that
-_STEPS = (1e-3, 1e-3, 1e-3, 1e-6, 1e-6, 1e-6)  # mm and rad, for derivatives
+_STEPS = (1e-3,) * 3 + (1e-6,) * 3  # mm and rad, for derivatives
 
 
 @dataclass(frozen=True, eq=False)

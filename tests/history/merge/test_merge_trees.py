@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import yaml
 from moving_cases import LAB, Files, moved_case
 
 sys.path.append(str(Path(__file__).resolve().parents[2]))
@@ -20,7 +21,8 @@ from pico.history.merge.alignment import Alike, disagreement, made_alike, settle
 from pico.history.merge.driver import main
 from pico.history.merge.groups import groups_of
 from pico.history.merge.lines import merge_lines
-from pico.history.merge.markers import Labels
+from pico.history.merge.manifests import merge
+from pico.history.merge.markers import Labels, view
 from pico.history.merge.parts import bare, without
 from pico.history.merge.trees import Union, contents, opened, unite_trees
 from pico.history.repository.repository import Repository
@@ -186,6 +188,44 @@ def test_other_files_that_both_changed_are_united_or_told(repository: Repository
     broken = TABLE.replace("slot: a1", "slot: [")
     union, _ = united(repository, base, of("a\nb\nc\n", broken), of("a\nb\nc\n", broken.replace("tip: 1", "tip: 4")))
     assert (union.tree, union.files, union.conflicts) == ("", ["table.yaml"], [])
+
+
+def test_a_part_is_followed_into_a_folder_of_its_lab_and_not_into_another_lab(repository: Repository) -> None:
+    moved = {"lab.yaml": LAB, "table.yaml": TABLE.replace(M2, ""), "state/more.yaml": HEAD + M2}
+    base, changed = {"lab.yaml": LAB, "table.yaml": TABLE}, TABLE.replace("tip: 2", "tip: 9")
+    union, files = united(repository, base, moved, {"lab.yaml": LAB, "table.yaml": changed})
+    assert union.files == [] and union.conflicts == []
+    assert files["state/more.yaml"].decode() == HEAD + M2.replace("tip: 2", "tip: 9")
+    assert files["table.yaml"].decode() == TABLE.replace(M2, "")
+    apart = {f"other/{path}": text for path, text in {"lab.yaml": LAB, "b.yaml": HEAD + M2}.items()}
+    union, files = united(repository, base, {**base, **apart}, {"lab.yaml": LAB, "table.yaml": changed})
+    assert files["other/b.yaml"].decode() == HEAD + M2 and files["table.yaml"].decode() == changed
+
+
+CHAINS = {
+    "a list below a key that both changed": (
+        "expect:\n  - that: a\n  - that: b\n",
+        "expect:\n  - that: a\n  - that: c\n",
+        "expect:\n  - that: d\n",
+    ),
+    "a value that one side made a mapping": ("note: old\n", "note:\n  by: me\n", "note: old  # seen\n"),
+    "a mapping that one side took out": ("note:\n  by: me\n  on: 3\n", "", "note:\n  by: me\n  on: 3\n# end\n"),
+}
+
+
+@pytest.mark.parametrize("name", CHAINS)
+@pytest.mark.parametrize("swapped", [False, True])
+def test_what_is_no_component_is_merged_or_told_and_nothing_of_it_is_lost(name: str, swapped: bool) -> None:
+    base, *sides = (TABLE + text for text in CHAINS[name])
+    ours, theirs = sides[::-1] if swapped else sides
+    found = merge(base.encode(), ours.encode(), theirs.encode())
+    text = found.data.decode()
+    assert view(text, "ours") == ours and view(text, "theirs") == theirs if not found.clean else True
+    if found.clean:
+        said = yaml.safe_load(text)
+        wins = sides[0] if name != "a list below a key that both changed" else ""
+        assert said == yaml.safe_load(wins) and ("# seen" in text or "# end" in text)
+    assert found.clean is (name != "a list below a key that both changed")
 
 
 def test_lines_that_are_no_text_stay_as_ours_has_them_and_are_in_conflict() -> None:
