@@ -1,6 +1,7 @@
 """Properties draw the same examples in every CI run, and new ones on a developer's machine. The command line in
 process: `pico("plan", "e1")` gives exit code, output and errors. An arm is asked once for a path: see `asked_once`."""
 
+import gc
 import os
 import subprocess
 from pathlib import Path
@@ -22,6 +23,11 @@ def pytest_configure(config: pytest.Config) -> None:
     if config.getoption("markexpr") == "not slow":
         settings.register_profile("fast", settings(), max_examples=33)
         settings.load_profile("fast")
+
+
+def pytest_collection_finish() -> None:
+    """So much is imported by now that looking for garbage as often as usual takes a part of every test."""
+    gc.set_threshold(50_000, 20, 100)
 
 
 @pytest.fixture

@@ -66,7 +66,11 @@ def test_a_part_is_picked_within_its_tolerance_in_place_and_yaw(dx: float, dyaw:
     there = Pose(HOME["p2"].x + dx, HOME["p2"].y, HOME["p2"].yaw + dyaw)
     made, now = plan(move(HOME["p2"], AWAY)), seen(p2=there)
     if stale:
-        assert f"p2 changed by {dx:.3g} mm, {dyaw:.3g}°" in refused(made, now)
+        was, is_now = (f"({p.x:.5g}, {p.y:.5g}, {p.yaw:.4g}°)" for p in (HOME["p2"], there))
+        assert refused(made, now).split("; ")[0] == (
+            f"the plan is stale: p2 changed by {dx:.3g} mm, {dyaw:.3g}°, tolerance 0.5 mm, 0.5°: "
+            f"{is_now}, planned from {was}"
+        )
     else:
         require_current(SETUP, made, now)
 
