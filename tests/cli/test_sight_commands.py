@@ -97,6 +97,7 @@ def forgotten(root: Path, *names: str) -> None:
 def test_what_stands_there_is_imported_and_nothing_is_left_to_do(seeing: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
     forgotten(seeing, "p2", "lx_100")
+    assert pico("bench", "update", "--auto-approve").code == 0
     before, state = (seeing / "lab.yaml").read_text(), (seeing / "state" / "table.yaml").read_text()
     refused = pico("import")
     assert refused.code == 1 and "--types 3=TYPE" in refused.err and "marker 4 at (110, 310, 0°)" in refused.err
