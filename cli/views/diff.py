@@ -75,7 +75,7 @@ def said(change: Change) -> str:
     """Return a change in words; a value that one of the two states does not give is set, or left open."""
     if change.tunable != "pose" and change.before is None:
         return f"set to {change.text.removeprefix('unknown → ')}"
-    if change.tunable != "pose" and change.after is None:
+    if change.tunable != "pose" and change.after is None and "→" in change.text:
         return f"not given any more (was {place(change.before)})"
     return change.text
 

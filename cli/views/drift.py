@@ -26,12 +26,18 @@ def text(found: Drifted) -> str:
 
 def _hint(found: Drifted) -> str:
     beyond, head = found.beyond, found.head
-    unseen = [d.change.component for d in beyond if d.change.tunable == "pose" and d.change.before is None]
-    hint = f"`pico apply {head}` brings {'it' if len(beyond) == 1 else 'them'} back; `pico capture` keeps what is."
-    if not unseen:
-        return hint
-    by_hand = f"What nobody sees, or not surely, only you can put right: {listed(unseen)}."
-    return f"{hint}\n{by_hand}" if len(unseen) < len(beyond) else by_hand
+    held = [d.change.component for d in beyond if d.presence == "held"]
+    unseen = [d.change.component for d in beyond if d.change.tunable == "pose" and d.change.after is None]
+    lost = [name for name in unseen if name not in held]
+    hints = []
+    if len(unseen) < len(beyond):
+        them = "it" if len(beyond) == 1 else "them"
+        hints.append(f"`pico apply {head}` brings {them} back; `pico capture` keeps what is.")
+    if held:
+        hints.append(f"`pico recover` sets down what a gripper holds: {listed(held)}.")
+    if lost:
+        hints.append(f"What nobody sees, or not surely, only you can put right: {listed(lost)}.")
+    return "\n".join(hints)
 
 
 def _ordered(found: Sequence[Drift]) -> list[Drift]:
@@ -54,7 +60,7 @@ def about(one: Drift) -> str:
 
 
 def data(found: Drifted) -> dict[str, Any]:
-    """Return schema `pico.drift/v1`: `head`, `changes` (`before` is live, `after` committed; `tolerance`, `age`,
+    """Return schema `pico.drift/v1`: `head`, `changes` (from committed, `before`, to live, `after`; `tolerance`, `age`,
     `uncertainty`, `by`, `how`), `ignored`, `held`."""
     changes = [entry(d) for d in (*found.beyond, *found.within)]
     own = {"head": found.head, "observed_at": found.observed_at, "ignored": list(found.ignored), "held": found.held}

@@ -26,13 +26,17 @@ def text(found: Verified) -> str:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
         said = [f"The bench equals {found.goal}{near}."]
     said += expectations(found.expectations) or ["Nothing more is expected: `expect:` in a LabState says what is."]
-    return "\n".join([*said, *(proof(found.standing) if found.standing else [])])
+    return "\n".join([*said, *(proof(found.standing, left=bool(found.off)) if found.standing else [])])
 
 
-def proof(standing: Standing) -> list[str]:
-    """Return in a few lines whether a bench ever stood as a commit says: `4f2c9a1 is verified: ...`."""
+def proof(standing: Standing, *, left: bool = False) -> list[str]:
+    """Return in a few lines whether a bench ever stood as a commit says: `4f2c9a1 is verified: ...`; `left`: it does
+    not stand so now."""
     colors = {"verified": "green", "inherited": "yellow", "planned": "yellow", "unknown": "red"}
-    head = f"{standing.commit[:7]} is {paint(colors[standing.verdict], standing.verdict)}: {shown(standing.why)}."
+    then = left and standing.verdict == "verified"
+    verb, since = ("was", "; the bench has left it since") if then else ("is", "")
+    word = paint("yellow" if then else colors[standing.verdict], standing.verdict)
+    head = f"{standing.commit[:7]} {verb} {word}: {shown(standing.why)}{since}."
     return [*wrap(head, ""), *(f"  {line}" for line in _said(standing))]
 
 
@@ -52,6 +56,6 @@ def _said(standing: Standing) -> list[str]:
 
 
 def data(found: Verified) -> dict[str, Any]:
-    """Return schema `pico.verified/v1`: `goal`, `changes` (`before` is live), `expectations`, `standing`."""
+    """Return schema `pico.verified/v1`: `goal`, `changes` (`after` is live), `expectations`, `standing`."""
     written: dict[str, Any] = as_json(found)
     return written

@@ -24,7 +24,7 @@ ALIKE = 0.3
 
 @record
 class Drift:
-    """One tunable that has left HEAD: the change from live back to committed, and `tolerance` in words.
+    """One tunable that has left HEAD: the change from committed to live, as it happened, and `tolerance` in words.
 
     `age` of the observation [s], and its `uncertainty` for a pose. `by`: who changed it last; `how`: the run that left
     it so, or the last that left it otherwise.
@@ -36,6 +36,7 @@ class Drift:
     uncertainty: Uncertainty | None = None
     by: Who = "unknown"
     how: str = ""
+    presence: str = "seen"
 
     @property
     def address(self) -> str:
@@ -101,7 +102,7 @@ def calibration_drift(setup: Setup, beyond: Sequence[Drift]) -> str:
 
 
 def _displacement(change: Change) -> tuple[float, float] | None:
-    live, base = change.before, change.after
+    base, live = change.before, change.after
     if isinstance(live, Mapping) and isinstance(base, Mapping):
         return live["x"] - base["x"], live["y"] - base["y"]
     return None
@@ -119,7 +120,7 @@ def drift(setup: Setup, seen: Observation, change: Change, records: Iterable[Jou
     by: Who = "unknown"
     by, how = (by, "") if change.tolerated else who(setup, part, change, records)
     return Drift(
-        change=change, tolerance=tolerance, age=part.age, by=by, how=how,
+        change=change, tolerance=tolerance, age=part.age, by=by, how=how, presence=part.presence,
         uncertainty=part.uncertainty if change.tunable == "pose" and part.pose else None,
     )  # fmt: skip
 

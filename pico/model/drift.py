@@ -3,25 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from pico.model.diff import Change, diff_observed, place_json
+from pico.model.diff import (
+    Change,
+    describe_move,
+    describe_value,
+    diff_observed,
+    place_json,
+    show_value,
+    slot_left,
+)
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.state import LabState, place_of
 
+NEAR = 100.0
+"""A part that left a slot by less has moved; one that stands farther away was placed there [mm]."""
+
 
 def drift_of(setup: Setup, seen: Observation, wanted: LabState) -> tuple[Change, ...]:
-    """Return where the bench as observed differs from `wanted`, sorted by component: `before` is live.
+    """Return where the bench as observed has left `wanted`, as it happened, sorted by component: `after` is live.
 
     A part that is missing, held or lies is a difference of its own; so is one that was seen less exactly than it must
     stand and of which nobody can therefore say that it is right.
     """
-    found = list(diff_observed(setup, seen, wanted))
+    found = [_happened(setup, seen, wanted, repair) for repair in diff_observed(setup, seen, wanted)]
     beyond = {c.component for c in found if c.tunable == "pose" and not c.tolerated}
     unsure = [change for change in _unsure(setup, seen, wanted) if change.component not in beyond]
     names = {change.component for change in unsure}
     found = [c for c in found if c.tunable != "pose" or c.component not in names] + unsure
     return tuple(sorted(found, key=lambda c: (c.component, c.tunable)))
+
+
+def _happened(setup: Setup, seen: Observation, wanted: LabState, repair: Change) -> Change:
+    """Return how a bench got to where a change would bring it back from."""
+    name, text = repair.component, ""
+    if repair.tunable == "pose":
+        (slot, goal), pose = place_of(setup, wanted, name), seen.components[name].pose
+        assert pose is not None
+        live = slot_left(setup, name, pose, goal)
+        text = describe_move(slot if live or goal.distance(pose) > NEAR else None, goal, live, pose)
+    elif repair.before is None:
+        text = f"not known any more (was {show_value(repair.after)})"
+    else:
+        text = describe_value(setup.type_of(name).tunables[repair.tunable], repair.after, repair.before)
+    return replace(repair, before=repair.after, after=repair.before, text=text)
 
 
 def _unsure(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Change]:
@@ -31,7 +58,7 @@ def _unsure(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Chang
         if text:
             where = f"in {slot}" if slot else f"at {goal}"
             yield Change(
-                component=name, tunable="pose", after=place_json(slot, goal), text=f"{text}; it belongs {where}"
+                component=name, tunable="pose", before=place_json(slot, goal), text=f"{text}; it belongs {where}"
             )
 
 

@@ -27,7 +27,7 @@ class Expected:
 
 @record
 class Verified:
-    """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `before` is live),
+    """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `after` is live),
     and the expectations of the state. `standing`: of the commit that the goal is, or of HEAD for the manifest; None
     without one."""
 

@@ -61,3 +61,20 @@ def test_writing_has_git_call_pico_and_says_so_once(clone: Path, pico: Pico, wor
 
 def test_doctor_says_that_git_does_not_know_pico_yet(clone: Path, pico: Pico) -> None:
     assert "the next command that writes sets them, too" in pico("doctor").err
+
+
+def test_drift_and_verify_tell_what_happened_and_plan_what_brings_it_back(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    pico("sim", "nudge", "p2", "--dx", "5")
+    assert pico("move", "lx_100", "x=600", "y=420", "yaw=0").code == 0
+    assert pico("set", "p1", "angle=60").code == 0
+    for words in (["drift"], ["verify", "HEAD"], ["verify"]):
+        told = " ".join(pico(*words).out.split())
+        assert "~ p2 moved 5 mm (dx +5) from (520, 420, 0°) to (525, 420, 0°)" in told
+        assert "+ lx_100 placed at (600, 420, 0°) from storage/a1" in told
+        assert "~ p1.angle 90 → 60 deg" in told
+    changes = {(c["component"], c["tunable"]): c for c in pico("drift", "--json").data["changes"]}
+    assert (changes["p2", "pose"]["before"]["x"], changes["p2", "pose"]["after"]["x"]) == (520, 525)
+    plan = " ".join(pico("plan").out.split())
+    assert "~ p2 (525, 420, 0°) → (520, 420, 0°)" in plan and "~ p1.angle 60 → 90 deg" in plan
+    assert "- lx_100 (600, 420, 0°) → storage/a1" in plan

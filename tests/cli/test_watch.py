@@ -114,7 +114,7 @@ def bench() -> Setup:
 
 
 def moved(name: str, dx: float, dy: float = 0.0) -> Drift:
-    before, after = {"x": 100 + dx, "y": 100 + dy, "yaw": 0}, {"x": 100, "y": 100, "yaw": 0}
+    before, after = {"x": 100, "y": 100, "yaw": 0}, {"x": 100 + dx, "y": 100 + dy, "yaw": 0}
     return Drift(change=Change(component=name, tunable="pose", before=before, after=after))
 
 
