@@ -310,6 +310,23 @@ def test_a_part_that_is_missing_is_told_once_with_where_it_belongs() -> None:
     ]  # fmt: skip
 
 
+def test_a_part_that_lies_is_told_though_something_else_is_wrong_with_it() -> None:
+    setup = bench({"a": "block"})
+    seen = see(setup, {"a": (300, 300)})
+    lying = {"a": replace(seen.components["a"], presence="toppled")}
+    told = replace(seen, components=lying, problems=(error("odd", "a is odd", address="a"),))
+    found = read_situation(setup, told, want({"a": (300, 300)})).diagnostics
+    assert [d.code for d in found] == ["odd", "toppled"]
+
+
+def test_where_a_part_ends_is_where_the_last_of_its_moves_puts_it() -> None:
+    setup = bench(BLOCKS)
+    seen = see(setup, {"a": (200, 300), "b": (600, 300)})
+    made = planned(setup, seen, want({"a": (400, 300), "b": (600, 300)}))
+    ends = ends_of(setup, replace(made, changes=()))
+    assert {n: s.pose for n, s in ends.items()} == {"a": Pose(400, 300), "b": Pose(600, 300)}
+
+
 def test_a_target_pulls_in_nothing_that_is_left_out() -> None:
     setup = bench(BLOCKS)
     seen, wanted = see(setup, {"a": (300, 300), "b": (500, 300)}), want({"a": (500, 300), "b": (700, 300)})
