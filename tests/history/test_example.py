@@ -190,7 +190,7 @@ def test_the_reach_that_an_empty_lab_tells_is_that_of_its_arm(tmp_path: Path, be
     near, far = (1000 * float(number) for number in told.groups())
     with pico.open(repository.root) as bench:
         away = near + (far - near) * beyond
-        plan = bench.single("lens", "move", {"x": "480", "y": f"{760 - away:g}", "yaw": "0"})
+        plan = bench.plans.single("lens", "move", {"x": "480", "y": f"{760 - away:g}", "yaw": "0"})
         assert plan.errored != reached
 
 
