@@ -20,6 +20,7 @@ from pico.history.git.attributes import CLEAN, CONFLICT, FAILED
 from pico.history.merge.alignment import Alike, disagreement, made_alike, settled
 from pico.history.merge.driver import main
 from pico.history.merge.groups import groups_of
+from pico.history.merge.layout import both
 from pico.history.merge.lines import merge_lines
 from pico.history.merge.manifests import merge
 from pico.history.merge.markers import Labels, view
@@ -272,3 +273,16 @@ def test_what_holds_no_parts_that_are_lines_has_nothing_to_take_out() -> None:
 def test_a_type_that_nobody_knows_belongs_to_no_group() -> None:
     lab = "apiVersion: pico/v1\nkind: Lab\ninventory:\n  m1: {type: no_such}\n  m2: {type: ../m}\n  m3: {home: a}\n"
     assert groups_of([("lab.yaml", lab.encode())]) == ({}, False)
+
+
+def test_comments_that_one_side_alone_changed_are_as_it_has_them() -> None:
+    was, now = ["# a", "", "# b"], ["# b", "# a", "# a", "# c"]
+    assert both(was, was, now) == now == both(was, now, was) == both(was, now, now)
+    assert both(was, ["# a"], ["# a", "# b", "# x"]) == ["# a", "# x"]
+    assert both([], ["# one"], ["# two"]) == ["# one", "# two"] == both([], ["# two"], ["# one"])
+
+
+def test_a_file_that_can_not_be_read_is_no_renamed_one_and_stays() -> None:
+    broken = HEAD + "  m1: [\n"
+    made, versions = alike({"a": broken, "z": TABLE}, {"b": HEAD + M1, "z": TABLE}, {"a": broken + "#\n", "z": TABLE})
+    assert versions[2]["a"] == broken + "#\n" and "a" not in versions[1] and made.conflicts == []
