@@ -19,5 +19,6 @@ def drift(context: typer.Context, detailed_exitcode: DetailedExit = False) -> in
     """
     session = Session.of(context)
     found = session.bench().drift.look()
+    session.tell(found.cut_short)
     session.show(view, found)
     return ExitCode.CHANGES if detailed_exitcode and found.beyond else ExitCode.DONE

@@ -23,4 +23,6 @@ def status(
     session = Session.of(context)
     bench = session.bench()
     session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
-    session.show(view, bench.status(), every=every)
+    found = bench.drift.status()
+    session.tell(found.cut_short)
+    session.show(view, found, every=every)

@@ -61,9 +61,10 @@ def about(one: Drift) -> str:
 
 def data(found: Drifted) -> dict[str, Any]:
     """Return schema `pico.drift/v1`: `head`, `changes` (from committed, `before`, to live, `after`; `tolerance`, `age`,
-    `uncertainty`, `by`, `how`), `ignored`, `held`."""
+    `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`."""
     changes = [entry(d) for d in (*found.beyond, *found.within)]
     own = {"head": found.head, "observed_at": found.observed_at, "ignored": list(found.ignored), "held": found.held}
+    own |= {"cut_short": as_json(found.cut_short)}
     return {"schema": "pico.drift/v1", **own, "changes": changes}
 
 

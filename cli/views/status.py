@@ -80,6 +80,7 @@ def _summary(status: Status) -> list[str]:
 
 
 def data(status: Status, **_: Any) -> dict[str, Any]:
-    """Return schema `pico.status/v1`: `head`, `rows` (component, tunable, committed, desired, live, ...), `unknown`."""
+    """Return schema `pico.status/v1`: `head`, `rows` (component, tunable, committed, desired, live, ...), `unknown`,
+    `cut_short`."""
     found: dict[str, Any] = as_json(status)
     return found

@@ -6,7 +6,7 @@ import statistics
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from pico.diagnostics import ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, Uncertainty
@@ -49,7 +49,7 @@ class Drift:
 class Drifted:
     """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address.
 
-    `held`: why nothing may be healed now; empty where that is allowed.
+    `held`: why nothing may be healed now; empty where that is allowed. `cut_short`: see `pico.bench.cut_short`.
     """
 
     head: str
@@ -58,6 +58,7 @@ class Drifted:
     within: tuple[Drift, ...] = ()
     ignored: tuple[str, ...] = ()
     held: str = ""
+    cut_short: tuple[Diagnostic, ...] = ()
 
 
 def news(before: Sequence[Drift], now: Sequence[Drift]) -> tuple[list[Drift], list[str]]:

@@ -35,6 +35,8 @@ class Opened:
         self.folder, self.history = folder, LabHistory(folder)
         self.backend_name = backend
         self.fidelity = fidelity or folder.setup.lab.sim.fidelity
+        self.asked = fidelity is not None
+        """Whether somebody asked for this fidelity."""
         self.lock_timeout = 0.0
         self.thread = LoopThread()
         self._edge: Edge | None = None

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 from pico.model.observation import Observation, live_state
@@ -72,9 +73,11 @@ class Plans:
             state=wanted.as_json(),
             expect=wanted.expect or None,
         )
+        seen = self.opened.observe()
+        told = (*cut_short(self.opened, seen), *manifests.told)
         return self.to_state(
-            self.opened.observe(), wanted, target, told=manifests.told, calibration=calibration_digest(folder.root),
-            exact=exact, source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,
+            seen, wanted, target, told=told, calibration=calibration_digest(folder.root), exact=exact,
+            source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,
         )  # fmt: skip
 
     def _goal(self, manifests: Manifests, revision: str | None, targets: Collection[str]) -> LabState:

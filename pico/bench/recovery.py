@@ -43,6 +43,7 @@ class Recovery:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
             raise PicoError(error("nothing-to-resume", text, hint="`pico plan` shows what differs now"))
         began = _document(memory, last)
+        self._as_before(memory)
         only = began.target.only or _asked(began)
         seen = self.opened.observe()
         wanted = state_from_json(began.lab.name, began.target.state)
@@ -65,6 +66,7 @@ class Recovery:
         last = next((n for n, run in enumerate(runs) if _document(memory, run).target.cause != "recover"), None)
         if last is None:
             raise PicoError(_no_run())
+        self._as_before(memory)
         done = {one for run in runs[: last + 1] for one in _begun(memory, run)}
         before, held = _before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
         looked = self.opened.observe()
@@ -83,10 +85,17 @@ class Recovery:
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, and changes nothing else."""
         self._refuse_while_held()
+        if memory := self.opened.edge.memory:
+            self._as_before(memory)
         seen = self.opened.observe()
         wanted = live_state(self.opened.setup, self._emptied(seen))
         target = Target(title="the bench with empty hands", cause="recover", state=wanted.as_json())
         return Plans(self.opened).to_state(seen, wanted, target)
+
+    def _as_before(self, memory: Memory) -> None:
+        """Move the bench in the fidelity of the last run, unless somebody asked for another."""
+        if not self.opened.asked and (last := memory.last()):
+            self.opened.suit(_document(memory, last))
 
     def settle(self) -> None:
         """Record what became of operations that a killed run had begun, though there is nothing left to move.
@@ -175,10 +184,10 @@ def _document(memory: Memory, run: RunRecord) -> Plan:
 
 
 def _last(memory: Memory) -> RunRecord:
-    runs = memory.runs()
-    if not runs:
+    last = memory.last()
+    if last is None:
         raise PicoError(_no_run())
-    return runs[-1]
+    return last
 
 
 def _no_run() -> Diagnostic:

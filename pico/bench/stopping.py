@@ -35,4 +35,4 @@ def stop(folder: Path, *, now: bool = False) -> tuple[Holder | None, RunRecord |
             raise PicoError(error("stop", text, hint="`pico stop --now`; else the emergency stop of the arm"))
         time.sleep(0.02)
     with remembered(root) as memory:
-        return holder, next(reversed(memory.runs()), None) if memory else None
+        return holder, memory.last() if memory else None

@@ -5,8 +5,10 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.bench.cut_short import cut_short
 from pico.bench.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened
@@ -52,7 +54,8 @@ class Watch:
         from pico.model.status import compare
 
         folder, seen = self.opened.folder, self.opened.observe()
-        return compare(folder.setup, folder.committed(), folder.state, seen, self.opened.history.head_name())
+        found = compare(folder.setup, folder.committed(), folder.state, seen, self.opened.history.head_name())
+        return replace(found, cut_short=cut_short(self.opened, seen))
 
     def look(self) -> Drifted:
         """Look at the bench and return where it has left HEAD: by how much, how surely, and who did it. Moves nothing,
@@ -69,6 +72,7 @@ class Watch:
             head=self.opened.history.head_name(), observed_at=seen.observed_at, beyond=beyond,
             within=tuple(d for d in found if d.change.tolerated),
             ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
+            cut_short=cut_short(self.opened, seen),
         )  # fmt: skip
 
     def _records(self) -> Sequence[JournalRecord]:

@@ -16,6 +16,7 @@ from pico.backends.device import Capabilities, Device
 from pico.backends.devices import opener
 from pico.backends.world import World
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.disk import write_whole
 from pico.edge import own_lab
 from pico.edge.lease import BenchLock, user, utc_now
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
@@ -83,6 +84,16 @@ class LocalEdge:
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""
         return self._lock.holder()
+
+    async def unended(self) -> str | None:
+        """Return the run that has begun and not ended, None for none; its id stands beside the journal meanwhile."""
+        with suppress(OSError, UnicodeError):
+            return self._run_mark.read_text(encoding="ascii").strip() or None
+        return None
+
+    @property
+    def _run_mark(self) -> Path:
+        return bench_folder(self.root) / "run"
 
     async def lab(self) -> OwnLab | None:
         """Return the Lab of the bench; None on trial."""
@@ -276,6 +287,7 @@ class LocalEdge:
         else:
             plan = job.plan
             self.journal.begin_run(run, plan.digest, lease.holder, document=plan.to_json(), about=about)
+        write_whole(self._run_mark, f"{run}\n".encode(), durable=False)
 
     async def _carry_out(self, job: Job, running: Running, lease: Lease, now: float) -> RunReport:
         """Walk a plan to its end, whoever listens, and return what became of it."""
@@ -304,6 +316,8 @@ class LocalEdge:
             if event.kind == "run_finished":
                 tally = {k: v for k, v in event.data.items() if k != "outcome"}
                 self.journal.end_run(running.id, event.data["outcome"], tally)
+                with suppress(OSError):
+                    self._run_mark.unlink(missing_ok=True)
         finally:  # a journal that is gone must not hide what became of the run
             running.tell(event)
 

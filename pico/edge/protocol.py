@@ -94,6 +94,10 @@ class Edge(Protocol):
         """
         ...
 
+    async def unended(self) -> str | None:
+        """Return the run that has begun and not ended: one that goes on, else one that was killed; None for none."""
+        ...
+
     # looking
 
     async def observe(self) -> Observation:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import Change, deviation, diff_observed, diff_states, place_json, show_value, slot_left
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
@@ -52,7 +52,8 @@ class StatusRow:
 
 @record
 class Status:
-    """The three states of a bench. `head`: what the commit is called, empty without Git or before a first commit."""
+    """The three states of a bench. `head`: what the commit is called, empty without Git or before a first commit.
+    `cut_short`: that the last run was killed, and what to do."""
 
     schema: str = "pico.status/v1"
     lab: str
@@ -61,6 +62,7 @@ class Status:
     observed_at: str = ""
     rows: tuple[StatusRow, ...] = ()
     unknown: Mapping[str, Pose] = field(default_factory=dict)
+    cut_short: tuple[Diagnostic, ...] = ()
 
 
 def compare(

@@ -86,6 +86,9 @@ class JournalRecord:
     data: Mapping[str, Any]
 
 
+_RUN = "run, plan, holder, started_at, finished_at, outcome, tally, resumed, number"
+
+
 @record
 class RunRecord:
     """One run. `finished_at`, `outcome` and `tally` are None while it goes on, or where it was killed. `resumed`: how
@@ -230,10 +233,15 @@ class Journal:
 
     def runs(self) -> tuple[RunRecord, ...]:
         """Return the runs in the order in which they began."""
-        columns = "run, plan, holder, started_at, finished_at, outcome, tally, resumed, number"
         with self._guarded():
-            rows = self._db.execute(f"SELECT {columns} FROM runs ORDER BY number").fetchall()
+            rows = self._db.execute(f"SELECT {_RUN} FROM runs ORDER BY number").fetchall()
         return tuple(_run(row) for row in rows)
+
+    def last(self) -> RunRecord | None:
+        """Return the run that began last, None where none did."""
+        with self._guarded():
+            row = self._db.execute(f"SELECT {_RUN} FROM runs ORDER BY number DESC LIMIT 1").fetchone()
+        return _run(row) if row else None
 
     def document(self, run: str) -> str | None:
         """Return the plan that a run began with, as JSON; None where it was not kept."""

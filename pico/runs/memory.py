@@ -15,6 +15,10 @@ class Memory(Protocol):
         """Return the runs in the order in which they began."""
         ...
 
+    def last(self) -> RunRecord | None:
+        """Return the run that began last, None where none did."""
+        ...
+
     def moving(self) -> frozenset[str]:
         """Return the runs that began at least one operation."""
         ...

@@ -67,6 +67,17 @@ def test_a_resumed_single_operation_moves_only_what_was_asked(bench: Bench) -> N
     assert {op.component for op in plan.operations if op.primitive == "move"} == {"p2"}
 
 
+def test_what_goes_on_from_a_run_keeps_its_fidelity_unless_another_is_asked_for(bench: Bench) -> None:
+    with Bench.open(bench.root, fidelity="physics") as physical:
+        assert physical.apply(physical.plans.single("p1", "set", {"angle": "33"})).outcome == "done"
+    with Bench.open(bench.root) as next_one:
+        assert next_one.plan().fidelity == "kinematic"
+        assert next_one.recovery.undo_plan().fidelity == "physics"
+        assert next_one.recovery.recover_plan().fidelity == "physics"
+    with Bench.open(bench.root, fidelity="kinematic") as asked:
+        assert asked.recovery.undo_plan().fidelity == "kinematic"
+
+
 def test_undo_takes_back_what_the_run_moved_and_nothing_else(bench: Bench) -> None:
     bench.apply("C3")
     bench.apply("e1")

@@ -87,7 +87,16 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     process.communicate(timeout=120)
     held = Bench.open(shel).observe().robots["arm1"].holding
     assert held is not None
+    for words in (["status"], ["plan"], ["drift"]):
+        told = pico(*words)
+        said = " ".join(told.err.split())
+        assert said.count("warning[cut-short]: run ") == 1 and f"was killed, and arm1 holds {held}" in said
+        assert "`pico resume` takes the run up again" in said and "`pico recover` only sets down" in said
+        assert "cut-short" in pico(*words, "--json").out
+    drifted = pico("drift").out
+    assert f"`pico recover` sets down what a gripper holds: {held}." in drifted and "only you" not in drifted
     assert pico("recover", "--auto-approve").code == 0
+    assert "cut-short" not in pico("status").err
     assert Bench.open(shel).observe().robots["arm1"].holding is None
     journal = Journal(shel / ".pico" / "journal.sqlite")
     assert journal.unsettled() == ()

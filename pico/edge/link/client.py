@@ -73,6 +73,11 @@ class RemoteMemory:
         found: tuple[RunRecord, ...] = self._line.call("memory.runs")
         return found
 
+    def last(self) -> RunRecord | None:
+        """Return the run that began last, None where none did."""
+        found: RunRecord | None = self._line.call("memory.last")
+        return found
+
     def moving(self) -> frozenset[str]:
         """Return the runs that began at least one operation."""
         found: frozenset[str] = self._line.call("memory.moving")
@@ -187,6 +192,11 @@ class RemoteEdge:
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""
         found: Holder | None = await self._call("holder")
+        return found
+
+    async def unended(self) -> str | None:
+        """Return the run that has begun and not ended, None for none."""
+        found: str | None = await self._call("unended")
         return found
 
     async def lab(self) -> OwnLab | None:

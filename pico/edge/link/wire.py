@@ -29,6 +29,7 @@ Triple = tuple[float, float, float]
 CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "describe": ((), Capabilities),
     "holder": ((), Holder | None),
+    "unended": ((), str | None),
     "lab": ((), OwnLab | None),
     "adopt": ((OwnLab, str), None),
     "observe": ((), Observation),
@@ -47,6 +48,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "resolve": ((str, Outcome, str), None),
     "memory": ((), bool),
     "memory.runs": ((), tuple[RunRecord, ...]),
+    "memory.last": ((), RunRecord | None),
     "memory.moving": ((), frozenset[str]),
     "memory.document": ((str,), str | None),
     "memory.about": ((str,), About),
