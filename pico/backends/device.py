@@ -29,7 +29,7 @@ class Capabilities:
     """What a device can do. `evidence` is what its runs count as: kinematic, physics, emulated or hardware.
 
     `measurables`: what it can measure, as addresses (`p2.pose`). `simulated`: it has a `World` of its own, and a clock
-    that is none on the wall.
+    that is none on the wall. `kept`: its table was there before; a simulated one that nobody used is made up.
     """
 
     name: str
@@ -41,6 +41,7 @@ class Capabilities:
     measurables: frozenset[str] = frozenset()
     unmodelled: tuple[str, ...] = ()
     simulated: bool = False
+    kept: bool = True
 
 
 class Device(Protocol):

@@ -46,6 +46,9 @@ class Commits:
         named = read_addresses(self.folder.setup, only) if only else None
         return self.folder.capture(self._live(self.opened.observe()), named, write=write)
 
+    def _used(self) -> bool:
+        return self.opened.wait(self.opened.edge.describe()).kept
+
     def _live(self, seen: Observation) -> LabState:
         return live_state(self.folder.setup, seen, sure=True)
 
@@ -81,7 +84,7 @@ class Commits:
             named = read_addresses(folder.setup, only) if only and not ending else None
             captured = Captured()
             if not ending:
-                _refuse(folder, seen, mode, named)
+                _refuse(folder, seen, mode, named, used=self._used())
             if not ending and mode != "planned":
                 captured = folder.capture(self._live(seen), named)
             content = contents(folder, named)
@@ -102,7 +105,7 @@ class Commits:
         if ending:
             return message_of(repository.own)
         named = read_addresses(folder.setup, only) if only else None
-        _refuse(folder, seen, mode, named)
+        _refuse(folder, seen, mode, named, used=self._used())
         captured, state = (Captured(), folder.state)
         if mode != "planned":
             captured, state = folder.preview(self._live(seen), named)
@@ -114,14 +117,15 @@ class Commits:
         return default_message(changes, captured.files or content.paths)
 
 
-def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named | None) -> None:
-    """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins."""
+def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named | None, *, used: bool) -> None:
+    """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins. `used`: the
+    bench is not one that was only just made up: such a one never stood as anybody has committed."""
     if mode != "strict":
         return
     components = contents(folder, named).components if named else None
     refuse_unapplied(folder.setup, folder.committed(), folder.state, seen, components)
     with remembered(folder.root) as memory:
-        found = never_here(folder.setup, memory, seen, folder.state, stood=_stood(folder))
+        found = never_here(folder.setup, memory, seen, folder.state, stood=_stood(folder) if used else None)
     never = sorted(
         component if tunable == "pose" else f"{component}.{tunable}"
         for component, tunable in found

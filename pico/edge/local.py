@@ -79,7 +79,7 @@ class LocalEdge:
 
     async def describe(self) -> Capabilities:
         """Return what the device can do."""
-        return await self.device.describe()
+        return replace(await self.device.describe(), kept=self.device.kept())
 
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""

@@ -63,12 +63,25 @@ def never_here(
     """Return the tunables in which the bench differs from a state that it never had here, as far as anybody knows.
 
     It had it where the last operation on the tunable led there, or came before it `stood` so when somebody committed
-    it; where no operation ever changed it, if it stood so then, or is at home. Then a hand has changed it since. What a
-    single operation changed is as somebody wanted it. Raises PicoError where the journal can't be read.
+    it, or a run reached the whole of it; where no operation ever changed it, if it stood so then, or is at home. Then a
+    hand has changed it since. What a single operation changed is as somebody wanted it. Raises PicoError where the
+    journal can't be read.
     """
     off = {(c.component, c.tunable) for c in diff_observed(setup, seen, state) if not c.tolerated}
+    if off and memory and _reached(memory, state):
+        return set()
     known = _last_said(setup, memory, state, off, stood) if off and memory else {}
     return {one for one in off if not known.get(one, stood is not None or _at_home(setup, state, one))}
+
+
+def _reached(memory: Memory, state: LabState) -> bool:
+    """Return whether a run here reached the whole of a state, wherever the bench was brought since."""
+    for run in reversed(memory.runs()):
+        seen = memory.about(run.run)[1]
+        plan = json.loads(memory.document(run.run) or "{}") if seen and seen.get("reached") else {}
+        if plan and plan["target"]["state"] == state.as_json():
+            return True
+    return False
 
 
 def _last_said(

@@ -297,3 +297,27 @@ def test_the_first_commit_of_a_new_lab_takes_along_what_git_has_to_know(
     assert {".gitattributes", ".gitignore"} <= set(git("ls-files").split())
     (tmp_path / "mine" / ".gitignore").write_text("own\n")
     assert pico("commit", "--planned").code == 1  # a later edit of it is for git alone
+
+
+def test_a_bench_that_stood_as_the_last_commit_and_was_brought_elsewhere_is_committed(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "--auto-approve").code == 0
+    assert "is verified" in pico("verify").out
+    assert pico("apply", "e1", "--auto-approve").code == 0
+    answer = pico("commit", "-m", "try")
+    assert answer.code == 0 and "p1.angle 90 → 1 deg" in " ".join(answer.out.split())
+    assert pico("status", "--json").data["cut_short"] == []
+    assert "No drift" in pico("drift").out
+
+
+def test_a_clone_whose_bench_was_never_used_does_not_commit_over_what_another_bench_proved(
+    shel: Path, pico: Pico, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert pico("apply", "--auto-approve").code == pico("set", "p1", "angle=33").code == 0
+    assert pico("commit", "-m", "proven here").code == 0
+    subprocess.run(["git", "clone", "-q", str(shel), str(tmp_path / "clone")], check=True)
+    monkeypatch.chdir(tmp_path / "clone")
+    answer = pico("commit", "-m", "over")
+    assert answer.code == 1 and "the bench never stood as the last commit says" in answer.err
+    assert pico("apply", "--auto-approve").code == 0
+    assert pico("sim", "nudge", "p2", "--dx", "3").code == 0
+    assert pico("commit", "-m", "a hand did it").code == 0
