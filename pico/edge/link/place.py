@@ -22,8 +22,11 @@ def make(root: Path) -> Path:
     found = folder.lstat()
     if found.st_uid != os.getuid() or found.st_mode & 0o077 or folder.is_symlink():
         raise PicoError(error("link", f"{folder} is open to others", hint=f"`chmod 700 {folder}`, if it is yours"))
-    name = hashlib.sha256(os.fsencode(bench_folder(root).resolve())).hexdigest()[:16]
-    return folder / f"{name}.sock"
+    return folder / _name(root)
+
+
+def _name(root: Path) -> str:
+    return f"{hashlib.sha256(os.fsencode(bench_folder(root).resolve())).hexdigest()[:16]}.sock"
 
 
 def announce(root: Path, path: Path) -> None:
@@ -39,14 +42,17 @@ def withdraw(root: Path, path: Path) -> None:
 
 
 def find(root: Path) -> Path | None:
-    """Return the socket of the edge that serves the lab in `root`; None where none answers."""
+    """Return the socket of the edge that serves the lab in `root`; None where none answers.
+
+    A note that came along with a copy of the lab's folder names the socket of another bench, and counts for nothing.
+    """
     try:
         path = Path(json.loads(_note(root).read_text(encoding="utf-8"))["socket"])
-        if path.lstat().st_uid != os.getuid():
+        if path.name != _name(root) or path.lstat().st_uid != os.getuid():
             return None
         with socket.socket(socket.AF_UNIX) as link:
             link.connect(str(path))
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None
     return path
 
