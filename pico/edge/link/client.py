@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import socket
 from collections.abc import AsyncIterator, Collection, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -37,10 +36,7 @@ def _gone(exc: Exception) -> PicoError:
 def _value(name: str, data: bytes) -> Any:
     if not data:
         raise _gone(EOFError("it ended the connection"))
-    document = json.loads(data)
-    if "error" in document:
-        raise wire.raised(document)
-    return wire.value(name, document["value"])
+    return wire.read_answer(name, data)[1]
 
 
 class Line:
@@ -260,12 +256,12 @@ class RemoteEdge:
         reader, writer = await self._connect()
         try:
             writer.write(wire.call("events", (run, since)))
-            while "next" in (document := json.loads(await reader.readline() or b'{"value":null,"gone":true}')):
-                yield wire.value("events", document["next"])
-            if "error" in document:
-                raise wire.raised(document)
-            if "gone" in document:
-                raise _gone(EOFError("it ended the connection"))
+            while data := await reader.readline():
+                kind, event = wire.read_answer("events", data)
+                if kind == "value":
+                    return
+                yield event
+            raise _gone(EOFError("it ended the connection"))
         finally:
             writer.close()
 

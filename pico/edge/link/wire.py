@@ -98,19 +98,25 @@ def read_call(data: bytes) -> tuple[str, list[Any]]:
         name, given = document["call"], document["with"]
         kinds = CALLS[name][0]
         return name, [adapter(kind).validate_python(value) for kind, value in zip(kinds, given, strict=True)]
-    except (ValueError, KeyError, TypeError) as exc:
+    except (ValueError, KeyError, TypeError, RecursionError) as exc:
         raise PicoError(error("link", f"this is no call that the edge knows: {str(exc)[:200]}")) from exc
 
 
-def value(name: str, data: Any) -> Any:
-    """Return what a call gave, from its JSON; raises PicoError where it is something else."""
+def read_answer(name: str, data: bytes) -> tuple[str, Any]:
+    """Return what a line is that answers a call (`value`, or `next` of a stream), and that; raises PicoError for what
+    went wrong at the other end, and for what is no answer."""
     try:
-        return adapter(CALLS[name][1]).validate_python(data)
-    except ValueError as exc:
-        hint = "client and edge may be of different versions of PICO"
-        raise PicoError(
-            error("link", f"the edge answered {name} with something else: {str(exc)[:200]}", hint=hint)
-        ) from exc
+        document = json.loads(data)
+        failed = _raised(document) if "error" in document else None
+        kind = "next" if "next" in document else "value"
+        if failed is None:
+            over = name in STREAMS and kind == "value"
+            return kind, document[kind] if over else adapter(CALLS[name][1]).validate_python(document[kind])
+    except (ValueError, KeyError, TypeError, RecursionError) as exc:
+        text = f"the edge answered {name} with something else: {str(exc)[:200]}"
+        hint = "it broke off, or client and edge are of different versions of PICO"
+        raise PicoError(error("link", text, hint=hint)) from exc
+    raise failed
 
 
 def failure(exc: PicoError) -> dict[str, Any]:
@@ -118,7 +124,7 @@ def failure(exc: PicoError) -> dict[str, Any]:
     return {"error": as_json(exc.diagnostics), "exit": int(exc.exit_code)}
 
 
-def raised(document: Mapping[str, Any]) -> PicoError:
+def _raised(document: Mapping[str, Any]) -> PicoError:
     """Return what went wrong at the other end."""
     found = adapter(tuple[Diagnostic, ...]).validate_python(document["error"])
     return PicoError(found, ExitCode(document["exit"]))
