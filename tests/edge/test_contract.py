@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import shutil
 import stat
 import subprocess
 import sys
 import threading
 from collections.abc import Awaitable, Callable, Iterator
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -276,6 +277,22 @@ def test_who_is_interrupted_while_it_waits_does_not_stop_the_one_that_moves(benc
         await edge.release(lease)
 
     on_edge(bench, act)
+
+
+def test_a_garbage_collection_between_two_events_of_a_run_ends_nothing(bench: Bench) -> None:
+    run = bench.run(bench.plan("e1"))
+    for _ in run:
+        gc.collect()
+    assert run.report.outcome == "done"
+
+
+def test_who_follows_a_run_of_a_bench_that_is_closed_does_not_wait_for_ever(bench: Bench) -> None:
+    run = bench.run(bench.plan("e1"))
+    next(run)
+    bench.close()
+    with suppress(PicoError):
+        list(run)
+    assert run.over
 
 
 # only behind a socket

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import queue
 import secrets
 from collections.abc import Callable, Iterator
@@ -100,6 +101,9 @@ class Execution:
     async def _pump(self) -> None:
         try:
             self._queue.put(await self._followed())
+        except asyncio.CancelledError:
+            text = "the bench was closed before the run was over"
+            self._queue.put(PicoError(error("interrupted", text), ExitCode.INTERRUPTED))
         except BaseException as exc:
             self._queue.put(exc)
 
