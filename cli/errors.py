@@ -13,6 +13,10 @@ import typer
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 
+ALIKE = 0.8
+"""How much alike a command must be to be offered, besides the first letter: `resume` and `move` move the arm, and are
+nothing for who typed `restore` or `remove`."""
+
 
 def explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], int]:
     """Return an exception as diagnostics and an exit code."""
@@ -71,7 +75,10 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
     if message.startswith("No such command"):
         unknown = message.split("'")[1] if "'" in message else next((w for w in words if not w.startswith("-")), "")
         message = f"{path} has no command `{unknown}`"
-        near = did_you_mean(unknown, context.command.list_commands(context) if context else ())
+        names = context.command.list_commands(context) if context else ()
+        twisted = [name for name in names if sorted(name) == sorted(unknown)]
+        begun = [name for name in names if name[0] == unknown[:1]]
+        near = did_you_mean(unknown, twisted, 0.0) if twisted else did_you_mean(unknown, begun, ALIKE)
         hint = near if near.startswith("did") else f"`{path} --help` lists the commands"
     return error("usage", message[:1].lower() + message[1:], hint=hint)
 

@@ -104,12 +104,13 @@ class PicoError(Exception):
         super().__init__("; ".join(d.summary for d in self.diagnostics))
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return a hint for a misspelt `word`: the nearest known one, or the known ones where they are few."""
+def did_you_mean(word: str, known: Iterable[str], alike: float = 0.6) -> str:
+    """Return a hint for a misspelt `word`: the nearest known one, at least so much `alike` (0 to 1), or the known ones
+    where they are few."""
     import difflib
 
     names = sorted(known)
-    near = difflib.get_close_matches(word, names, n=1, cutoff=0.6)
+    near = difflib.get_close_matches(word, names, n=1, cutoff=alike)
     if near:
         return f"did you mean `{near[0]}`?"
     if names and len(names) <= 12:

@@ -277,3 +277,15 @@ def test_an_unknown_command_of_a_group_is_looked_for_in_the_group(pico: Pico) ->
     assert (
         "`" not in answer.out and "pico runs has no command `sho`" in answer.err and "did you mean `show`" in answer.err
     )
+
+
+@pytest.mark.parametrize(("typed", "meant"), [
+    ("aply", "apply"), ("stauts", "status"), ("plna", "plan"), ("undoo", "undo"), ("mvoe", "move"), ("resum", "resume"),
+    ("restore", ""), ("remove", ""), ("reset", ""), ("sync", ""),
+])  # fmt: skip
+def test_a_command_is_offered_for_a_slip_of_the_fingers_and_not_for_another_word(
+    typed: str, meant: str, pico: Pico, shel: Path
+) -> None:
+    answer = pico(typed)
+    assert answer.code == 1
+    assert (f"did you mean `{meant}`?" in answer.err) if meant else ("did you mean" not in answer.err)
