@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator, Collection, Iterator, Mapping, Sequen
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.attachment import require_attached
 from pico.backends.device import Capabilities
 from pico.diagnostics import PicoError, error
 from pico.edge.link import wire
@@ -40,17 +41,25 @@ def _value(name: str, data: bytes) -> Any:
 
 
 class Line:
-    """Blocking calls, a connection each."""
+    """Blocking calls, a connection each, of the worktree of the lab in `root`, if that is told."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, root: Path | None = None) -> None:
+        self._path, self._root = path, root
+
+    def written(self, name: str, *arguments: Any) -> bytes:
+        """Return a call as it goes over the link; raises PicoError (exit code LOCKED) where it takes a bench that is
+        attached to another worktree."""
+        if self._root is not None and name in wire.TAKES:
+            require_attached(self._root)
+        return wire.call(name, arguments)
 
     def call(self, name: str, *arguments: Any) -> Any:
         """Return what a call gives; raises PicoError as the edge does, and where it does not answer."""
+        asked = self.written(name, *arguments)
         try:
             with socket.socket(socket.AF_UNIX) as link:
                 link.connect(str(self._path))
-                link.sendall(wire.call(name, arguments))
+                link.sendall(asked)
                 with link.makefile("rb") as answer:
                     data = answer.readline()
         except OSError as exc:
@@ -158,10 +167,11 @@ class RemoteWorld:
 
 
 class RemoteEdge:
-    """The edge whose socket is at `path`; see `pico.edge.protocol.Edge`. Its runs go on without this process."""
+    """The edge whose socket is at `path`, for the worktree of the lab in `root`; see `pico.edge.protocol.Edge`. Its
+    runs go on without this process."""
 
-    def __init__(self, path: Path) -> None:
-        self._path, self._line = path, Line(path)
+    def __init__(self, path: Path, root: Path | None = None) -> None:
+        self._path, self._line = path, Line(path, root)
         self._held: dict[int, asyncio.StreamWriter] = {}
 
     async def _connect(self) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
@@ -171,9 +181,10 @@ class RemoteEdge:
             raise _gone(exc) from exc
 
     async def _call(self, name: str, *arguments: Any) -> Any:
+        asked = self._line.written(name, *arguments)
         reader, writer = await self._connect()
         try:
-            writer.write(wire.call(name, arguments))
+            writer.write(asked)
             return _value(name, await reader.readline())
         except OSError as exc:
             raise _gone(exc) from exc
@@ -223,9 +234,10 @@ class RemoteEdge:
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
         """Take the bench; it is given back where this process dies."""
+        asked = self._line.written("acquire", holder, wait)
         reader, writer = await self._connect()
         try:
-            writer.write(wire.call("acquire", (holder, wait)))
+            writer.write(asked)
             lease: Lease = _value("acquire", await reader.readline())
         except BaseException:
             writer.close()

@@ -27,7 +27,7 @@ def opened(setup: Setup, root: Path, backend: str, fidelity: str, lab: OwnLab | 
         return embedded(setup, root, backend, fidelity, lab)
     from pico.edge.link.client import RemoteEdge
 
-    return RemoteEdge(socket)
+    return RemoteEdge(socket, root)
 
 
 def _served(root: Path) -> Path | None:

@@ -69,6 +69,10 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
 }
 """Every call that there is: the types of its arguments, and of its value or of each `next` one."""
 STREAMS = frozenset({"events"})
+TAKES = frozenset({"acquire", "adopt", "start", "resolve"}) | (
+    {call for call in CALLS if call.startswith("world.")} - {"world.placements", "world.true_cameras"}
+)
+"""Calls that take the bench, as only the worktree may that it is attached to."""
 LONGEST = 1 << 28
 """Bytes of the longest line."""
 
