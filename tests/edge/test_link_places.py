@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -26,6 +28,19 @@ def test_a_copy_of_a_served_lab_has_a_bench_of_its_own(example: Path, tmp_path: 
         copy = shutil.copytree(example, tmp_path / "copy")
         assert place.find(example) is not None
         assert place.find(copy) is None
+
+
+def test_a_socket_that_can_not_be_made_is_told_in_a_line(example: Path, tmp_path: Path) -> None:
+    long = tmp_path / ("x" * 100)
+    long.mkdir()
+    (tmp_path / f"pico-{os.getuid()}").touch()
+    for folder, words in ((long, "path too long"), (tmp_path, "file exists")):
+        command = [sys.executable, "-m", "pico.edge.link.server", str(example)]
+        told = subprocess.run(
+            command, env={**os.environ, "TMPDIR": str(folder)}, capture_output=True, text=True, timeout=60, check=False
+        )
+        assert told.returncode == ExitCode.ERROR
+        assert words in told.stderr and "Traceback" not in told.stderr
 
 
 def test_a_worktree_that_the_bench_is_not_attached_to_only_looks_at_a_served_one(example: Path, tmp_path: Path) -> None:

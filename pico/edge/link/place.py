@@ -12,13 +12,14 @@ from pathlib import Path
 
 from pico.attachment import bench_folder
 from pico.diagnostics import PicoError, error
-from pico.disk import write_whole
+from pico.disk import write_whole, writing
 
 
 def make(root: Path) -> Path:
     """Return where the socket of the lab in `root` is to be, in a folder that is only this user's; raises PicoError."""
     folder = Path(tempfile.gettempdir()) / f"pico-{os.getuid()}"
-    folder.mkdir(mode=0o700, exist_ok=True)
+    with writing(folder, code="link"):
+        folder.mkdir(mode=0o700, exist_ok=True)
     found = folder.lstat()
     if found.st_uid != os.getuid() or found.st_mode & 0o077 or folder.is_symlink():
         raise PicoError(error("link", f"{folder} is open to others", hint=f"`chmod 700 {folder}`, if it is yours"))

@@ -18,6 +18,7 @@ from typing import Any
 
 from pico.backends.devices import SIMULATOR
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.disk import writing
 from pico.edge import own_lab
 from pico.edge.link import place, wire
 from pico.edge.link.pictures import Arrays, look_as_json, packed
@@ -41,10 +42,11 @@ class Server:
         """Begin to serve; raises PicoError where somebody else serves this bench."""
         if place.find(self._edge.root) is not None:
             raise PicoError(error("link", f"the bench in {self._edge.root} is served already"), ExitCode.LOCKED)
-        self._path.unlink(missing_ok=True)
         mask = os.umask(0o177)
         try:
-            self._server = await asyncio.start_unix_server(self._client, str(self._path), limit=wire.LONGEST)
+            with writing(self._path, what=f"the bench can't be served at {self._path}", code="link"):
+                self._path.unlink(missing_ok=True)
+                self._server = await asyncio.start_unix_server(self._client, str(self._path), limit=wire.LONGEST)
         finally:
             os.umask(mask)
         place.announce(self._edge.root, self._path)
@@ -173,7 +175,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lab", type=Path)
     parser.add_argument("--backend", default=SIMULATOR)
-    parser.add_argument("--fidelity", default="kinematic")
+    parser.add_argument("--fidelity", choices=("kinematic", "physics"), default="kinematic")
     given = parser.parse_args()
     try:
         edge = edge_of(given.lab, given.backend, given.fidelity)
