@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -74,7 +74,7 @@ class Plans:
             expect=wanted.expect or None,
         )
         seen = self.opened.observe()
-        told = (*cut_short(self.opened, seen), *manifests.told)
+        told = (*cut_short(self.opened, seen), *_strangers(seen), *manifests.told)
         return self.to_state(
             seen, wanted, target, told=told, calibration=calibration_digest(folder.root), exact=exact,
             source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,
@@ -217,6 +217,14 @@ class Plans:
             assert goal is not None
             found = planning.move_one(setup, seen, name, goal, motion=DeferredMotion(setup), **options)
         return self._judged(found, seen)
+
+
+def _strangers(seen: Observation) -> Iterator[Diagnostic]:
+    """Yield a note for each object on the table that is in no inventory."""
+    for name, thing in sorted(seen.unknown.items()):
+        text = f"{name} stands at {thing.pose}: not in the inventory, so it is an obstacle and never moved"
+        hint = "take it away, or take it into the inventory: `pico import`"
+        yield Diagnostic("note", "stranger", text, hint=hint, address=name)
 
 
 def _require_sense(found: list[Diagnostic]) -> None:

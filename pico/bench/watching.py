@@ -61,7 +61,8 @@ class Watch:
         """Look at the bench and return where it has left HEAD: by how much, how surely, and who did it. Moves nothing,
         needs no lock; raises PicoError."""
         setup, seen = self.opened.setup, self.opened.observe()
-        changes = drift_of(setup, seen, self.opened.folder.state_at("HEAD"))
+        head = self.opened.folder.committed() or self.opened.folder.state_at("HEAD")  # which says why there is none
+        changes = drift_of(setup, seen, head)
         rules = set(setup.lab.policy.ignore)
         ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
         kept = [c for c in changes if c not in ignored]

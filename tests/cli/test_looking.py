@@ -78,3 +78,15 @@ def test_drift_and_verify_tell_what_happened_and_plan_what_brings_it_back(shel: 
     plan = " ".join(pico("plan").out.split())
     assert "~ p2 (525, 420, 0°) → (520, 420, 0°)" in plan and "~ p1.angle 60 → 90 deg" in plan
     assert "- lx_100 (600, 420, 0°) → storage/a1" in plan
+
+
+def test_a_part_that_left_the_inventory_is_a_stranger_that_status_and_plan_name(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "e1", "--auto-approve").code == 0
+    edit(Path("lab.yaml"), "  lx_125:\n    type: plano_convex_125\n    marker: 5\n    home: storage/a3\n", "")
+    edit(Path("state/table.yaml"), "  lx_125:\n    slot: storage/a3\n", "")
+    assert pico("bench", "update", "--auto-approve").code == 0
+    assert "unknown/5 - - (395, 420, 0°)" in " ".join(pico("status").out.split())
+    plan = pico("plan")
+    assert "note[stranger]: unknown/5 stands at (395, 420, 0°)" in plan.err and "`pico import`" in plan.err
+    drift = pico("drift")  # HEAD still has the part
+    assert drift.code == 0 and "~ p2 turned +30°" in " ".join(drift.out.split()) and "lx_125" not in drift.out
