@@ -33,7 +33,7 @@ def read(root: Path) -> OwnLab | None:
         document = json.loads(path.read_bytes())
     except FileNotFoundError:
         return None
-    except (OSError, ValueError) as exc:
+    except (OSError, ValueError, RecursionError) as exc:
         raise PicoError(error("bench-lab", f"{path} can't be read: {exc}", hint=_HINT)) from exc
     try:
         if document["schema"] != SCHEMA:

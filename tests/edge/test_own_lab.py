@@ -159,7 +159,7 @@ def test_nobody_adopts_while_the_bench_is_in_use(lab: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[]", '{"schema": "pico.bench-lab/v9"}', '{"schema": "pico.bench-lab/v1", "files": 3}']
+    "text", ["", "[]", "[" * 100_000, '{"schema": "pico.bench-lab/v9"}', '{"schema": "pico.bench-lab/v1", "files": 3}']
 )
 def test_a_kept_lab_that_cannot_be_read_is_told_with_its_file(tmp_path: Path, text: str) -> None:
     (tmp_path / ".pico").mkdir()
