@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from pico.drawing.beams import Place
 from pico.drawing.conflict_marks import Mark
 from pico.drawing.film.film import Caption
 from pico.drawing.steps import DrawnStep
+from pico.model.catalog import ComponentType, Geometry
 from pico.model.diff import Change, show_value
 from pico.model.event import Event
-from pico.model.lab import Setup
+from pico.model.lab import Part, Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
@@ -26,7 +28,7 @@ from pico.twin.placement import Placement
 def places(setup: Setup, seen: Observation, in_space: Mapping[str, Placement]) -> dict[str, Place]:
     """Return where to draw each component: as observed; one in a gripper or on its side where it is in space, as far
     as the backend knows that."""
-    found: dict[str, Place] = {}
+    found: dict[str, Place] = {name: thing.pose for name, thing in seen.unknown.items() if name in setup.lab.inventory}
     for name, part in seen.components.items():
         if name not in setup.lab.inventory:
             continue
@@ -35,6 +37,16 @@ def places(setup: Setup, seen: Observation, in_space: Mapping[str, Placement]) -
         elif part.presence in ("held", "toppled") and name in in_space:
             found[name] = in_space[name]
     return found
+
+
+def with_strangers(setup: Setup, seen: Observation) -> Setup:
+    """Return the bench as it is drawn: with what stands there and is in no inventory, as blocks of its outline."""
+    types, parts = dict(setup.catalog), dict(setup.lab.inventory)
+    for name, thing in seen.unknown.items():
+        shape = Geometry(footprint=thing.footprint, height=thing.height, mass=0.0)
+        types[name] = ComponentType(name=name, title="not in the inventory", geometry=shape)
+        parts[name] = Part(type=name, pose=thing.pose)
+    return Setup(lab=replace(setup.lab, inventory=parts), catalog=types)
 
 
 def standing(setup: Setup, state: LabState) -> dict[str, Place]:

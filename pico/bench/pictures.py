@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pico.drawing.beams import Place
     from pico.drawing.picture import Image, View
     from pico.drawing.ruler import Measured
+    from pico.model.lab import Setup
     from pico.motion.types import Joints
     from pico.optics.axis import Values
     from pico.twin.placement import Placement
@@ -48,12 +49,12 @@ class Pictures:
         if plan is True:
             plan = Plans(self.opened).plan(revision)
         drawn = plan if isinstance(plan, Plan) else None
-        poses, joints, values = self._live()
+        setup, poses, joints, values = self._live()
         if not drawn and (revision or manifest):
             state = self.folder.state_at(revision) if revision else self.folder.state
             poses, values = standing(self.folder.setup, state), wanted(state)
         image = render(
-            self.folder.setup,
+            setup,
             poses,
             joints,
             view=view,
@@ -74,13 +75,13 @@ class Pictures:
         from pico.bench.picture_contents import standing, wanted
         from pico.drawing.sheet import sheet
 
-        poses, _, values = self._live()
+        setup, poses, _, values = self._live()
         title = self.opened.history.head_name()
         if revision or manifest:
             state = self.folder.state_at(revision) if revision else self.folder.state
             poses, values = standing(self.folder.setup, state), wanted(state)
             title = self.opened.history.name_of(revision) if revision else "the manifest"
-        return sheet(self.folder.setup, poses, subtitle=title, values=values)
+        return sheet(setup, poses, subtitle=title, values=values)
 
     def render_diff(self, a: str | None = None, b: str | None = None, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of how state `a` (HEAD) becomes `b` (the manifest), numbered
@@ -101,15 +102,15 @@ class Pictures:
         `pico.drawing.ruler`; raises PicoError."""
         from pico.drawing.ruler import measure
 
-        poses, joints, values = self._live()
-        return measure(self.folder.setup, poses, joints, a, b, values)
+        setup, poses, joints, values = self._live()
+        return measure(setup, poses, joints, a, b, values)
 
     def render_ruler(self, measured: Measured, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of what `ruler` found."""
         from pico.drawing.picture import render, write_png
 
-        poses, joints, values = self._live()
-        image = render(self.folder.setup, poses, joints, view="top", dimensions=measured.dimensions, values=values)
+        setup, poses, joints, values = self._live()
+        image = render(setup, poses, joints, view="top", dimensions=measured.dimensions, values=values)
         if out is not None:
             write_png(image, out)
         return image
@@ -120,16 +121,18 @@ class Pictures:
         from pico.drawing.viewer import view
 
         def now() -> tuple[Mapping[str, Placement], Mapping[str, Joints]]:
-            poses, joints, _ = self._live()
-            return placed(poses), joints
+            _, poses, joints, _ = self._live()
+            return placed({name: at for name, at in poses.items() if name in setup.lab.inventory}), joints
 
-        view(self.folder.setup, now)
+        setup = self._live()[0]
+        view(setup, now)
 
-    def _live(self) -> tuple[dict[str, Place], dict[str, Joints], Values]:
-        """Return where components are, the joints of each robot, and what is known of tunables."""
-        from pico.bench.picture_contents import places
+    def _live(self) -> tuple[Setup, dict[str, Place], dict[str, Joints], Values]:
+        """Return the bench with strangers on it, where everything is, the joints of each robot, and known tunables."""
+        from pico.bench.picture_contents import places, with_strangers
 
         seen = self.opened.observe()
         in_space = self.opened.sim.placements() if self.opened.backend_name == SIMULATOR else {}
-        found = places(self.folder.setup, seen, in_space)
-        return found, {name: robot.joints for name, robot in seen.robots.items()}, seen.known_values
+        setup = with_strangers(self.folder.setup, seen)
+        found = places(setup, seen, in_space)
+        return setup, found, {name: robot.joints for name, robot in seen.robots.items()}, seen.known_values
