@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
-from .style import inert, paint
+from .style import inert, paint, wrap
 
 if TYPE_CHECKING:
     from pico.bench.updating import Proposal
@@ -19,6 +19,8 @@ def text(found: Proposal, *, adopted: bool) -> str:
     if not found.new:
         return f"Nothing to adopt: the bench is what the lab's files describe ({_short(found.bench)})."
     lines = [_coloured(inert(line)) for line in found.patch.splitlines()]
+    if not found.bench:
+        return "\n".join([*lines, "", *wrap(f"{inert(found.differences[0])}.", "")])
     return "\n".join(lines if found.differences else [*lines, "", "Only words differ: plans stay what they are."])
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
 from pico.bench.running.loop import LoopThread
+from pico.diagnostics import PicoError
 from pico.edge import own_lab
 from pico.edge.link.opening import opened
 from pico.edge.link.opening import own_lab as kept
@@ -44,8 +45,15 @@ def proposal(root: Path) -> Proposal:
     """Return what the working tree of the lab in `root` proposes; nothing new where its bench keeps no Lab yet. Raises
     PicoError for what is wrong with either."""
     tree = own_lab.proposed(root)
-    own = kept(root) or tree
-    wanted, now = own_lab.setup_of(tree), own_lab.setup_of(own)
+    wanted = own_lab.setup_of(tree)
+    try:
+        own = kept(root) or tree
+        now = own_lab.setup_of(own)
+    except PicoError as exc:
+        if exc.diagnostics[0].code != own_lab.CODE:
+            raise
+        lost = exc.diagnostics[0].summary
+        return Proposal(bench="", tree=wanted.digest(), differences=(lost,), patch="".join(_patch({}, tree.files)))
     patch = "".join(_patch(own.files, tree.files))
     return Proposal(bench=now.digest(), tree=wanted.digest(), differences=tuple(edited(now, wanted)), patch=patch)
 
@@ -53,8 +61,14 @@ def proposal(root: Path) -> Proposal:
 def update(root: Path, backend: str) -> None:
     """Let the bench of the lab in `root` adopt what the working tree describes; raises PicoError as `Edge.adopt`."""
     tree = own_lab.proposed(root)
-    own = kept(root) or tree
-    setup, thread = own_lab.setup_of(own), LoopThread()
+    try:
+        own = kept(root) or tree
+        setup = own_lab.setup_of(own)
+    except PicoError as exc:
+        if exc.diagnostics[0].code != own_lab.CODE:
+            raise
+        own, setup = tree, own_lab.setup_of(tree)
+    thread = LoopThread()
     edge = opened(setup, root, backend, setup.lab.sim.fidelity, own)
     try:
         thread.wait(edge.adopt(tree, DOING))

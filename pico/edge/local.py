@@ -40,6 +40,8 @@ OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
 KNOWN = 32
 """Runs whose events are kept in memory, for who follows them; the journal remembers all."""
+ADOPTING = "adopting"
+"""For which the bench is taken while it gets another Lab: one that can't be read is no reason not to."""
 _FIRST = Diagnostic(
     "note",
     "bench-lab",
@@ -102,7 +104,7 @@ class LocalEdge:
     async def adopt(self, lab: OwnLab, holder: str) -> None:
         """Take another Lab as the bench's own; see `pico.edge.protocol.Edge`."""
         setup = own_lab.setup_of(lab)
-        await self._acquire(holder, 0.0, "adopting")
+        await self._acquire(holder, 0.0, ADOPTING)
         try:
             await self._require_hands(setup)
             self._keep(lab, holder)
@@ -177,7 +179,11 @@ class LocalEdge:
         self._halted = False
         try:
             self._require_kept()
-            self._require_own(holder)
+            try:
+                self._require_own(holder)
+            except PicoError as exc:
+                if run != ADOPTING or exc.diagnostics[0].code != own_lab.CODE:
+                    raise
             await self.device.take(lease.token, self._heard)
             self._attempts, self._lease = Attempts(self.journal, self.device, lease.token), lease
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)

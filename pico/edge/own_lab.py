@@ -1,16 +1,18 @@
 """The Lab that a bench itself keeps, with its component types: plan and apply go by it, whatever the working tree says.
 
-It is `lab.json` beside the journal: the manifest files that describe the bench, as text. The edge writes it.
+It is `lab.json` beside the journal: the manifest files that describe the bench, as text. The edge writes it, and writes
+its SHA-256 into Git's own folder: a checkout overwrites whatever lies in `.pico` where somebody has committed that.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import bench_folder
+from pico.attachment import bench_folder, lab_place
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.edge.protocol import OwnLab
@@ -23,33 +25,79 @@ FILE = "lab.json"
 SCHEMA = "pico.bench-lab/v1"
 NAMED = "the bench's own "
 """What stands before the names of its files in diagnostics."""
-_HINT = f"delete `.pico/{FILE}`, and the bench adopts what the working tree describes the next time that it moves"
+SEALS = "labs.json"
+"""In `pico` of the folder that all worktrees share: the digests of the Labs that benches keep, by the lab's folder."""
+CODE = "bench-lab"
+_HINT = "`pico bench update` shows what the working tree describes, and lets the bench adopt that"
 
 
 def read(root: Path) -> OwnLab | None:
     """Return the Lab that the bench of the lab in `root` keeps, None where it keeps none yet; raises PicoError."""
     path = bench_folder(root) / FILE
     try:
-        document = json.loads(path.read_bytes())
-    except FileNotFoundError:
-        return None
+        data = path.read_bytes() if path.exists() else None
+        _require_sealed(root, path, data)
+        if data is None:
+            return None
+        document = json.loads(data)
     except (OSError, ValueError, RecursionError) as exc:
-        raise PicoError(error("bench-lab", f"{path} can't be read: {exc}", hint=_HINT)) from exc
+        raise PicoError(error(CODE, f"{path} can't be read: {exc}", hint=_HINT)) from exc
     try:
         if document["schema"] != SCHEMA:
             text = f"{path} is {str(document['schema'])[:40]}, and this PICO reads {SCHEMA}"
-            raise PicoError(error("bench-lab", text, hint="update PICO"))
+            raise PicoError(error(CODE, text, hint="update PICO"))
         files = {str(name): str(text) for name, text in document["files"].items()}
         return OwnLab(files=files, by=str(document["by"]), at=str(document["at"]))
     except (KeyError, TypeError, AttributeError) as exc:
-        raise PicoError(error("bench-lab", f"{path} is no Lab of a bench", hint=_HINT)) from exc
+        raise PicoError(error(CODE, f"{path} is no Lab of a bench", hint=_HINT)) from exc
 
 
 def write(root: Path, lab: OwnLab) -> None:
     """Let the bench of the lab in `root` keep a Lab, whole or not at all; raises PicoError."""
     document = {"schema": SCHEMA, "by": lab.by, "at": lab.at, "files": dict(lab.files)}
-    path = bench_folder(root) / FILE
-    write_whole(path, (json.dumps(document, indent=1) + "\n").encode())
+    data = (json.dumps(document, indent=1) + "\n").encode()
+    before = _seals(root)
+    _seal(root, [*before, _digest(data)])  # either counts until the file is there
+    write_whole(bench_folder(root) / FILE, data)
+    _seal(root, [_digest(data)])
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+def _require_sealed(root: Path, path: Path, data: bytes | None) -> None:
+    """Raise PicoError where a Lab is not the one that the bench wrote, or is gone while its journal is there: a whole
+    bench may be thrown away. Outside Git nothing tells."""
+    sealed = _seals(root)
+    if lab_place(root) is None or (data is not None and _digest(data) in sealed):
+        return
+    if data is None and not (sealed and path.with_name("journal.sqlite").exists()):
+        return
+    how = "is gone" if data is None else "is not what the bench wrote there: a commit may have brought it"
+    raise PicoError(error(CODE, f"{path} {how}, so nobody knows what this bench is", hint=_HINT))
+
+
+def _seals(root: Path) -> list[str]:
+    place = lab_place(root)
+    try:
+        known = json.loads((place.common / "pico" / SEALS).read_bytes()) if place else {}
+        return [str(digest) for digest in known.get(place.inside, ())] if place else []
+    except (OSError, ValueError, AttributeError, TypeError):
+        return []
+
+
+def _seal(root: Path, digests: Sequence[str]) -> None:
+    place = lab_place(root)
+    if place is None:
+        return
+    path = place.common / "pico" / SEALS
+    try:
+        known = dict(json.loads(path.read_bytes()))
+    except (OSError, ValueError, TypeError):
+        known = {}
+    data = json.dumps({**known, place.inside: list(digests)}, indent=1, sort_keys=True) + "\n"
+    write_whole(path, data.encode(), folders=True)
 
 
 def proposed(root: Path) -> OwnLab:
@@ -73,6 +121,6 @@ def setup_of(lab: OwnLab) -> Setup:
     read = load_files({before + name: data for name, data in lab.as_bytes().items()})
     wrong = [d for d in read.diagnostics if d.severity == "error" and d.code != "no-state"]
     if read.setup is None or wrong:
-        kept = error("bench-lab", "what the bench keeps as its own Lab can't be used", hint=_HINT)
+        kept = error(CODE, "what the bench keeps as its own Lab can't be used", hint=_HINT)
         raise PicoError([kept, *(wrong or read.diagnostics)] if lab.at else wrong or read.diagnostics)
     return read.setup

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from collections.abc import Iterator
 from contextlib import nullcontext
@@ -15,6 +16,7 @@ from pico.bench import updating
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge import own_lab
+from pico.edge.protocol import OwnLab
 from pico.history.examples.example import make_example
 
 KEEP_OUT = "keep_out:\n  pillar: {area: {x: [500, 540], y: [400, 440]}, reason: a pillar}\n"
@@ -178,5 +180,46 @@ def test_a_kept_lab_that_makes_no_sense_any_more_says_how_to_get_on(tmp_path: Pa
     own_lab.write(root, replace(kept, files={"lab.yaml": kept.files["lab.yaml"].replace("table:", "tabel:")}))
     with pytest.raises(PicoError) as refused:
         Bench.open(root)
-    assert "delete `.pico/lab.json`" in refused.value.diagnostics[0].hint
+    assert "`pico bench update`" in refused.value.diagnostics[0].hint
     assert any(str(d.source).startswith("the bench's own lab.yaml:") for d in refused.value.diagnostics)
+
+
+@pytest.mark.parametrize("what", ["another", "gone"])
+def test_a_commit_can_neither_replace_nor_take_away_what_the_bench_keeps(tmp_path: Path, what: str) -> None:
+    root = make_example("shel", tmp_path / "shel").root
+    with Bench.open(root) as bench:
+        bench.apply("e1")
+    path = root / ".pico" / "lab.json"
+    mine = path.read_bytes()
+    if what == "gone":
+        path.unlink()
+    else:
+        path.write_bytes(mine.replace(b"seed: 1", b"seed: 2"))
+        assert path.read_bytes() != mine
+    for _ in range(2):
+        with pytest.raises(PicoError) as refused:
+            Bench.open(root)
+        assert "`pico bench update`" in refused.value.diagnostics[0].hint
+    found = updating.proposal(root)
+    assert found.new and not found.bench and "+kind: Lab" in found.patch
+    updating.update(root, "sim")
+    with Bench.open(root) as bench:
+        assert bench.apply("e2").outcome == "done"
+    kept = own_lab.read(root)
+    assert kept is not None and kept.files["lab.yaml"] == (root / "lab.yaml").read_text()
+
+
+def test_what_git_does_not_hold_is_told_by_nothing(tmp_path: Path) -> None:
+    (tmp_path / ".pico").mkdir()
+    own_lab.write(tmp_path, OwnLab(files={"lab.yaml": "a: 1\n"}, by="me", at="now"))
+    assert own_lab.read(tmp_path) is not None
+
+
+def test_who_throws_the_whole_bench_away_gets_a_new_one(tmp_path: Path) -> None:
+    root = make_example("shel", tmp_path / "shel").root
+    with Bench.open(root) as bench:
+        bench.apply("e1")
+    shutil.rmtree(root / ".pico")
+    edit(root / "lab.yaml", "seed: 1", "seed: 2")
+    with Bench.open(root) as bench:
+        assert bench.setup.lab.sim.seed == 2 and bench.apply("e2").outcome == "done"
