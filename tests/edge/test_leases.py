@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
@@ -11,15 +13,18 @@ from typing import Any
 import pytest
 from serving import served
 
+from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge import local
-from pico.edge.link import place
+from pico.edge.link import client, place
 from pico.edge.link.client import RemoteEdge
 from pico.edge.link.server import edge_of
 from pico.edge.protocol import Asking, Edge, Job
 from pico.edge.stopping import ask_to_stop
 from pico.history.examples.example import make_example
+from pico.model.event import Event
 from pico.model.operation import Operation, Reason
+from pico.model.report import RunReport
 from pico.planning import set_one
 
 Acting = Callable[[Callable[[Edge], Awaitable[Any]]], Any]
@@ -110,3 +115,42 @@ def test_only_the_last_runs_are_kept_for_who_follows_them(tmp_path: Path, monkey
         await edge.close()
 
     asyncio.run(act())
+
+
+def test_who_follows_a_run_hears_what_became_of_it_where_the_server_is_told_to_end(tmp_path: Path) -> None:
+    root = make_example("shel", tmp_path / "shel").root
+    with Bench.open(root) as planning:
+        plan = planning.plan("e1")
+
+    async def act(server: int) -> tuple[list[Event], RunReport]:
+        path = place.find(root)
+        assert path is not None
+        edge, events = RemoteEdge(path), []
+        await edge.start(Job(plan=plan, holder="test"), "r1")
+        async for event in edge.events("r1"):
+            events.append(event)
+            if event.kind == "operation_started" and event.data["primitive"] == "move":
+                os.kill(server, signal.SIGTERM)
+        with pytest.raises(PicoError, match="about to end"):
+            await edge.acquire("another")
+        return events, await edge.report("r1")
+
+    with served(root) as server:
+        events, report = asyncio.run(act(server))
+    assert events[-1].data["outcome"] == report.outcome == "interrupted"
+
+
+def test_an_edge_that_stands_still_is_not_waited_for_without_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client, "ANSWER", 0.2)
+    root = make_example("shel", tmp_path / "shel").root
+    with served(root) as server, Bench.open(root) as bench:
+        assert bench.observe()
+        os.kill(server, signal.SIGSTOP)
+        try:
+            for ask in (bench.observe, lambda: bench.edge.memory):
+                with pytest.raises(PicoError, match="the edge does not answer"):
+                    ask()
+        finally:
+            os.kill(server, signal.SIGCONT)

@@ -31,13 +31,19 @@ if TYPE_CHECKING:
 
 def _gone(exc: Exception) -> PicoError:
     hint = "its run goes on by itself, if it lives; `pico status` shows what it did"
-    return PicoError(error("link", f"the edge does not answer: {exc}", hint=hint))
+    return PicoError(error("link", f"the edge does not answer: {str(exc) or 'nothing came in time'}", hint=hint))
 
 
 def _value(name: str, data: bytes) -> Any:
     if not data:
         raise _gone(EOFError("it ended the connection"))
     return wire.read_answer(name, data)[1]
+
+
+ANSWER = 60.0
+"""Seconds in which an edge answers what it does not have to move for."""
+LASTING = frozenset({"execute", "start", "report", "cancel", "halt", "stop", "adopt"})
+"""Calls that last as long as something moves, or waits for the bench."""
 
 
 class Line:
@@ -58,6 +64,7 @@ class Line:
         asked = self.written(name, *arguments)
         try:
             with socket.socket(socket.AF_UNIX) as link:
+                link.settimeout(ANSWER)
                 link.connect(str(self._path))
                 link.sendall(asked)
                 with link.makefile("rb") as answer:
@@ -185,8 +192,9 @@ class RemoteEdge:
         reader, writer = await self._connect()
         try:
             writer.write(asked)
-            return _value(name, await reader.readline())
-        except OSError as exc:
+            async with asyncio.timeout(None if name in LASTING else ANSWER):
+                return _value(name, await reader.readline())
+        except OSError as exc:  # a timeout is one
             raise _gone(exc) from exc
         finally:
             writer.close()

@@ -27,6 +27,11 @@ from pico.edge.protocol import Lease
 from pico.model.record import as_json
 from pico.vision.calibration import Calibration
 
+FAREWELL = 2.0
+"""Seconds in which those who follow a run may ask what became of it, once the edge is to end."""
+READING = frozenset({"events", "report", "film", "describe", "holder", "observe", "unended", "lab", "array"})
+"""Calls that are answered until then."""
+
 
 class Server:
     """Serves `edge` at a socket, until it is closed."""
@@ -37,6 +42,7 @@ class Server:
         self._arrays: Arrays = {}
         self._server: asyncio.Server | None = None
         self._clients: set[asyncio.Task[Any]] = set()
+        self._ending = False
 
     async def open(self) -> None:
         """Begin to serve; raises PicoError where somebody else serves this bench."""
@@ -52,11 +58,16 @@ class Server:
         place.announce(self._edge.root, self._path)
 
     async def close(self) -> None:
-        """Serve no more, and bring what is under way to its safe end."""
+        """Bring what is under way to its safe end, let who follows it hear what became of it, and serve no more."""
+        self._ending = True
+        await self._edge.close()
+        with suppress(TimeoutError):
+            async with asyncio.timeout(FAREWELL):
+                while self._clients:
+                    await asyncio.sleep(FAREWELL / 20)
         place.withdraw(self._edge.root, self._path)
         if self._server is not None:
             self._server.close()
-        await self._edge.close()
         for client in self._clients:
             client.cancel()
 
@@ -93,6 +104,8 @@ class Server:
         """Yield the lines that answer a call."""
         try:
             name, arguments = wire.read_call(data)
+            if self._ending and name not in READING and not name.startswith("memory"):
+                raise PicoError(error("link", "the edge is about to end", hint="start it again, then call this again"))
             if name in wire.STREAMS:
                 async for item in self._edge.events(*arguments):
                     yield {"next": as_json(item)}
