@@ -134,6 +134,8 @@ class LocalEdge:
         elif kept.files != self._lab.files:
             text = "the bench's own Lab was changed since this command read it"
             raise PicoError(error("stale", text, hint="call it again: it plans anew"), ExitCode.STALE)
+        elif not own_lab.is_sealed(self.root):  # the lab became a repository since
+            own_lab.write(self.root, kept)
 
     # looking
 

@@ -70,12 +70,17 @@ def _require_sealed(root: Path, path: Path, data: bytes | None) -> None:
     """Raise PicoError where a Lab is not the one that the bench wrote, or is gone while its journal is there: a whole
     bench may be thrown away. Outside Git nothing tells."""
     sealed = _seals(root)
-    if lab_place(root) is None or (data is not None and _digest(data) in sealed):
+    if not sealed or (data is not None and _digest(data) in sealed):
         return
-    if data is None and not (sealed and path.with_name("journal.sqlite").exists()):
+    if data is None and not path.with_name("journal.sqlite").exists():
         return
     how = "is gone" if data is None else "is not what the bench wrote there: a commit may have brought it"
     raise PicoError(error(CODE, f"{path} {how}, so nobody knows what this bench is", hint=_HINT))
+
+
+def is_sealed(root: Path) -> bool:
+    """Return whether Git's folder knows what the bench of the lab in `root` keeps; outside Git there is nothing to."""
+    return bool(_seals(root)) or lab_place(root) is None
 
 
 def _seals(root: Path) -> list[str]:

@@ -108,17 +108,29 @@ class Placed:
 def distance(one: Placed, other: Placed, enough: float) -> float:
     """Return a proven lower bound of the distance of two hulls [m], zero where they meet; where the first one is below
     `enough` the best of several, which is the distance itself to 0.05 mm."""
-    best = _proven(one, other)
-    if best is None or best >= enough:
-        return best or 0.0
-    for look in (lambda: _proven(other, one), *(_nudged(one, other, _NUDGE * axis) for axis in np.eye(3))):
-        bound = look()
-        if bound is None:
-            return 0.0
-        best = max(best, bound)
+    best = 0.0
+    for look in (
+        lambda: _proven(one, other),
+        lambda: _along_axes(one, other),
+        lambda: _proven(other, one),
+        *(_nudged(one, other, _NUDGE * axis) for axis in np.eye(3)),
+    ):
+        best = max(best, look() or 0.0)  # where fcl sees them meet it may be wrong, a plane between them is not
         if best >= enough:
             break
-    return max(0.0, best)
+    return best
+
+
+def _along_axes(one: Placed, other: Placed) -> float:
+    """Return by how much a plane along the axes of either hull's own frame separates the two; negative for none."""
+    axes = [sign * axis for turn in (one.turn, other.turn) for axis in turn.T for sign in (1.0, -1.0)]
+    return max(_apart(one, other, n) for n in axes)
+
+
+def _apart(one: Placed, other: Placed, n: Array) -> float:
+    """Return how much room two hulls leave along the unit vector `n`, from the first to the second; negative: none."""
+    mine, its = (n @ one.turn).tolist(), (-n @ other.turn).tolist()
+    return float(n @ (other.center - one.center)) - one.hull.support(mine) - other.hull.support(its)
 
 
 def _nudged(one: Placed, other: Placed, nudge: Array) -> Any:
@@ -141,10 +153,7 @@ def _proven(one: Placed, other: Placed) -> float | None:
     if found <= 0.0:
         return None
     p, q = result.nearest_points
-    n = (q - p) / max(float(np.linalg.norm(q - p)), 1e-12)
-    apart = float(n @ (other.center - one.center))
-    mine, its = (n @ one.turn).tolist(), (-n @ other.turn).tolist()
-    return apart - one.hull.support(mine) - other.hull.support(its)
+    return _apart(one, other, (q - p) / max(float(np.linalg.norm(q - p)), 1e-12))
 
 
 def of_shapes(part: str, shapes: Iterable[LinkShape], inset: float) -> list[Hull]:

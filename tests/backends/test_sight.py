@@ -92,7 +92,7 @@ def test_what_was_pushed_is_seen_where_it_is_and_what_was_taken_is_missing(tmp_p
     assert seen.components["p1"].presence == "missing" and seen.components["p1"].pose is None
     (text,) = said(seen, "marker-hidden")
     assert text.startswith("p1: no camera sees its marker 2, and its place is in plain view: it was last at (1")
-    assert {c.component: c.before for c in drift_of(SETUP, seen, STATE)}["p1"] is None
+    assert {c.component: c.after for c in drift_of(SETUP, seen, STATE)}["p1"] is None
 
 
 UNDER = Pose(470, 590, 0)
