@@ -41,7 +41,7 @@ def test_the_tour_runs_as_written(tmp_path: Path) -> None:
     (script,) = blocks("python")
     python = subprocess.run(
         [sys.executable, "-c", script],
-        cwd=tmp_path,
+        cwd=tmp_path / "bench",  # where the tour has led to
         env=environment(tmp_path),
         text=True,
         capture_output=True,

@@ -70,6 +70,8 @@ def _summary(status: Status) -> list[str]:
     ]
     said = " · ".join(words for number, words in parts if number)
     if not said:
+        if all(row.committed is None for row in status.rows):
+            return ['The bench is as the manifest says; nothing is committed yet: `pico commit -m "why"`.']
         return ["Committed, desired and live are equal."]
     advice = []
     if pending or drifts:

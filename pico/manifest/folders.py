@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import write_all
-from pico.manifest.catalog import catalog_names, load_catalog, unknown_type
+from pico.manifest.catalog import catalog_names, load_catalog, read_type, unknown_type
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, find_lab, load_files, load_folder
 from pico.model.catalog import Catalog, ComponentType
@@ -153,11 +153,11 @@ def _manifests(root: Path) -> dict[str, str]:
 def catalog_of(start: Path) -> Catalog:
     """Return the packaged component types, and the own ones of the lab that `start` lies in, where there is one."""
     try:
-        setup = load_folder(find_lab(start)).setup
+        documents = load_folder(find_lab(start)).documents.get("ComponentType", ())
     except PicoError:
-        setup = None
-    own = {n: kind for n, kind in setup.catalog.items() if n not in catalog_names()} if setup else {}
-    return load_catalog(extra=own)
+        documents = ()
+    own = {kind.name: kind for document in documents if (kind := read_type(document)[0]) is not None}
+    return load_catalog(extra={name: kind for name, kind in own.items() if name not in catalog_names()})
 
 
 def component_type(start: Path, name: str) -> ComponentType:

@@ -96,3 +96,12 @@ def test_a_part_that_left_the_inventory_is_a_stranger_that_status_and_plan_name(
         assert Path("with.png").read_bytes() != Path("without.png").read_bytes()
     assert pico("render", "--out", "bench.svg").code == 0 and "unknown/5" in Path("bench.svg").read_text()
     assert pico("ruler", "unknown/5", "p1").code == 0
+
+
+def test_before_the_first_commit_nothing_is_called_committed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico
+) -> None:
+    assert pico("init", str(tmp_path / "bench")).code == 0
+    monkeypatch.chdir(tmp_path / "bench")
+    assert pico("apply", "--auto-approve").code == 0
+    assert "nothing is committed yet" in pico("status").out

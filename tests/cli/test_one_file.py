@@ -175,3 +175,12 @@ def test_a_slot_that_no_arm_reaches_is_told(tmp_path: Path, pico: Pico, monkeypa
     answer = pico("validate")
     assert answer.code == 0 and "warning[slot-reach]: no arm reaches storage/z9" in " ".join(answer.err.split())
     assert answer.err.count("slot-reach") == 1
+
+
+def test_a_labs_own_type_is_shown_before_any_part_uses_it(tmp_path: Path, pico: Pico) -> None:
+    lab = tmp_path / "lab"
+    shutil.copytree(labs_dir() / "minimal", lab)
+    page = (ROOT / "docs" / "how-to" / "component-type.md").read_text().split("```yaml\n")[1].split("```")[0]
+    (lab / "pinhole_25.yaml").write_text(page)
+    assert "Pinhole 25 um on a post" in pico("-C", str(lab), "catalog", "show", "pinhole_25").out
+    assert "pinhole_25" in pico("-C", str(lab), "catalog", "list").out
