@@ -105,9 +105,12 @@ def test_a_reader_that_fails_ends_the_run_safely_and_gives_the_bench_back(
 
     monkeypatch.setattr(Execution, "halt", halts)
 
+    heard: list[Event] = []
+
     def waits(event: Event) -> None:
-        if event.kind == "operation_progress":
-            halted.wait(60)
+        heard.extend([event] if event.kind == "operation_progress" else ())
+        if len(heard) > 1:  # the reader has the first one by then, and fails
+            assert halted.wait(60)
 
     run = Execution(planned, Overheard(edge, waits), thread)
     with pytest.raises(ZeroDivisionError):
