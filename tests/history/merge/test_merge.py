@@ -116,6 +116,14 @@ def test_comments_of_both_sides_at_one_value_are_kept() -> None:
     assert found.clean and b"# glued" in found.data and b"# loose" in found.data and b"1.5" in found.data
 
 
+def test_what_each_side_adds_to_the_comments_of_one_entry_is_there_whoever_merges() -> None:
+    ours = BASE.replace("  # the source\n", "  # the source\n  # by us\n").replace("x: 120", "x: 130")
+    theirs = BASE.replace("  # the source\n", "  # the source\n  # by them\n").replace("tilt: 2", "tilt: 3")
+    for found in (merged(ours, theirs), merged(theirs, ours)):
+        assert not found.conflicts
+        assert all(found.data.decode().count(f"# {who}") == 1 for who in ("the source", "by us", "by them"))
+
+
 def test_a_comment_on_what_the_other_side_took_out_survives() -> None:
     found = merged(BASE.replace("    tilt: 2\n", ""), BASE.replace("    tilt: 2\n", "    tilt: 2  # drifts\n"))
     assert found.clean and b"# drifts" in found.data and ("m1", "tilt") not in state(found.data.decode())
