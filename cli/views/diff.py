@@ -97,11 +97,11 @@ def _symbol(change: Change) -> str:
         return paint("yellow", "~")
     if isinstance(change.after, str):
         return paint("yellow", "-")
-    return paint("green", "+") if isinstance(change.before, str) else paint("yellow", "~")
+    return paint("green", "+") if isinstance(change.before, str) and change.after is not None else paint("yellow", "~")
 
 
 def _ends(change: Change) -> str:
-    if change.tunable != "pose" or change.before is None:
+    if change.tunable != "pose" or change.before is None or change.after is None:
         return ""
     if isinstance(change.before, str) and not isinstance(change.after, str):
         return f"from {change.before}"

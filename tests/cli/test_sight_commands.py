@@ -35,7 +35,7 @@ def test_what_was_pushed_or_taken_is_seen_told_and_repaired(seeing: Path, pico: 
     assert parts["p2"]["pose"]["yaw"] == pytest.approx(4, abs=0.1)
     assert parts["lx_100"]["presence"] == "missing"
     told = pico("drift")
-    assert re.search(r"~ p2 +moved [56]\.?\d* mm \(dx -[56].*turned -[34]", told.out)
+    assert re.search(r"~ p2 +moved [56]\.?\d* mm \(dx \+[56].*turned \+[34]", told.out)
     assert "lx_100  nobody sees it; it belongs in storage/a1" in told.out
     assert "only you can put right: lx_100" in told.out
     assert "p2" in pico("apply", "--auto-approve").out
