@@ -58,7 +58,7 @@ def commits_with_a_run(folder: Path, repeat: int) -> list[float]:
     """Turn a part and commit that, several times; return the seconds of each commit."""
     seconds = []
     for i in range(repeat):
-        subprocess.run([PICO, "set", "c00005", f"angle={10 + i}"], cwd=folder, check=True, capture_output=True)
+        subprocess.run([PICO, "set", "c00005", f"angle={10 + i}", "--yes"], cwd=folder, check=True, capture_output=True)
         seconds.append(measure([PICO, "commit", "--capture", "-m", f"turned {i}"], folder)[0])
     return seconds
 

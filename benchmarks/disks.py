@@ -190,7 +190,7 @@ def stranger(_: Any, lab: Path) -> None:
 
 
 NUDGED = ("sim", "nudge", "p2", "--dx", "5")
-RUN = (("set", "p1", "angle=12"), ("commit", "-m", "p1", "--capture"))
+RUN = (("set", "p1", "angle=12", "--yes"), ("commit", "-m", "p1", "--capture"))
 SIGHT = edit("lab.yaml", "sim:\n", "sim:\n  observe: sight\n")
 
 MINE = edit("state/table.yaml", "x: 520", "x: 530")
@@ -202,8 +202,8 @@ CASES: dict[str, Case] = {
     "apply": Case(("apply", "e1", "--auto-approve")),
     "capture": Case(("capture",), (NUDGED,)),
     "commit": Case(("commit", "-m", "bumped"), (NUDGED,)),
-    "set": Case(("set", "p1", "angle=20")),
-    "move": Case(("move", "p2", "x=500"), adds=True),
+    "set": Case(("set", "p1", "angle=20", "--yes")),
+    "move": Case(("move", "p2", "x=500", "--yes"), adds=True),
     "fmt": Case(("fmt",), (edit("state/table.yaml", "    pose:\n", "    pose:  \n"),)),
     "init": Case(("init", "other"), new=True),
     "init --example": Case(("init", "--example", "minimal", "other"), new=True),

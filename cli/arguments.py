@@ -34,7 +34,7 @@ PlanOrRevision = Annotated[
 Fidelity = Annotated[
     str | None, typer.Option("--fidelity", metavar="kinematic|physics", help="How the simulator moves things.")
 ]
-Yes = Annotated[bool, typer.Option("--auto-approve", help="Do not ask.")]
+Yes = Annotated[bool, typer.Option("--auto-approve", "--yes", "-y", help="Do not ask.")]
 Exact = Annotated[bool, typer.Option("--exact", help="Move for differences below the tolerance, too.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write to FILE.")]

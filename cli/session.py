@@ -139,9 +139,12 @@ class Session:
             raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
 
     def confirm(self, question: str, auto_approve: bool) -> bool:
-        """Ask, unless told not to, and return whether the answer is yes. Nobody there to answer is a no."""
+        """Ask, unless told not to, and return whether the answer is yes. Raises PicoError where nobody can answer."""
         if auto_approve:
             return True
+        if sys.stdin is None or not sys.stdin.isatty():
+            hint = "add --auto-approve (or -y) where nobody sits at a terminal"
+            raise PicoError(error("usage", f"nobody can be asked here: {question.strip()}", hint=hint))
         write(sys.stdout, f"{question} [y/N] ", end="")
         try:
             answer = input()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,6 +22,13 @@ class Answer:
 
 
 Pico = Callable[..., Answer]
+
+
+class Typed(io.StringIO):
+    """What somebody types at a terminal, in place of `sys.stdin`."""
+
+    def isatty(self) -> bool:
+        return True
 
 
 def edit(path: Path, before: str, after: str) -> None:

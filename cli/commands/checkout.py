@@ -10,7 +10,7 @@ from pico.attachment import require_attached
 from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, LockTimeout, Scoped, Yes, scope_of
-from ..runs.approving import question, show
+from ..runs.approving import declined, show
 from ..runs.running import execute
 from ..session import Session
 from ..views import checkout as view
@@ -49,11 +49,10 @@ def checkout(
         return _files(session, bench, what, before)
     plan = bench.plans.checkout_plan(what)
     goal = bench.history.goal_name(plan) if isinstance(what, str) else view.goal(bench.history.name_of(revision))
-    if code := show(session, plan, auto_approve, head=bench.history.head_name(), goal=goal):
+    if code := show(session, bench, plan, auto_approve, head=bench.history.head_name(), goal=goal):
         return code
-    if plan.operations and not session.confirm("\n" + question(plan), auto_approve):
-        session.say("Nothing moved; the files are where they were.")
-        return ExitCode.ERROR
+    if code := declined(session, bench, plan, auto_approve, "Nothing moved; the files are where they were."):
+        return code
     return _go(session, bench, what, plan, before)
 
 

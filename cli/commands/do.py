@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, pairs
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, Yes, pairs
 from ..runs.approving import single
 from ..session import Session
 
@@ -21,6 +21,7 @@ def do(
     speed: Speed = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
+    auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Run one primitive of a component, through the same checks as a plan.
@@ -31,4 +32,4 @@ def do(
     from pico.model.primitive import primitive as known
 
     given = pairs(arguments, tuple(known(primitive).arguments))
-    return single(Session.of(context), component, primitive, given, speed, dry_run, fidelity)
+    return single(Session.of(context), component, primitive, given, speed, dry_run, fidelity, auto_approve)

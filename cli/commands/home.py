@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Yes
 from ..runs.approving import single
 from ..session import Session
 
@@ -17,9 +17,17 @@ def home(
     tunable: Annotated[str | None, typer.Argument(metavar="TUNABLE", help="Needed where there are several.")] = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
+    auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Home the axis of a tunable."""
     return single(
-        Session.of(context), component, "home", {"tunable": tunable} if tunable else {}, None, dry_run, fidelity
+        Session.of(context),
+        component,
+        "home",
+        {"tunable": tunable} if tunable else {},
+        None,
+        dry_run,
+        fidelity,
+        auto_approve,
     )

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Speed
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Speed, Yes
 from ..runs.approving import finish
 from ..session import Session
 
@@ -19,9 +19,10 @@ def place(
     speed: Speed = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
+    auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Place a component a distance after another along the beam."""
     session = Session.of(context)
     bench = session.bench(fidelity, speed, writing=not dry_run)
-    return finish(session, bench, bench.plans.place(component, after=after, distance=distance), dry_run)
+    return finish(session, bench, bench.plans.place(component, after=after, distance=distance), dry_run, auto_approve)

@@ -6,7 +6,7 @@ import typer
 
 from pico.diagnostics import PicoError, error
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, pairs
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, Yes, pairs
 from ..runs.approving import single
 from ..session import Session
 
@@ -20,6 +20,7 @@ def rotate(
     speed: Speed = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
+    auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Turn a component about the vertical.
@@ -29,4 +30,4 @@ def rotate(
     given = pairs(arguments, ("yaw",))
     if not given.keys() <= {"yaw", "by"} or len(given) != 1:
         raise PicoError(error("usage", "rotate takes one of `yaw=DEGREES` and `by=DEGREES`"))
-    return single(Session.of(context), component, "move", given, speed, dry_run, fidelity)
+    return single(Session.of(context), component, "move", given, speed, dry_run, fidelity, auto_approve)

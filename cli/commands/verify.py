@@ -42,7 +42,8 @@ def verify(
     taken: Mapping[str, Measurement] = {}
     plan = bench.plans.to_measure(revision) if measure else None
     if plan and plan.operations:
-        if code := show(session, plan, auto_approve, goal="measurements") or declined(session, plan, auto_approve):
+        code = show(session, bench, plan, auto_approve, goal="measurements")
+        if code := code or declined(session, bench, plan, auto_approve):
             return code
         report = ran(session, bench, plan)
         if report.exit_code:

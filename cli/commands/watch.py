@@ -6,6 +6,9 @@ from typing import Annotated
 
 import typer
 
+from pico.diagnostics import ExitCode
+
+from ..arguments import Yes
 from ..session import Session
 from ..views import watched as view
 
@@ -17,7 +20,13 @@ Heal = Annotated[
 ]
 
 
-def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None, heal: Heal = False) -> None:
+def watch(
+    context: typer.Context,
+    interval: Interval = 10.0,
+    looks: Looks = None,
+    heal: Heal = False,
+    auto_approve: Yes = False,
+) -> int:
     """Look at the bench again and again, and tell what leaves the last commit and what comes back.
 
     Moves nothing without --heal and needs no lock; Ctrl-C ends it. With --heal nothing is moved while somebody is at
@@ -25,6 +34,11 @@ def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None
     """
     session = Session.of(context)
     bench = session.bench(writing=heal)
+    session.require_answer(auto_approve or not heal)
+    asked = f"Bring back what drifts on {bench.backend_name} ({bench.fidelity}), each time without asking again?"
+    if heal and not session.confirm(asked, auto_approve):
+        session.say("Nothing moved.")
+        return ExitCode.ERROR
     try:
         for told in bench.drift.watch(interval=interval, looks=looks, heal=heal):
             if told.new:
@@ -33,3 +47,4 @@ def watch(context: typer.Context, interval: Interval = 10.0, looks: Looks = None
                 session.say(view.right(told))
     except KeyboardInterrupt:
         session.say("\nStopped watching; the bench is as it was." if not heal else "\nStopped watching.")
+    return ExitCode.DONE

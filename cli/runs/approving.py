@@ -6,15 +6,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import ExitCode
+from pico.policy.consent import asked_about, lights
 
 from ..session import Session
 from ..views import plan as plan_view
 from ..views import report as report_view
 from ..views import verified
+from ..views.style import count
 from .running import execute
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
+    from pico.model.lab import Setup
     from pico.model.plan import Plan
 
 
@@ -22,22 +25,29 @@ def approve(
     session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
 ) -> int:
     """Show a plan, ask, run it, and return the exit code; `options` are those of `Moves.run`."""
-    if code := show(session, plan, auto_approve, head=bench.history.head_name(), goal=bench.history.goal_name(plan)):
+    if code := show(
+        session, bench, plan, auto_approve, head=bench.history.head_name(), goal=bench.history.goal_name(plan)
+    ):
         return code
     if not plan.operations:
         bench.recovery.settle()
         return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
-    if code := declined(session, plan, auto_approve):
+    if code := declined(session, bench, plan, auto_approve):
         return code
     return execute(session, bench, plan, record, **options)
 
 
-def declined(session: Session, plan: Plan, auto_approve: bool) -> ExitCode:
-    """Ask whether a plan is to be run; return ERROR where somebody says no, else DONE."""
-    session.say("")
-    if session.confirm(question(plan), auto_approve):
+def declined(
+    session: Session, bench: Bench, plan: Plan, auto_approve: bool, otherwise: str = "Nothing moved."
+) -> ExitCode:
+    """Ask whether a plan is to be run, where it is one to be asked about; return ERROR where somebody says no, having
+    said what is so `otherwise`, else DONE."""
+    asked = question(bench.setup, plan)
+    if plan.operations:
+        session.say("")
+    if not asked or session.confirm(asked, auto_approve):
         return ExitCode.DONE
-    session.say("Nothing moved.")
+    session.say(otherwise)
     return ExitCode.ERROR
 
 
@@ -49,25 +59,25 @@ def single(
     speed: float | None,
     dry_run: bool,
     fidelity: str | None,
+    auto_approve: bool,
 ) -> int:
-    """Plan one operation and run it."""
+    """Plan one operation, show it, ask, and run it."""
     bench = session.bench(fidelity, speed, writing=not dry_run)
-    return finish(session, bench, bench.plans.single(component, primitive, arguments), dry_run)
+    return finish(session, bench, bench.plans.single(component, primitive, arguments), dry_run, auto_approve)
 
 
-def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool) -> int:
-    """Show and run the plan of one operation. Nobody is asked: the command named it."""
-    code = show(session, plan, single=True)
+def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool, auto_approve: bool) -> int:
+    """Show the plan of one operation, ask, and run it."""
+    code = show(session, bench, plan, auto_approve or dry_run, single=True)
     if code or dry_run or not plan.operations:
         return code
-    session.say("")
-    return execute(session, bench, plan)
+    return declined(session, bench, plan, auto_approve) or execute(session, bench, plan)
 
 
-def show(session: Session, plan: Plan, auto_approve: bool = True, **how: Any) -> ExitCode:
+def show(session: Session, bench: Bench, plan: Plan, auto_approve: bool, **how: Any) -> ExitCode:
     """Show a plan and what is wrong with it; return why it can't be run, or DONE. Raises PicoError where nobody can be
     asked; `how`: see `views.plan.text`."""
-    if plan.operations:
+    if question(bench.setup, plan):
         session.require_answer(auto_approve)
     session.show(plan_view, plan, **how)
     session.tell(plan.diagnostics)
@@ -85,11 +95,10 @@ def _expected(session: Session, bench: Bench, plan: Plan) -> int:
     return found.exit_code
 
 
-def question(plan: Plan) -> str:
-    """Return what is asked before anything moves."""
-    moved = len({op.component for op in plan.operations if op.kind.carries})
-    where = f"on {plan.backend} ({plan.fidelity})"
-    if moved:
-        return f"Move {moved} {'component' if moved == 1 else 'components'} {where}?"
-    steps = len(plan.operations)
-    return f"Run {steps} {'operation' if steps == 1 else 'operations'} {where}?"
+def question(setup: Setup, plan: Plan) -> str:
+    """Return what is asked before anything moves or light comes out; empty where neither happens."""
+    if not asked_about(setup, plan.operations):
+        return ""
+    light = ", ".join(lights(setup, plan.operations))
+    what = plan_view.tally(plan.operations) or count(len(plan.operations), "operation")
+    return f"Run {what} on {plan.backend} ({plan.fidelity}){f' and let light out ({light})' if light else ''}?"

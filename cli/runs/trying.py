@@ -10,6 +10,7 @@ from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import bisect as view
 from ..views.run import Progress
+from .approving import declined
 from .running import Screen, watched
 
 if TYPE_CHECKING:
@@ -52,9 +53,9 @@ def _try(session: Session, bench: Bench, search: Bisection, proposal: Proposal, 
     name = bench.history.name_of(proposal.commit)
     if not search.task.expect or (proposal.plan.operations and not auto_approve):
         session.show(view.Proposed, search, proposal, name)
-    if proposal.plan.operations and not session.confirm(view.question(proposal), auto_approve):
-        session.say(f"Nothing moved. {AGAIN}; `pico bisect skip` leaves this one out.")
-        return ExitCode.ERROR
+    said = f"Nothing moved. {AGAIN}; `pico bisect skip` leaves this one out."
+    if no := declined(session, bench, proposal.plan, auto_approve, said):
+        return no
     seconds, code = bring(session, bench, proposal.plan)
     if code:
         search.spent(proposal.commit, seconds, built=False)

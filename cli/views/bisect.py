@@ -139,14 +139,6 @@ class StepView:
         return {"schema": SCHEMA, "kind": "step", **as_json(found)}
 
 
-def question(proposal: Proposal) -> str:
-    """Return what is asked before the bench is brought to a configuration."""
-    moved = len({op.component for op in proposal.plan.operations if op.kind.carries})
-    where = f"on {proposal.plan.backend} ({proposal.plan.fidelity})"
-    what = f"Move {count(moved, 'component')}" if moved else f"Run {count(len(proposal.plan.operations), 'operation')}"
-    return f"{what} {where}?"
-
-
 def judge_it(name: str) -> str:
     """Return what a person has to do now."""
     return "\n".join(wrap(f"The bench stands as {name}. Look, then say `pico bisect good`, `bad` or `skip`.", ""))

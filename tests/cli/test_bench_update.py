@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from commanding import Pico, edit
+import pytest
+from commanding import Pico, Typed, edit
 
 
 def test_nothing_is_asked_where_nothing_differs(shel: Path, pico: Pico) -> None:
@@ -14,7 +15,9 @@ def test_nothing_is_asked_where_nothing_differs(shel: Path, pico: Pico) -> None:
     assert answer.code == 0 and "Nothing to adopt" in answer.out
 
 
-def test_the_difference_is_shown_and_adopted_only_with_consent(shel: Path, pico: Pico) -> None:
+def test_the_difference_is_shown_and_adopted_only_with_consent(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
     first = pico("apply", "--auto-approve")
     assert "note[bench-lab]" in first.err
     edit(shel / "lab.yaml", "seed: 1", "seed: 2")
@@ -23,6 +26,7 @@ def test_the_difference_is_shown_and_adopted_only_with_consent(shel: Path, pico:
         assert told.code == 0 and told.err.count("warning[bench-lab]") == 1 and "sim.seed 1 → 2" in told.err
     shown = pico("bench", "update", "--dry-run")
     assert shown.code == 0 and "+  seed: 2" in shown.out and "-  seed: 1" in shown.out
+    monkeypatch.setattr("sys.stdin", Typed("n\n"))
     refused = pico("bench", "update")
     assert refused.code == 1 and "the bench stays what it is" in refused.out
     assert "warning[bench-lab]" in pico("plan").err

@@ -37,7 +37,7 @@ def built(shel: Path, pico: Pico) -> Path:
 
 def test_without_a_message_it_says_what_moved(built: Path, pico: Pico) -> None:
     pico("sim", "nudge", "p2", "--dx", "5", "--dyaw", "30")
-    pico("set", "p1", "angle=1")
+    pico("set", "p1", "angle=1", "-y")
     assert pico("commit").code == 0
     subject, _, rest = body().partition("\n\n")
     assert subject == "p2 moved 5 mm, turned +30 deg; p1.angle 90 -> 1 deg"
@@ -65,7 +65,7 @@ def test_what_a_hand_does_again_and_again_is_captured_each_time(built: Path, pic
         assert pico("sim", "nudge", "p2", "--dx", "5").code == 0
         assert pico("commit").code == 0
         assert f"x: {x}" in TABLE.read_text()
-    assert pico("set", "p1", "angle=7").code == 0
+    assert pico("set", "p1", "angle=7", "-y").code == 0
     assert pico("commit", "-m", "by hand and by word").code == 0
 
 
@@ -160,8 +160,8 @@ def test_the_evidence_is_that_of_the_runs_that_led_there(shel: Path, pico: Pico)
     edit(TABLE, "\n", "\n# the bench stands so by the run in physics, which another branch has\n")
     assert pico("commit", "-m", "words").code == 0
     git("checkout", "-q", "main")
-    pico("set", "p1", "angle=3")
-    pico("set", "p1", "angle=90", "--fidelity", "physics")
+    pico("set", "p1", "angle=3", "-y")
+    pico("set", "p1", "angle=90", "--fidelity", "physics", "-y")
     edit(TABLE, "exposure: 10", "exposure: 12")
     pico("apply", "--auto-approve", "--fidelity", "physics")
     assert pico("commit", "-m", "set in physics").code == 0
@@ -186,7 +186,7 @@ def test_a_commit_carries_its_runs_once_and_leaves_the_rest_alone(built: Path, p
     (built / "elsewhere.txt").write_text("mine\n")
     (built / "staged.txt").write_text("mine, too\n")
     git("add", "staged.txt")
-    pico("set", "p1", "angle=3")
+    pico("set", "p1", "angle=3", "-y")
     answer = pico("commit", "-m", "three degrees")
     assert "With 1 run (kinematic)" in answer.out
     (run,) = trailer("Pico-Run")
@@ -277,7 +277,7 @@ def test_a_hook_that_refuses_leaves_what_was_captured_as_an_edit(built: Path, pi
     hook.parent.mkdir(exist_ok=True)
     hook.write_text("#!/bin/sh\necho 'laser still on' >&2\nexit 1\n")
     hook.chmod(0o755)
-    pico("set", "p1", "angle=3")
+    pico("set", "p1", "angle=3", "-y")
     answer = pico("commit", "-m", "x")
     assert answer.code == 1 and "error[git-hook]" in answer.err and "laser still on" in answer.err
     assert git("status", "--porcelain", "--", "state").split() == ["M", "state/table.yaml"]
@@ -312,7 +312,7 @@ def test_a_bench_that_stood_as_the_last_commit_and_was_brought_elsewhere_is_comm
 def test_a_clone_whose_bench_was_never_used_does_not_commit_over_what_another_bench_proved(
     shel: Path, pico: Pico, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert pico("apply", "--auto-approve").code == pico("set", "p1", "angle=33").code == 0
+    assert pico("apply", "--auto-approve").code == pico("set", "p1", "angle=33", "-y").code == 0
     assert pico("commit", "-m", "proven here").code == 0
     subprocess.run(["git", "clone", "-q", str(shel), str(tmp_path / "clone")], check=True)
     monkeypatch.chdir(tmp_path / "clone")

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from commanding import Pico
+from commanding import Pico, Typed
 from data_labs import commit_run, damage, git, put, sha, write_run
 
 from pico.history.data.lab import LabData
@@ -163,12 +163,12 @@ def test_gc_removes_old_orphans_and_asks_first(lab: Path, pico: Pico, monkeypatc
     kept, orphan = commit_run(lab, "run-a", b"frame a"), put(lab, b"an orphan")
     assert "Nothing to remove; 1 object more that nothing needs, but young." in pico("data", "gc", "--auto-approve").out
     age(lab, days=15)
-    monkeypatch.setattr("builtins.input", lambda: "n")
+    monkeypatch.setattr("sys.stdin", Typed("n\n"))
     assert pico("data", "gc").code == 1
     assert pico("data", "gc", "--json").code == 1
     assert "1 object that nothing here needs, 9 B" in pico("data", "gc", "--dry-run").out
     assert stored(lab) == {kept, orphan}
-    monkeypatch.setattr("builtins.input", lambda: "y")
+    monkeypatch.setattr("sys.stdin", Typed("y\n"))
     assert "Removed 1 object, 9 B freed" in pico("data", "gc").out
     assert stored(lab) == {kept}
 
@@ -306,7 +306,7 @@ def test_a_folder_on_the_command_line_counts_from_where_it_is_called(shel: Path,
 
 def test_gc_removes_nothing_while_a_bench_can_not_say_what_its_runs_need(lab: Path, pico: Pico) -> None:
     orphan = put(lab, b"an orphan")
-    assert pico("move", "p1", "x=500").code == 0
+    assert pico("move", "p1", "x=500", "-y").code == 0
     assert pico("data", "gc", "--grace", "0d", "--dry-run", "--json").data["removable"] == {orphan: 9}
     text = (lab / "lab.yaml").read_text()
     (lab / "lab.yaml").write_text("{")
@@ -319,7 +319,7 @@ def test_gc_removes_nothing_while_a_bench_can_not_say_what_its_runs_need(lab: Pa
 
 def test_pointers_are_as_git_lfs_writes_them_and_its_objects_come_back(lab: Path, tmp_path: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
-    assert pico("set", "p1", "angle=12").code == 0
+    assert pico("set", "p1", "angle=12", "-y").code == 0
     assert pico("commit", "-m", "p1 a little").code == 0
     path = next(lab.glob("runs/*/*/*/run.json"))
     name = put(lab, b"a frame")

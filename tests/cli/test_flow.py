@@ -7,7 +7,7 @@ import re
 import subprocess
 from pathlib import Path
 
-from commanding import Pico, edit
+from commanding import Pico, Typed, edit
 
 P2 = "  p2:\n    pose:\n      x: 520"
 
@@ -43,7 +43,7 @@ def test_lines_fit_a_hundred_columns(shel: Path, pico: Pico) -> None:
 
 
 def test_a_declined_apply_moves_nothing_and_exits_1(shel: Path, pico: Pico, monkeypatch) -> None:
-    monkeypatch.setattr("builtins.input", lambda: "n")
+    monkeypatch.setattr("sys.stdin", Typed("n\n"))
     answer = pico("apply", "e1")
     assert answer.code == 1
     assert "Nothing moved." in answer.out
@@ -51,18 +51,18 @@ def test_a_declined_apply_moves_nothing_and_exits_1(shel: Path, pico: Pico, monk
 
 
 def test_nobody_at_the_terminal_is_a_no(shel: Path, pico: Pico, monkeypatch) -> None:
-    def nobody() -> str:
-        raise EOFError
-
-    monkeypatch.setattr("builtins.input", nobody)
+    monkeypatch.setattr("sys.stdin", Typed(""))
     assert pico("apply", "e1").code == 1
 
 
 def test_a_yes_is_enough(shel: Path, pico: Pico, monkeypatch) -> None:
-    monkeypatch.setattr("builtins.input", lambda: "y")
+    monkeypatch.setattr("sys.stdin", Typed("y\n"))
     answer = pico("apply", "e1")
     assert answer.code == 0
-    assert "Move 4 components on sim (kinematic)? [y/N]" in answer.out
+    assert (
+        "Run 4 moves, 6 settings on sim (kinematic) and let light out (laser.emission, laser.shutter)? [y/N]"
+        in answer.out
+    )
 
 
 def test_a_saved_plan_is_applied_and_refused_once_the_bench_has_changed(shel: Path, pico: Pico) -> None:
@@ -189,7 +189,7 @@ def test_capture_takes_a_nudge_inside_a_slot_where_the_manifest_has_a_pose(shel:
 
 def test_commit_takes_the_bench_along_and_says_what_changed(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
-    assert pico("set", "p1", "angle=3").code == 0
+    assert pico("set", "p1", "angle=3", "-y").code == 0
     answer = pico("commit", "-m", "p1 three degrees from crossed")
     assert answer.code == 0, answer
     assert "p1.angle  90 → 3 deg" in answer.out

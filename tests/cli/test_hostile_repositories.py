@@ -161,7 +161,7 @@ def test_what_pico_keeps_is_not_written_through_a_link(shel: Path, tmp_path: Pat
     victim.write_text("mine")
     (shel / name).parent.mkdir(exist_ok=True)
     (shel / name).symlink_to(outside if name in (".pico", ".pico/sim") else victim)
-    for words in (("apply", "e2", "--auto-approve"), ("stow", "p2"), ("sim", "reset"), ("capture",), ("plan",)):
+    for words in (("apply", "e2", "--auto-approve"), ("stow", "p2", "-y"), ("sim", "reset"), ("capture",), ("plan",)):
         answer = pico(*words)
         assert answer.code == 1 and "symbolic link" in answer.err, (words, answer.err)
     assert victim.read_text() == "mine" and list(outside.iterdir()) == [victim]

@@ -13,16 +13,16 @@ def test_movers_end_with_5_and_name_the_holder_and_reading_is_possible(shel: Pat
     with BenchLock(shel).held("pico apply e2"):
         for words in (
             ("apply", "e1", "--auto-approve"),
-            ("set", "p1", "angle=3"),
+            ("set", "p1", "angle=3", "-y"),
             ("apply", "e1", "--auto-approve", "--lock-timeout", "0.1"),
-            ("move", "p1", "x=300", "y=420", "--lock-timeout", "0.1"),
+            ("move", "p1", "x=300", "y=420", "-y", "--lock-timeout", "0.1"),
         ):
             refused = pico(*words)
             assert refused.code == 5, words
             assert "pico apply e2" in refused.err
         for words in (("status",), ("plan", "e1"), ("verify",), ("drift",), ("parts",)):
             assert pico(*words).code != 5, words
-    assert pico("set", "p1", "angle=3", "--lock-timeout", "5").code == 0
+    assert pico("set", "p1", "angle=3", "--lock-timeout", "5", "-y").code == 0
 
 
 def test_only_movers_wait(pico: Pico, shel: Path) -> None:

@@ -66,8 +66,8 @@ def test_doctor_says_that_git_does_not_know_pico_yet(clone: Path, pico: Pico) ->
 def test_drift_and_verify_tell_what_happened_and_plan_what_brings_it_back(shel: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
     pico("sim", "nudge", "p2", "--dx", "5")
-    assert pico("move", "lx_100", "x=600", "y=420", "yaw=0").code == 0
-    assert pico("set", "p1", "angle=60").code == 0
+    assert pico("move", "lx_100", "x=600", "y=420", "yaw=0", "-y").code == 0
+    assert pico("set", "p1", "angle=60", "-y").code == 0
     for words in (["drift"], ["verify", "HEAD"], ["verify"]):
         told = " ".join(pico(*words).out.split())
         assert "~ p2 moved 5 mm (dx +5) from (520, 420, 0°) to (525, 420, 0°)" in told

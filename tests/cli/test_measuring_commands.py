@@ -23,7 +23,7 @@ def measured(answer: Answer) -> dict[str, object]:
 
 
 def test_a_set_point_is_measured_and_shown_with_its_run(shel: Path, pico: Pico) -> None:
-    answer = pico("do", "p1", "measure", "angle")
+    answer = pico("do", "p1", "measure", "angle", "-y")
     assert answer.code == 0 and "1 measurement" in answer.out and "0 deg" in answer.out
     assert "9 components of 9 stay as is" in answer.out
     shown = pico("runs", "show")
@@ -35,7 +35,7 @@ def test_a_set_point_is_measured_and_shown_with_its_run(shel: Path, pico: Pico) 
 
 
 def test_a_frame_goes_to_the_store_and_its_hash_into_the_commit(shel: Path, pico: Pico) -> None:
-    array = measured(pico("do", "left", "measure", "--json"))["array"]
+    array = measured(pico("do", "left", "measure", "--json", "-y"))["array"]
     assert isinstance(array, dict) and array["dtype"] == "uint8"
     assert pico("commit", "--capture", "-m", "the table from the left").code == 0
     (document,) = [json.loads(p.read_bytes()) for p in shel.glob("runs/*/*/*/run.json")]
@@ -59,7 +59,7 @@ def lines(lab: Path, name: str) -> list[dict[str, object]]:
 
 
 def test_a_frame_that_no_commit_has_yet_is_no_garbage(shel: Path, pico: Pico) -> None:
-    pico("do", "left", "measure", "frame")
+    pico("do", "left", "measure", "frame", "-y")
     assert not LabData.discover(shel).garbage(0).removable
     assert pico("get", "left", "frame").code == 0  # the same picture, which a run needs
 
@@ -79,7 +79,7 @@ def test_a_frame_that_no_commit_has_yet_is_no_garbage(shel: Path, pico: Pico) ->
 def test_what_cannot_be_measured_is_said_before_anything_moves(
     shel: Path, pico: Pico, words: tuple[str, ...], said: str
 ) -> None:
-    answer = pico("do", *words)
+    answer = pico("do", *words, "-y")
     assert answer.code == 1 and said in answer.err
     assert not pico("runs", "list", "--all", "--json").data["runs"]
 
@@ -97,8 +97,8 @@ def test_get_peeks_without_lease_or_record(shel: Path, pico: Pico) -> None:
 def test_two_runs_that_measured_the_same_are_compared_only_where_that_means_something(shel: Path, pico: Pico) -> None:
     for words in (("do", "left", "measure"), ("do", "left", "measure"), ("do", "p1", "measure", "pose")):
         assert pico(*words).code == 0
-    pico("set", "p1", "angle=5")
-    pico("do", "p1", "measure", "pose")
+    pico("set", "p1", "angle=5", "-y")
+    pico("do", "p1", "measure", "pose", "-y")
     runs = [r["document"]["id"] for r in pico("runs", "list", "--all", "--json").data["runs"]]
     later, _, pose, second, first = runs
     (same,) = pico("runs", "compare", first, second, "--json").data["measured"]
@@ -127,18 +127,18 @@ def test_what_a_measurable_needs_is_set_first_and_set_back_afterwards(needing: P
         ("op2", "measure", "cam", None, ["op1"]),
         ("op3", "set", "laser", "closed", ["op2"]),
     ]
-    found = measured(pico("do", "cam", "measure", "exposure", "--json"))
+    found = measured(pico("do", "cam", "measure", "exposure", "--json", "-y"))
     assert found["assured"] == ["settled", "arm parked", "shutter"]
     assert pico("get", "laser", "shutter", "--json").data["values"]["shutter"]["value"] == "closed"
 
 
 def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(needing: Path, pico: Pico) -> None:
-    pico("set", "cam", "exposure=3")
+    pico("set", "cam", "exposure=3", "-y")
     world = needing / ".pico/sim/world.json"
     there = json.loads(world.read_text())
     there["components"]["cam"]["values"]["exposure"] = {"status": "unknown"}
     world.write_text(json.dumps(there))
-    answer = pico("do", "cam", "measure", "exposure")
+    answer = pico("do", "cam", "measure", "exposure", "-y")
     assert answer.code == 1 and "cam.exposure can't be read back" in answer.err
     assert "laser.shutter open → closed" in answer.out and "2 of 3 operations done, 1 failed" in answer.out
     assert pico("get", "laser", "shutter", "--json").data["values"]["shutter"]["value"] == "closed"
@@ -146,7 +146,7 @@ def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(need
 
 def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: Path, pico: Pico) -> None:
     world = needing / ".pico/sim/world.json"
-    pico("set", "laser", "shutter=open")
+    pico("set", "laser", "shutter=open", "-y")
     there = json.loads(world.read_text())
     there["robots"]["arm1"]["joints"] = [q + 0.3 for q in there["robots"]["arm1"]["joints"]]
     world.write_text(json.dumps(there))
@@ -158,7 +158,7 @@ def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: 
         ("set", "laser", "open"),
         ("measure", "cam", None),
     ]
-    found = measured(pico("do", "cam", "measure", "exposure", "--json"))
+    found = measured(pico("do", "cam", "measure", "exposure", "--json", "-y"))
     assert found["assured"] == ["settled", "arm parked", "shutter"]
 
 
@@ -200,5 +200,5 @@ def test_a_rule_that_speaks_of_what_nobody_measured_denies(shel: Path, pico: Pic
     lab = (shel / "lab.yaml").read_text()
     assert "policy:" in lab
     (shel / "lab.yaml").write_text(re.sub(r"policy:\n(  .*\n)+", rule, lab))
-    answer = pico("set", "p1", "angle=3")
+    answer = pico("set", "p1", "angle=3", "-y")
     assert answer.code == 7 and "can't be told: nobody measured left.mean" in " ".join(answer.out.split())

@@ -64,7 +64,7 @@ def cuvette(shel: Path) -> Path:
 
 
 def test_a_plug_in_brings_a_primitive(rinse: None, cuvette: Path, pico: Pico) -> None:
-    answer = pico("do", "cell", "rinse", "volume=0.5 cm", "with=water")
+    answer = pico("do", "cell", "rinse", "volume=0.5 cm", "with=water", "-y")
     assert answer.code == 0, answer
     assert "1 rinsing" in answer.out and "12.5 s" in answer.out
     assert pico("get", "cell", "level", "--json").data["values"]["level"]["value"] == 5
@@ -82,7 +82,7 @@ def test_a_plug_in_brings_a_primitive(rinse: None, cuvette: Path, pico: Pico) ->
     ],
 )
 def test_its_arguments_are_checked(rinse: None, cuvette: Path, pico: Pico, words: tuple[str, ...], said: str) -> None:
-    answer = pico("do", "cell", "rinse", *words)
+    answer = pico("do", "cell", "rinse", *words, "-y")
     assert answer.code == 1 and said in answer.err
 
 

@@ -25,7 +25,7 @@ def lab(shel: Path, pico: Pico) -> Path:
     (shel / "LICENSE").write_text("Creative Commons Attribution 4.0 International\n\nYou are free to share.\n")
     git("add", "LICENSE")
     git("commit", "-q", "-m", "a license")
-    assert pico("set", "p1", "angle=12").code == 0
+    assert pico("set", "p1", "angle=12", "-y").code == 0
     assert pico("commit", "-m", "p1 a little", "--capture").code == 0
     return shel
 
@@ -235,7 +235,7 @@ def test_a_state_that_no_run_led_to_says_so(shel: Path, tmp_path: Path, pico: Pi
 
 def test_runs_can_be_chosen_among_those_of_the_revision(lab: Path, tmp_path: Path, pico: Pico) -> None:
     first = run_of(lab).name
-    pico("set", "p1", "angle=13")
+    pico("set", "p1", "angle=13", "-y")
     pico("commit", "-m", "p1 more")
     made = pico("publish", "--out", str(tmp_path / "a"), "--pictures", "none", "--json").data
     assert len(made["runs"]) == 1

@@ -170,9 +170,9 @@ def test_runs_and_their_data_go_through_a_bare_repository_and_survive_rebase_and
     monkeypatch.setattr("pico.runs.files.INLINE", 1000)  # bytes: every trace is large then
     git("switch", "-q", "-c", "work")
     assert pico("apply", "--auto-approve").code == 0
-    assert pico("set", "p1", "angle=12").code == 0
+    assert pico("set", "p1", "angle=12", "-y").code == 0
     assert pico("commit", "-m", "p1 a little").code == 0
-    assert pico("set", "p1", "angle=13").code == 0
+    assert pico("set", "p1", "angle=13", "-y").code == 0
     assert pico("commit", "-m", "p1 more").code == 0
     needed = {n["sha256"] for n in pico("data", "status", "--json").data["needs"]}
     assert len(needed) >= 2

@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from commanding import Pico, edit
+from commanding import Pico, Typed, edit
 
 TABLE = Path("state/table.yaml")
 
@@ -110,7 +110,7 @@ def test_a_whole_checkout_may_leave_the_bench_alone_and_says_how_to_go_back(shel
 
 
 def test_a_declined_partial_checkout_writes_nothing(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("builtins.input", lambda: "n")
+    monkeypatch.setattr("sys.stdin", Typed("n\n"))
     answer = pico("checkout", "e1", "--", "p2")
     assert answer.code == 1 and "Nothing moved" in answer.out and not dirty()
 

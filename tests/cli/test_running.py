@@ -18,10 +18,12 @@ from pico_cli.session import Session
 from pico.bench.bench import Bench
 from pico.bench.moves import Moves
 from pico.bench.plans import Plans
+from pico.manifest.load import load_folder
 from pico.model.event import Event
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.report import RunReport
+from pico.resources import labs_dir
 
 
 def operation(number: int, component: str, **more: Any) -> Operation:
@@ -146,7 +148,13 @@ def test_a_failure_names_its_dependents(capsys: pytest.CaptureFixture[str]) -> N
 
 
 def test_the_question_counts_right() -> None:
-    assert question(PLAN) == "Move 2 components on sim (physics)?"
     from dataclasses import replace
 
-    assert question(replace(PLAN, operations=PLAN.operations[:1])) == "Move 1 component on sim (physics)?"
+    setup, _ = load_folder(labs_dir() / "shel").require()
+    assert question(setup, PLAN) == "Run 2 moves on sim (physics)?"
+    opens = replace(
+        PLAN.operations[1], primitive="set", component="laser", arguments={"tunable": "shutter", "to": "open"}
+    )
+    plan = replace(PLAN, operations=(PLAN.operations[0], opens))
+    assert question(setup, plan) == "Run 1 move, 1 setting on sim (physics) and let light out (laser.shutter)?"
+    assert question(setup, replace(PLAN, operations=())) == ""

@@ -45,7 +45,7 @@ def nudged(folder: Path, pico: Pico) -> None:
 
 
 def tuned(folder: Path, pico: Pico) -> None:
-    assert pico("set", "p1", "angle=60").code == 0
+    assert pico("set", "p1", "angle=60", "-y").code == 0
 
 
 def taken(folder: Path, pico: Pico) -> None:

@@ -2,38 +2,39 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import pytest
-from commanding import Pico
+from commanding import Pico, Typed
 
 
 def test_a_tunable_is_set_and_read(shel: Path, pico: Pico) -> None:
-    assert pico("set", "p1", "angle=3").code == 0
+    assert pico("set", "p1", "angle=3", "-y").code == 0
     assert "p1.angle  3 deg" in pico("get", "p1").out
-    assert pico("do", "p1", "set", "angle=0.5 rad").code == 0
+    assert pico("do", "p1", "set", "angle=0.5 rad", "-y").code == 0
     assert pico("get", "p1", "angle", "--json").data["values"]["angle"]["value"] == pytest.approx(28.6479, abs=1e-3)
 
 
 def test_a_component_is_moved_turned_and_stowed(shel: Path, pico: Pico) -> None:
-    assert pico("move", "p1", "x=350", "y=420").code == 0
-    assert pico("rotate", "p1", "-30").code == 0
+    assert pico("move", "p1", "x=350", "y=420", "-y").code == 0
+    assert pico("rotate", "p1", "-30", "-y").code == 0
     assert "(350, 420, -30°)" in pico("get", "p1").out
-    assert pico("rotate", "p1", "by=-5").code == 0
+    assert pico("rotate", "p1", "by=-5", "-y").code == 0
     assert "(350, 420, -35°)" in pico("get", "p1").out
-    assert pico("stow", "p1").code == 0
+    assert pico("stow", "p1", "-y").code == 0
     assert "storage/b1" in next(line for line in pico("parts").out.splitlines() if line.startswith("p1 "))
 
 
 def test_a_lens_is_placed_after_another_component(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
-    assert pico("place", "ly_150", "--after", "p2", "--distance", "150").code == 0
+    assert pico("place", "ly_150", "--after", "p2", "--distance", "150", "-y").code == 0
     assert "(670, 420, 0°)" in pico("get", "ly_150").out
 
 
 def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
-    answer = pico("set", "p1", "angle=3")
+    answer = pico("set", "p1", "angle=3", "-y")
     assert "`pico capture` takes the bench into it" in answer.out
     assert pico("plan", "--detailed-exitcode").code == 2
     pico("capture")
@@ -41,11 +42,26 @@ def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) ->
 
 
 def test_what_is_so_already_is_not_taken_for_the_manifest(shel: Path, pico: Pico) -> None:
-    pico("set", "p1", "angle=5")
-    answer = pico("set", "p1", "angle=5")
+    pico("set", "p1", "angle=5", "-y")
+    answer = pico("set", "p1", "angle=5", "-y")
     assert (answer.code, "as asked already" in answer.out) == (0, True)
     assert "equals" not in answer.out
     assert pico("plan", "--detailed-exitcode").code == 2
+
+
+def test_one_rule_says_what_is_asked_about(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", Typed("n\nyes\n"))
+    declined = pico("set", "p1", "angle=3")
+    assert declined.code == 1 and "Run 1 setting on sim (kinematic)? [y/N]" in declined.out
+    assert pico("set", "p1", "angle=3").code == 0
+    monkeypatch.setattr("sys.stdin", io.StringIO("y\n"))
+    for words in (["move", "p1", "yaw=5"], ["do", "p1", "home"], ["set", "laser", "shutter=open"], ["undo"]):
+        refused = pico(*words)
+        assert refused.code == 1 and "nobody can be asked here" in refused.err and "--auto-approve" in refused.err
+    assert pico("get", "p1", "--json").data["values"]["angle"]["value"] == 3
+    assert pico("set", "cam", "exposure=12").code == pico("set", "laser", "shutter=closed", "--json").code == 0
+    assert pico("undo", "-y").code == 0  # of the exposure
+    assert pico("move", "p1", "x=350", "y=420", "--yes").code == 0
 
 
 def test_a_dry_run_moves_nothing(shel: Path, pico: Pico) -> None:
@@ -54,14 +70,14 @@ def test_a_dry_run_moves_nothing(shel: Path, pico: Pico) -> None:
 
 
 def test_home_drives_the_axis_to_its_home(shel: Path, pico: Pico) -> None:
-    pico("set", "p1", "angle=3")
-    assert pico("home", "p1").code == 0
+    pico("set", "p1", "angle=3", "-y")
+    assert pico("home", "p1", "-y").code == 0
     assert "p1.angle  0 deg" in pico("get", "p1").out
 
 
 def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
-    answer = pico("move", "p2", "300", "420")
+    answer = pico("move", "p2", "300", "420", "-y")
     assert answer.code == 3
     assert "p1" in answer.err
     assert "(520, 420, 0°)" in pico("get", "p2").out

@@ -33,7 +33,7 @@ def heal_allowed(folder: Path, pico: Pico) -> None:
 
 def test_drift_says_who_did_it(applied: Path, pico: Pico) -> None:
     pico("sim", "nudge", "p2", "--dx", "4")
-    pico("set", "p1", "angle=60")
+    pico("set", "p1", "angle=60", "-y")
     found = {f"{c['component']}.{c['tunable']}": c for c in pico("drift", "--json").data["changes"]}
     assert found["p2.pose"]["by"] == "person"
     assert "left it elsewhere" in found["p2.pose"]["how"]
@@ -81,16 +81,16 @@ def test_news_are_what_drifted_drifted_on_or_came_back() -> None:
 
 
 def test_healing_needs_the_policy(applied: Path, pico: Pico) -> None:
-    refused = pico("watch", "--heal", "--looks", "1")
+    refused = pico("watch", "--heal", "-y", "--looks", "1")
     assert refused.code == 7
     assert "does not allow to heal" in refused.err
 
 
 def test_healing_brings_back_what_a_hand_moved_and_leaves_what_an_operation_did(applied: Path, pico: Pico) -> None:
     heal_allowed(applied, pico)
-    pico("set", "p1", "angle=60")
+    pico("set", "p1", "angle=60", "-y")
     pico("sim", "nudge", "p2", "--dx", "4")
-    healed = pico("watch", "--heal", "--looks", "2", "--interval", "0")
+    healed = pico("watch", "--heal", "-y", "--looks", "2", "--interval", "0")
     assert "healed: " in healed.out
     left = {c["component"] for c in pico("drift", "--json").data["changes"] if not c["tolerated"]}
     assert left == {"p1"}
@@ -100,11 +100,11 @@ def test_nothing_is_healed_while_somebody_is_at_the_table_or_a_run_goes_on(appli
     heal_allowed(applied, pico)
     pico("sim", "nudge", "p2", "--dx", "4")
     pico("sim", "person", "here")
-    found = pico("watch", "--heal", "--looks", "2", "--interval", "0")
+    found = pico("watch", "--heal", "-y", "--looks", "2", "--interval", "0")
     assert found.out.count("not healed: somebody is at the table") == 1
     pico("sim", "person", "away")
     with BenchLock(applied).held("pico apply e2"):
-        assert "not healed: a run goes on" in pico("watch", "--heal", "--looks", "1").out
+        assert "not healed: a run goes on" in pico("watch", "--heal", "-y", "--looks", "1").out
     assert pico("drift", "--detailed-exitcode").code == 2
 
 
