@@ -63,6 +63,7 @@ class Session:
         loaded()
         if self.context is not None:
             self.context.call_on_close(bench.close)
+            self.context.call_on_close(lambda: self.tell(bench.folder.recovered))  # while a guard was still at it
         if writing:
             from .standing import Standing
 

@@ -22,6 +22,8 @@ class Answer:
 
 
 Pico = Callable[..., Answer]
+Brought = Callable[[Callable[[Path], Any]], Any]
+"""Makes the example what a function makes of it, and returns what that returned."""
 
 
 class Typed(io.StringIO):

@@ -4,15 +4,17 @@ process: `pico("plan", "e1")` gives exit code, output and errors. An arm is aske
 import gc
 import os
 import subprocess
+import sys
 from pathlib import Path
 
-os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a process that a test starts does not compile everything anew
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # neither a process that a test starts compiles everything anew
 
 import pytest
 from asked_once import ASKING, once
 from commanding import Answer, Pico
 from hypothesis import settings
 
+sys.dont_write_bytecode = False  # nor does the next run of the tests
 settings.register_profile("ci", derandomize=True)
 if os.environ.get("CI"):
     settings.load_profile("ci")

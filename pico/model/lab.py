@@ -376,6 +376,10 @@ class Setup:
         camera = self.lab.cameras.get(name)
         return {} if camera is None or camera.robot else {"frame": Measurable(datatype="image", unit="count")}
 
+    def same_as(self, other: Setup) -> bool:
+        """Whether this is the same lab with the same types, as digests tell it."""
+        return self == other or self.digest() == other.digest()
+
     def digest(self) -> str:
         """Return the digest of the lab and its types as the first release wrote them, as a plan records it."""
         return digest({"lab": self.lab, "catalog": {n: as_first_written(kind) for n, kind in self.catalog.items()}})

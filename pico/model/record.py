@@ -29,36 +29,45 @@ def _fields(cls: type) -> tuple[tuple[str, str], ...]:
     return tuple((f.name, f.name.rstrip("_")) for f in dataclasses.fields(cls))
 
 
-def as_json(value: Any) -> Any:
-    """Return `value` (records, mappings, sequences, scalars) as plain JSON data; fields that are None are left out."""
-    if isinstance(value, str | bool | int) or value is None:
+def as_json(value: Any, number: Callable[[float], float] = float) -> Any:
+    """Return `value` (records, mappings, sequences, scalars) as plain JSON data, numbers with a point as `number` gives
+    them; fields that are None are left out."""
+    kind: Any = type(value)
+    if kind is str or value is None or kind is int or kind is bool:
         return value
-    if isinstance(value, float):
-        return value
+    if kind is float:
+        return number(value)
+    if kind is dict:
+        return {str(k): as_json(v, number) for k, v in value.items()}
+    if kind is tuple or kind is list:
+        return [as_json(v, number) for v in value]
+    if hasattr(kind, "__dataclass_fields__"):
+        return {key: as_json(v, number) for name, key in _fields(kind) if (v := getattr(value, name)) is not None}
+    return as_json(_builtin(value), number)
+
+
+def _builtin(value: Any) -> Any:
+    """Return a value of another type as one of those that JSON data are made of."""
     if isinstance(value, Mapping):
-        return {str(k): as_json(v) for k, v in value.items()}
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        pairs = ((key, getattr(value, name)) for name, key in _fields(type(value)))
-        return {key: as_json(v) for key, v in pairs if v is not None}
-    if isinstance(value, Sequence | set | frozenset):
-        return [as_json(v) for v in (sorted(value) if isinstance(value, set | frozenset) else value)]
+        return dict(value)
+    if isinstance(value, set | frozenset):
+        return sorted(value)
+    for builtin in (str, int, float):
+        if isinstance(value, builtin):
+            return builtin(value)
+    if isinstance(value, Sequence):
+        return list(value)
     raise TypeError(f"{type(value).__name__} has no JSON form")
 
 
-def _rounded(value: Any) -> Any:
-    if isinstance(value, float):
-        rounded = round(value, 6) + 0.0  # -0.0 becomes 0.0
-        return int(rounded) if rounded.is_integer() else rounded
-    if isinstance(value, dict):
-        return {k: _rounded(v) for k, v in value.items()}
-    if isinstance(value, list):
-        return [_rounded(v) for v in value]
-    return value
+def _rounded(value: float) -> float:
+    rounded = round(value, 6) + 0.0  # -0.0 becomes 0.0
+    return int(rounded) if rounded.is_integer() else rounded
 
 
 def canonical(value: Any) -> str:
     """Return canonical JSON: keys sorted, no white space, floats rounded to 1e-6, whole numbers without a point."""
-    return json.dumps(_rounded(as_json(value)), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return json.dumps(as_json(value, _rounded), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
 
 def digest(value: Any) -> str:

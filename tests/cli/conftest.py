@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Callable
+from contextlib import chdir
 from pathlib import Path
+from typing import Any
 
 import pytest
+from commanding import Brought
 
 from pico.history.git.attributes import install
 
@@ -31,3 +35,28 @@ def shel(example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
     monkeypatch.setenv("GIT_CONFIG_SYSTEM", os.devnull)
     return folder
+
+
+@pytest.fixture(scope="session")
+def _brought() -> dict[object, tuple[Path, Any]]:
+    return {}
+
+
+@pytest.fixture
+def brought(
+    example: Path, shel: Path, _brought: dict[object, tuple[Path, Any]], tmp_path_factory: pytest.TempPathFactory
+) -> Brought:
+    """Functions are called once, in a copy of the example as the current directory; `shel` becomes a copy of that."""
+
+    def at(bring: Callable[[Path], Any]) -> Any:
+        if bring not in _brought:
+            folder = shutil.copytree(example, tmp_path_factory.mktemp("brought") / "shel")
+            with chdir(folder):
+                _brought[bring] = folder, bring(folder)
+        folder, found = _brought[bring]
+        for path in shel.iterdir():
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+        shutil.copytree(folder, shel, dirs_exist_ok=True)
+        return found
+
+    return at

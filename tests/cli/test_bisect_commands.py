@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from commanding import Answer, Pico, Typed, edit
+from commanding import Answer, Brought, Pico, Typed, edit
 from pico_cli.main import main
 from test_stopping_commands import started
 
@@ -38,7 +38,12 @@ def commit(message: str, before: str, after: str) -> str:
 
 
 @pytest.fixture
-def history(shel: Path) -> dict[str, str]:
+def history(brought: Brought) -> dict[str, str]:
+    found: dict[str, str] = brought(eight_commits)
+    return found
+
+
+def eight_commits(_: Path) -> dict[str, str]:
     """Eight commits after `good`; `break` moved p1 beyond the limit, `comment` changed nothing on the table."""
     git("tag", "good")
     at, made = 290, {}

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from commanding import Pico
+from commanding import Brought, Pico
 
 MARK = "  # an edit"
 WRITERS = {
@@ -123,8 +123,10 @@ CASES = [pytest.param(s, w, marks=[pytest.mark.slow] if takes_long(s, w) else []
 
 
 @pytest.mark.parametrize(("standing", "writer"), CASES)
-def test_it_works_or_refuses_and_nothing_is_lost(shel: Path, pico: Pico, standing: str, writer: str) -> None:
-    STANDINGS[standing](shel)
+def test_it_works_or_refuses_and_nothing_is_lost(
+    shel: Path, pico: Pico, brought: Brought, standing: str, writer: str
+) -> None:
+    brought(STANDINGS[standing])
     before, tips = saved(shel), git(shel, "for-each-ref", "--format=%(objectname)").split()
     answer = pico(*WRITERS[writer])
     said = answer.out + answer.err
@@ -163,7 +165,10 @@ def everything(shel: Path) -> str:
     return done.stdout
 
 
-def test_a_lock_that_git_stash_does_not_speak_of_is_named(shel: Path, pico: Pico) -> None:
+def test_a_lock_that_git_stash_does_not_speak_of_is_named(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pico.history.writing.index_lock.ALONE", 0.05)
     table = shel / "state" / "table.yaml"
     table.write_text(table.read_text().replace("x: 520", "x: 530"))
     lock = shel / ".git" / "index.lock"

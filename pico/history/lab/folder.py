@@ -85,7 +85,7 @@ class LabFolder:
         self._historic: dict[str, tuple[Setup, LabState]] = {}
         self._writing = False
         self.wrong: PicoError | None = None
-        self.recovered = self._recovered()
+        self._recover()
         try:
             self.reload()
         except PicoError as exc:
@@ -93,12 +93,15 @@ class LabFolder:
             if not history or not self._stand_in():
                 raise
 
-    def _recovered(self) -> tuple[Diagnostic, ...]:
-        """Bring to its end what a killed command left half written here, and return what that was."""
-        if not anything_left(self.root) or self.repository is None:
-            return ()
-        with self.repository.writing("pico recover"):
-            return self.repository.noticed
+    @property
+    def recovered(self) -> tuple[Diagnostic, ...]:
+        """What killed commands had left half written here, and was brought to its end."""
+        return () if self.repository is None else self.repository.noticed
+
+    def _recover(self) -> None:
+        if anything_left(self.root) and self.repository is not None:
+            with self.repository.writing("pico recover"):
+                pass
 
     def reload(self) -> None:
         """Read the manifests again, after somebody wrote them; raises PicoError where they are wrong.
@@ -136,7 +139,7 @@ class LabFolder:
         assert self.own is not None
         own, whole = setup_of(self.own), load_files(files, found, root=shown)
         self.described = whole.setup or own
-        if whole.setup and whole.setup.digest() == own.digest():
+        if whole.setup and whole.setup.same_as(own):
             return whole
         wrong = load_files(bench_files(files), root=shown).diagnostics
         read = load_files(files, found, setup=own)
@@ -218,7 +221,7 @@ class LabFolder:
         manifests = load_files(_named(revision, files), found, setup=self.setup)
         told = [_at_revision(d, revision) for d in manifests.diagnostics]
         then = self._bench_at(revision, files)
-        if then is not None and then.digest() != self.setup.digest():
+        if then is not None and not then.same_as(self.setup):
             told.append(_differs(then, self.setup, revision))
         return replace(manifests, diagnostics=tuple(told))
 

@@ -315,7 +315,7 @@ class Repository:
             self._writing = True
             try:
                 with disk_trouble(self.common, f"{doing} did not come to its end"):
-                    self.noticed = recover(self._folders())
+                    self.noticed += recover(self._folders())
                     yield
             except PicoError as exc:
                 if not self._folders().claim.exists():
