@@ -53,12 +53,14 @@ def changed(files: Files, changes: Mapping[str, Mapping[str, Any]]) -> Files:
 
 def _states(files: Files) -> Iterator[tuple[str, Mapping[str, Any]]]:
     """Yield each LabState among `files`: its path, and its components as plain data."""
-    import yaml
+    from pico.manifest.text.source import Source
+    from pico.manifest.text.tree import parse, plain
 
     for path, data in files.items():
-        content = yaml.safe_load(data) if path.endswith(".yaml") else None
-        if isinstance(content, dict) and content.get("kind") == "LabState":
-            yield path, content["components"]
+        documents = parse(Source(path, data.decode()))[0] if path.endswith(".yaml") else []
+        for content in (plain(document.root) for document in documents):
+            if isinstance(content, dict) and content.get("kind") == "LabState":
+                yield path, content["components"]
 
 
 def _whole(component: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, Any]:
