@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.history.git.commit import Commit
 from pico.history.git.lanes import RailRow, lanes
 from pico.history.lab.folder import CommitEntry
+from pico.history.messages.default import default_message
 from pico.history.messages.trailers import meta, without_trailers
 from pico.model.record import as_json
 from pico.model.run import Run
@@ -16,6 +17,9 @@ from pico.model.run import Run
 from .diff import brief, lines
 from .runs import shown
 from .style import WIDTH, columns, count, pad, paint, printable, seconds, width, wrap
+
+CHANGES = 8
+"""Lines about what a commit changed, at most; `pico show` has them all."""
 
 if TYPE_CHECKING:
     from pico.history.lab.notes import Note
@@ -111,17 +115,26 @@ def _what(entry: CommitEntry) -> str:
 
 
 def _long(entry: CommitEntry, _: int) -> list[str]:
-    what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else lines(entry.changes)
-    return [*header(entry), "", *what, *evidence_lines(entry), ""]
+    what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else _first(lines(entry.changes), entry)
+    return [*header(entry, brief=True), "", *what, *evidence_lines(entry), ""]
 
 
-def header(entry: CommitEntry) -> list[str]:
-    """Return id, names, author, date and message of a commit, without the trailers that PICO wrote."""
+def _first(told: list[str], entry: CommitEntry) -> list[str]:
+    """Return the first of the lines about a commit, and how the rest is found."""
+    more = len(told) - CHANGES + 1
+    return told if more < 2 else [*told[: CHANGES - 1], f"    and {more} more: `pico show {entry.commit.short}`"]
+
+
+def header(entry: CommitEntry, *, brief: bool = False) -> list[str]:
+    """Return id, names, author, date and message of a commit, without the trailers that PICO wrote; where it is to be
+    `brief`, without what PICO wrote of the changes, which follow."""
     c = entry.commit
     refs = f" ({', '.join(c.refs)})" if c.refs else ""
     head = [paint("yellow", f"commit {c.short}{refs}"), printable(f"{c.author}, {c.time:%Y-%m-%d %H:%M}")]
     recorded = [printable(f"    {key}: {value}") for key, value in meta(c.message).items()]
-    return [*head, "", *wrap(printable(without_trailers(c.message)), "    "), *([""] if recorded else []), *recorded]
+    message = without_trailers(c.message)
+    message = c.summary if brief and message == default_message(entry.changes) else message
+    return [*head, "", *wrap(printable(message), "    "), *([""] if recorded else []), *recorded]
 
 
 def noted(part: str, notes: Sequence[Note]) -> str:

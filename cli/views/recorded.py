@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
-from pico.model.run import Run
+from pico.model.run import TRIALS, Run
 from pico.runs.operations import operations
 
 from .diff import lines
@@ -40,7 +40,7 @@ def text(run: RecordedRun, commit: Commit | None) -> str:
 
 
 def _head(d: Run, commit: Commit | None) -> list[str]:
-    where = "no commit has it yet"
+    where = "a trial: it stays with this bench" if d.cause.kind in TRIALS else "no commit has it yet"
     if commit:
         named = commit.label != commit.short
         where = f"carried by {commit.label} ({commit.short})" if named else f"carried by {commit.short}"
@@ -66,7 +66,7 @@ def _changed(d: Run) -> list[str]:
 
 
 def _operation(op: OperationRun) -> list[str]:
-    name = f"{op.id}" + (f" (attempt {op.attempt})" if op.attempt > 1 else "")
+    name = f"{op.run[-6:]} {op.id}".strip() + (f" (attempt {op.attempt})" if op.attempt > 1 else "")
     what = f"{op.primitive} {op.address}"
     to = op.arguments.get("to")
     return [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic
 from pico.model.record import as_json
-from pico.model.run import Run
+from pico.model.run import TRIALS, Run
 
 from .style import columns, count, paint, plain, seconds, shorten
 
@@ -23,7 +23,7 @@ def text(found: Sequence[tuple[Run, Commit | None]], _: Sequence[Diagnostic] = (
         return "No run here has moved anything; `pico runs list --all` looks at every branch and tag."
     head = [paint("dim", cell) for cell in ("run", "when (UTC)", "what", "evidence", "outcome", "took", "commit")]
     rows = [_row(run, commit) for run, commit in found]
-    own = sum(commit is None for _, commit in found)
+    own = sum(commit is None and run.cause.kind not in TRIALS for run, commit in found)
     last = [f"{count(own, 'run')} that no commit has yet: `pico commit` takes {'it' if own == 1 else 'them'}."]
     return "\n".join([*columns([head, *rows]), *(["", *last] if own else [])])
 
@@ -36,8 +36,12 @@ def _row(d: Run, commit: Commit | None) -> list[str]:
         d.evidence,
         paint(COLORS[d.outcome], d.outcome),
         seconds(d.seconds),
-        commit.label if commit else paint("yellow", "not yet"),
+        commit.label if commit else _without(d),
     ]
+
+
+def _without(d: Run) -> str:
+    return paint("dim", "trial") if d.cause.kind in TRIALS else paint("yellow", "not yet")
 
 
 def deed(d: Run) -> str:

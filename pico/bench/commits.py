@@ -110,7 +110,7 @@ class Commits:
         if mode != "planned":
             captured, state = folder.preview(self._live(seen), named)
         content = contents(folder, named)
-        if not (captured.files or content.paths or recording.unrecorded(folder)):
+        if not (captured.files or content.paths or recording.awaited(folder)):
             raise PicoError(nothing(named))
         among = named.keys() | (content.components or ()) if named else folder.setup.lab.inventory
         changes = tuple(c for c in _changes(folder, state) if c.component in among)

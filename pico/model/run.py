@@ -21,6 +21,12 @@ RunEnd = Literal["done", "failed", "interrupted", "killed"]
 
 STRENGTH: Mapping[str, int] = {"planned": 0, "kinematic": 1, "physics": 2, "emulated": 3, "hardware": 4}
 """How much an evidence counts; only `hardware` says something of a real table."""
+SHARED = (
+    "schema", "lab", "parent", "cause", "evidence", "seed", "operator", "calibration", "environment", "versions",
+)  # fmt: skip
+"""What runs have in common that are folded into one."""
+TRIALS = ("bisect",)
+"""Causes of runs that only try something: no commit takes them."""
 OPERATION_ENDS = ("done", "failed", "unknown", "skipped")
 """How an operation of a run ends; what did not begin is skipped."""
 
@@ -29,8 +35,9 @@ OPERATION_ENDS = ("done", "failed", "unknown", "skipped")
 class Cause:
     """Why a run was started.
 
-    `kind`: `apply`, `checkout`, `single`, `undo`, `recover`, `resume`, `heal`, `recipe`, `optimizer`, `teleoperation`,
-    or empty where the journal did not keep it. `of`: the run that it undoes or goes on with. `recipe`, `step`: which.
+    `kind`: `apply`, `checkout`, `single`, `undo`, `recover`, `resume`, `heal`, `bisect`, `recipe`, `optimizer`,
+    `teleoperation`, or empty where the journal did not keep it. `of`: the run that it undoes or goes on with.
+    `recipe`, `step`: which.
     """
 
     kind: str = ""
@@ -91,6 +98,9 @@ class Run:
     the first time, when a commit had the rest already. `changes`: what the run changed on the bench, `tolerated` where
     by less than the tolerance; `afterwards`: what has changed since then, beyond it, when the commit was made: by hand,
     or by itself. `files`: those beside this one. `planned` evidence never occurs: a run ran.
+
+    `folded`: what this run was put together from when it was committed, in the order in which it ran: of each the
+    document, without what all of them have in common (`SHARED`). `pico.runs.folding` gives each back as it was.
     """
 
     schema: str = FORMAT.schema
@@ -122,6 +132,7 @@ class Run:
     afterwards: tuple[Change, ...] = ()
     files: Mapping[str, FileRef] = field(default_factory=dict)
     artifacts: tuple[Artifact, ...] = ()
+    folded: tuple[Mapping[str, Any], ...] = ()
 
     @property
     def order(self) -> tuple[str, int, str]:
@@ -136,7 +147,8 @@ class TraceEvent:
     `t`: seconds on the bench's clock since the first operation began; `at`: the wall time, UTC; `seq` counts from 1.
     `kind` of a trace: `intent` (`data`: the operation), `started` (the component as observed before), `done`, `failed`
     and `unknown` (`outcome`, `seconds`, the component `after`), `resolved` (how an unknown one ended, and who said so);
-    `operation` and `attempt` say of what. Of measurements: `measurement` (`data`: a `pico.measurement`), `expectation`,
+    `operation` and `attempt` say of what; `run` of which of the runs that are folded into one, whose own `t` and `seq`
+    these are. Of measurements: `measurement` (`data`: a `pico.measurement`), `expectation`,
     `observation` (a component as observed after the run).
     """
 
@@ -148,6 +160,7 @@ class TraceEvent:
     attempt: int | None = None
     component: str | None = None
     data: Mapping[str, Any] = field(default_factory=dict)
+    run: str | None = None
 
 
 def tally(ends: Iterable[str]) -> dict[str, int]:

@@ -24,13 +24,19 @@ ASKED = ("asked", "parked", "interlock", "held")
 
 @record
 class RecordedRun:
-    """A run with what lies beside its document. `after`: the state that was observed in the end, None where that is not
-    known. `missing`: the artifacts, by SHA-256, that are not here; `diagnostics`: what is wrong with the files."""
+    """A run with what lies beside its document.
+
+    `before`, `after`: the states that were observed at its ends, None where that is not known. `holder`: who had the
+    bench, as far as its journal is here. `missing`: the artifacts, by SHA-256, that are not here; `diagnostics`: what
+    is wrong with the files.
+    """
 
     document: Run
+    before: LabState | None = None
     after: LabState | None = None
     trace: tuple[TraceEvent, ...] = ()
     measurements: tuple[TraceEvent, ...] = ()
+    holder: str = ""
     missing: frozenset[str] = frozenset()
     diagnostics: tuple[Diagnostic, ...] = ()
 
@@ -80,7 +86,10 @@ def recorded(setup: Setup, memory: Memory, run: RunRecord, part: int = 0) -> Rec
         changes=changes(setup, before, after, touched(own)),
         artifacts=artifacts(trace),
     )
-    return RecordedRun(document=document, after=after, trace=trace, measurements=measured(trace, seen))
+    taken = measured(trace, seen)
+    return RecordedRun(
+        document=document, before=before, after=after, trace=trace, measurements=taken, holder=run.holder
+    )  # fmt: skip
 
 
 def _resumption(r: JournalRecord) -> int:

@@ -151,6 +151,7 @@ def changed_by(documents: Iterable[bytes]) -> set[tuple[str, str]]:
     """Return the tunables that runs changed beyond tolerance, from the documents of these."""
     found: set[tuple[str, str]] = set()
     for data in documents:
-        changes = json.loads(data).get("changes", ())
+        document = json.loads(data)
+        changes = (c for one in (document, *document.get("folded", ())) for c in one.get("changes", ()))
         found |= {(c["component"], c["tunable"]) for c in changes if not c.get("tolerated")}
     return found

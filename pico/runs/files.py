@@ -21,6 +21,8 @@ from pico.runs.reading import read_document
 DOCUMENT, TRACE, MEASUREMENTS = "run.json", "trace.jsonl", "measurements.jsonl"
 INLINE = 64 << 10
 """Bytes of the largest file of a run that goes into a commit."""
+FOLDED = 8 * INLINE
+"""Bytes of the largest file of runs that are folded into one, each of which would have had files of its own."""
 _PATH = re.compile(r"(?:.+/)?runs/\d{4}/\d{2}/(?P<id>[^/]+)/run\.json")
 
 Keep = Callable[[bytes], object]
@@ -41,21 +43,27 @@ def run_files(
 ) -> dict[str, bytes]:
     """Return the files of a run by path relative to the lab, the document with the hashes of the other two.
 
-    Where there is somebody to `keep` it, a file above INLINE goes there packed by gzip, and is an artifact.
+    Where there is somebody to `keep` it, a file above INLINE (FOLDED of runs in one) goes there packed by gzip, and is
+    an artifact.
     """
-    texts = {TRACE: jsonl(trace), MEASUREMENTS: jsonl(measurements)}
-    large = {name: packed(data) for name, data in texts.items() if keep and len(data) > INLINE}
+    texts, most = {TRACE: jsonl(trace), MEASUREMENTS: jsonl(measurements)}, FOLDED if document.folded else INLINE
+    large = {name: packed(data) for name, data in texts.items() if keep and len(data) > most}
     for data in large.values():
         assert keep is not None
         keep(data)
     beside = {name: data for name, data in texts.items() if name not in large}
     document = replace(
         document,
-        files={name: FileRef(sha256=_sha256(data), size=len(data)) for name, data in beside.items()},
+        files=references(beside),
         artifacts=(*document.artifacts, *(_artifact(name, data) for name, data in large.items())),
     )
     files = {DOCUMENT: (canonical(document) + "\n").encode(), **beside}
     return {f"{run_folder(document)}/{name}": data for name, data in files.items()}
+
+
+def references(files: Mapping[str, bytes]) -> dict[str, FileRef]:
+    """Return what a document says of the files beside it, by name."""
+    return {name: FileRef(sha256=_sha256(data), size=len(data)) for name, data in files.items()}
 
 
 def read_runs(files: Mapping[str, bytes], diagnostics: list[Diagnostic] | None = None) -> tuple[Run, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Any
 
 from pico.model.operation import address_of
@@ -20,7 +20,7 @@ class OperationRun:
     `start` on the bench's clock, `seconds` that it took; None where it did not begin, or nobody knows. `planned`: the
     seconds that the plan predicted. `outcome`: `done`, `failed`, `unknown`, or `not started`. `error`: the diagnostic
     of a failure. `data`: what it measured of itself, such as `error_mm` and `error_deg` of a placement. `settled`: who
-    said how an unknown one ended.
+    said how an unknown one ended. `run`: which of the runs that are folded into one it is of; `start` counts from that.
     """
 
     id: str
@@ -36,6 +36,7 @@ class OperationRun:
     error: Mapping[str, Any] | None = None
     data: Mapping[str, Any] = field(default_factory=dict)
     settled: str = ""
+    run: str = ""
 
     @property
     def address(self) -> str:
@@ -45,12 +46,17 @@ class OperationRun:
 
 def operations(trace: Iterable[TraceEvent]) -> tuple[OperationRun, ...]:
     """Return the operations of a trace in the order in which they were meant to begin; what is odd is passed over."""
-    kept: dict[tuple[str, int], dict[str, TraceEvent]] = {}
+    runs: dict[str, dict[tuple[str, int], dict[str, TraceEvent]]] = {}
     for event in trace:
         if event.operation is not None and event.attempt is not None:
+            kept = runs.setdefault(event.run or "", {})
             kept.setdefault((event.operation, event.attempt), {})[event.kind] = event
-    found = [_one(*key, events) for key, events in kept.items()]
-    return tuple(sorted(found, key=lambda op: (op.start is None, op.start or 0.0)))
+    return tuple(op for run, kept in runs.items() for op in _of_run(run, kept))
+
+
+def _of_run(run: str, kept: Mapping[tuple[str, int], Mapping[str, TraceEvent]]) -> list[OperationRun]:
+    found = [replace(_one(*key, events), run=run) for key, events in kept.items()]
+    return sorted(found, key=lambda op: (op.start is None, op.start or 0.0))
 
 
 def _one(name: str, attempt: int, events: Mapping[str, TraceEvent]) -> OperationRun:

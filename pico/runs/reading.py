@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import fields
 from functools import cache
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.run import FORMAT, Run, TraceEvent
+from pico.model.record import as_json
+from pico.model.run import FORMAT, SHARED, Run, TraceEvent
 
 LARGEST = 1 << 20
 """Bytes above which no document of a run is read."""
@@ -61,6 +63,17 @@ def read_events(path: str, data: bytes, diagnostics: list[Diagnostic] | None = N
     if wrong and diagnostics is not None:
         more = f", and {len(wrong) - 1} more lines" if len(wrong) > 1 else ""
         diagnostics.append(_damaged(f"{path}, line {wrong[0][0]}{more}", wrong[0][1]))
+    return tuple(found)
+
+
+def members(document: Run) -> tuple[Run, ...]:
+    """Return the documents of the runs that are folded into one, those that can be read; none where nothing is."""
+    shared = {key: value for key, value in as_json(document).items() if key in SHARED} if document.folded else {}
+    found = []
+    for own in document.folded:
+        with suppress(ValueError):
+            one = _checked({**shared, **own}, Run)
+            found += [one] if not _wrong(one, one.id) else []
     return tuple(found)
 
 

@@ -10,7 +10,14 @@ from pico.bench.publishing.parts import File, file
 from pico.content.store import Store, missing
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.lab.folder import LabFolder
-from pico.history.runs.committed import RunPlace, files_at, places_at, read_carried, runs_added
+from pico.history.runs.committed import (
+    RunPlace,
+    files_at,
+    places_at,
+    places_folded,
+    read_carried,
+    runs_added,
+)
 from pico.model.run import Artifact, Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import intact
@@ -27,6 +34,8 @@ def chosen_runs(folder: LabFolder, commit: str, digest: str, names: Sequence[str
     if not names:
         added = {run.id for run in runs_added(repository, commit, folder.root)}
         return [(r, places[r.id]) for r in there.values() if r.id in added or r.state_after == digest]
+    folded = places_folded(repository, places.values())
+    names = [folded[name].id if name in folded else name for name in names]
     unknown = [name for name in names if name not in there]
     if unknown:
         hint = did_you_mean(unknown[0], there) or "`pico runs list` shows the runs"

@@ -101,14 +101,15 @@ class Walker:
         found = {name: self._known[name] for name in commits if name in self._known}
         for name in commits:
             if name in self._runs:
-                found[name] = tuple(brief for file in self._runs[name] if (brief := self._brief(*file)))
+                found[name] = tuple(brief for file in self._runs[name] for brief in self._read(*file))
         return found
 
-    def _brief(self, path: str, name: str) -> RunBrief | None:
-        from pico.runs.reading import read_document
+    def _read(self, path: str, name: str) -> tuple[RunBrief, ...]:
+        """Return a run, or those that are folded into it; nothing of a damaged one."""
+        from pico.runs.reading import members, read_document
 
         document = read_document(path, self._content(name), PurePosixPath(path).parent.name)
-        return brief_of(document) if isinstance(document, Run) else None
+        return tuple(brief_of(run) for run in members(document) or [document]) if isinstance(document, Run) else ()
 
     def _content(self, name: str) -> bytes:
         blob = (

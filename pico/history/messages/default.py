@@ -9,6 +9,8 @@ from pico.model.diff import Change
 
 WIDTH = 72
 """Columns of the first line, as git's own tools show them."""
+BELOW = 12
+"""Lines below it at most: a message is read on a screen, and the diff says the rest."""
 _STEPS = re.compile(r" \(d[xy] [^()]*\)")
 
 
@@ -21,7 +23,7 @@ def default_message(changes: Sequence[Change], files: Sequence[str] = ()) -> str
     if not changes:
         return _nothing_moved(files)
     ordered = sorted(changes, key=lambda c: c.tunable != "pose")
-    body = "\n".join(_plain(f"{_address(c)} {_said(c)}{_ends(c)}") for c in ordered)
+    body = "\n".join(_most([_plain(f"{_address(c)} {_said(c)}{_ends(c)}") for c in ordered]))
     subject = _subject(ordered)
     return subject if subject == body else f"{subject}\n\n{body}"
 
@@ -48,7 +50,11 @@ def _nothing_moved(files: Sequence[str]) -> str:
     named = ", ".join(shown[:2]) + (f" and {len(shown) - 2} more" if len(shown) > 2 else "")
     subject = f"{head}: {kinds or f'comments or layout of {named}'}"
     subject = subject if len(subject) <= WIDTH else f"{head}: {_count(len(shown), 'file')}"
-    return subject + "\n\n" + "\n".join(files)
+    return subject + "\n\n" + "\n".join(_most(files))
+
+
+def _most(lines: Sequence[str]) -> Sequence[str]:
+    return lines if len(lines) <= BELOW else [*lines[: BELOW - 1], f"and {len(lines) - BELOW + 1} more"]
 
 
 def _address(change: Change) -> str:

@@ -18,6 +18,8 @@ from pico.history.git.cache import Cache
 from pico.history.git.commit import Commit
 from pico.history.repository.repository import Repository
 from pico.model.run import Run
+from pico.runs.files import DOCUMENT
+from pico.runs.folding import SUFFIX, folded_ids
 from pico.runs.reading import read_document
 
 _PLACE = re.compile(r"\d{4}/\d{2}/")
@@ -81,14 +83,36 @@ def find_runs(repository: Repository, folder: str | Path, runs: Mapping[str, flo
     is looked through, back to the first of them.
     """
     trees = _Trees(repository, repository.relative(folder))
-    found: dict[str, RunPlace] = {}
+    there: dict[str, RunPlace] = {}
     for tip in tip_ids(repository) if runs else ():
-        there = trees.places(repository.handle[tip])
-        found |= {name: there[name] for name in runs.keys() & there.keys()}
+        there |= trees.places(repository.handle[tip])
+    found = _among(repository, there, runs)
     missing = {name: began for name, began in runs.items() if name not in found}
     if missing:
-        there = places_in_history(repository, folder, since=min(missing.values()))
-        found |= {name: there[name] for name in missing.keys() & there.keys()}
+        found |= _among(repository, places_in_history(repository, folder, since=min(missing.values())), missing)
+    return found
+
+
+def _among(repository: Repository, places: Mapping[str, RunPlace], names: Iterable[str]) -> dict[str, RunPlace]:
+    """Return where runs lie, in folders of their own or folded into others, as far as that is at some places."""
+    wanted = set(names)
+    found = {name: places[name] for name in wanted & places.keys()}
+    folded = places_folded(repository, places.values()) if wanted - found.keys() else {}
+    return found | {name: folded[name] for name in (wanted - found.keys()) & folded.keys()}
+
+
+def places_folded(repository: Repository, places: Iterable[RunPlace]) -> dict[str, RunPlace]:
+    """Return where the runs lie that were folded into those at some places, by the ids that they had."""
+    found: dict[str, RunPlace] = {}
+    with closing(Cache(repository.common / CACHE)) as cache:
+        for place in places:
+            if place.id.endswith(SUFFIX):
+                key = f"folded {place.tree}"
+                known = cache.get(key)
+                if known is None:
+                    known = " ".join(folded_ids(b"".join(files_at(repository, place, (DOCUMENT,)).values())))
+                    cache.put(key, known)
+                found |= dict.fromkeys(known.split(), place)
     return found
 
 

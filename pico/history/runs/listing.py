@@ -10,6 +10,7 @@ from pico.history.repository.repository import Repository
 from pico.history.runs.committed import RunPlace, places_in_history, read_carried
 from pico.history.runs.uncommitted import unrecorded
 from pico.model.run import Run
+from pico.runs.reading import members
 
 
 def list_runs(
@@ -64,7 +65,7 @@ def _span(repository: Repository, revision: str | None) -> tuple[tuple[str, ...]
 
 def _of_component(folder: LabFolder, component: str, runs: list[Run]) -> list[Run]:
     """Return the runs that changed a component; raises PicoError for one that neither the bench nor a run knows."""
-    found = [run for run in runs if any(c.component == component for c in run.changes)]
+    found = [run for run in runs if any(c.component == component for one in (run, *members(run)) for c in one.changes)]
     if not found and component not in folder.setup.lab.inventory:
         hint = did_you_mean(component, folder.setup.lab.inventory)
         raise PicoError(error("unknown-component", f"there is no component `{component}`", hint=hint))

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from pico.content.store import Store, store_in
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
-from pico.history.runs.committed import RunPlace, files_at, places_in_history, read_carried, read_place
+from pico.history.runs.committed import (
+    RunPlace,
+    files_at,
+    places_folded,
+    places_in_history,
+    read_carried,
+    read_place,
+)
 from pico.history.runs.uncommitted import unrecorded
 from pico.model.lab import Setup
 from pico.model.run import Run, TraceEvent
 from pico.model.state import LabState
 from pico.runs.document import RecordedRun
 from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
+from pico.runs.folding import unfolded
 from pico.runs.reading import read_events
 from pico.runs.states import state_seen
 
@@ -32,8 +41,23 @@ def load_run(folder: LabFolder, word: str | None = None) -> tuple[RecordedRun, C
     wrong: list[Diagnostic] = []
     own = {run.document.id: run for run in unrecorded(folder, wrong)}
     places = places_in_history(folder.repository, folder.root) if folder.repository else {}
-    name = _last(folder, own, places) if word is None else _chosen(word, sorted({*own, *places}))
-    return (own[name], None) if name in own else _carried(folder, places[name], wrong)
+    if word is None:
+        name = _last(folder, own, places)
+        return (own[name], None) if name in own else _carried(folder, places[name], wrong)
+    folded = places_folded(folder.history(), places.values()) if places else {}
+    name = _chosen(word, sorted({*own, *places}), sorted(folded))
+    if name in own:
+        return own[name], None
+    return _carried(folder, places[name], wrong) if name in places else _member(folder, name, folded[name], wrong)
+
+
+def _member(folder: LabFolder, name: str, place: RunPlace, wrong: list[Diagnostic]) -> tuple[RecordedRun, Commit]:
+    """Return a run as it was before it was folded into the one at a place."""
+    whole, commit = _carried(folder, place, wrong)
+    for run in unfolded(whole):
+        if run.document.id == name:
+            return replace(run, after=_after(folder.setup, run.measurements)), commit
+    raise PicoError(error("run-file", f"{place.path}/run.json names the run {name}, and what it says of it is damaged"))
 
 
 def _last(folder: LabFolder, own: Mapping[str, RecordedRun], places: Mapping[str, RunPlace]) -> str:
@@ -47,11 +71,12 @@ def _last(folder: LabFolder, own: Mapping[str, RecordedRun], places: Mapping[str
     return late[-1].id if late else max(places)
 
 
-def _chosen(word: str, names: Sequence[str]) -> str:
-    """Return the one name that a word is, begins, or ends: tables show the last six characters."""
-    found = [name for name in names if name.startswith(word) or (word and name.endswith(f"-{word}"))]
-    if word in names:
+def _chosen(word: str, names: Sequence[str], folded: Sequence[str]) -> str:
+    """Return the one name that a word is, begins, or ends: tables show the last six characters. Those that are `folded`
+    into others count where the word fits nothing else."""
+    if word in names or word in folded:
         return word
+    found = _fitting(word, names) or _fitting(word, folded)
     if len(found) == 1:
         return found[0]
     if found:
@@ -60,6 +85,10 @@ def _chosen(word: str, names: Sequence[str]) -> str:
     inside = [name for name in names if word and word in name]
     hint = f"did you mean `{inside[-1]}`?" if inside else "`pico runs list --all` shows them"
     raise PicoError(error("run", f"there is no run `{word[:60]}`", hint=hint))
+
+
+def _fitting(word: str, names: Iterable[str]) -> list[str]:
+    return [name for name in names if name.startswith(word) or (word and name.endswith(f"-{word}"))]
 
 
 def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> tuple[RecordedRun, Commit]:

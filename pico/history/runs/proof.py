@@ -52,7 +52,8 @@ class Standings:
         carried = read_carried(self.folder.history(), self._places.values(), self.diagnostics)
         found: dict[str, list[Run]] = {}
         for run in sorted((*carried, *self.own), key=lambda r: (STRENGTH[r.evidence], r.ended_at), reverse=True):
-            found.setdefault(run.state_after, []).append(run)
+            for state in {run.state_after, *(str(one.get("state_after")) for one in run.folded)}:
+                found.setdefault(state, []).append(run)
         return found
 
     @cached_property

@@ -6,7 +6,7 @@ a run is carried by the commit of the state that it led to, or by the next one w
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -21,30 +21,49 @@ from pico.history.runs.proof import Standings
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.proof import Standing
-from pico.model.run import Run
+from pico.model.run import TRIALS, Run
 from pico.model.state import LabState
 from pico.runs.document import RecordedRun, recorded
-from pico.runs.files import Keep, run_files
+from pico.runs.files import DOCUMENT, MEASUREMENTS, TRACE, Keep, run_files, run_folder
+from pico.runs.folding import SUFFIX, fold
 from pico.runs.journal import RunRecord
 from pico.runs.states import changes
 
 
 def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
-    """Return the files of the runs that no commit has yet, by path relative to the lab; raises PicoError.
+    """Return the files of the runs that the next commit takes, by path relative to the lab; raises PicoError.
+
+    Single operations that came one after the other are folded into one. Trials of a search stay where they are.
 
     `seen`: the bench as it is, which makes the `state` that is to be committed (None: that of the manifests) the one to
     which the last run led, where it stands so (see `Run.state_after`). What is too big for a commit goes to the
     content store of the repository. What a commit that failed left of them in the working tree goes.
     """
     runs = unrecorded(folder)
-    here = [i for i, run in enumerate(runs) if seen and run.document.environment.get("backend") in (None, seen.backend)]
+    here = [i for i, run in enumerate(runs) if seen and is_awaited(run.document) and _of(run.document, seen)]
     if here and seen is not None:  # what moved a simulated bench says nothing of a real one, and the other way around
         runs[here[-1]] = _committed(folder, runs[here[-1]], seen, state or folder.state)
     files: dict[str, bytes] = {}
-    for run in runs:
-        files |= run_files(run.document, run.trace, run.measurements, keep=_keep(folder))
-    _clear(folder.root, files)
+    for run in fold(folder.setup, runs):
+        if is_awaited(run.document):
+            files |= run_files(run.document, run.trace, run.measurements, keep=_keep(folder))
+    _clear(folder.root, runs, files)
     return files
+
+
+def awaited(folder: LabFolder) -> bool:
+    """Return whether the next commit has a run to take; raises PicoError."""
+    return any(is_awaited(run.document) for run in unrecorded(folder))
+
+
+def is_awaited(document: Run) -> bool:
+    """Return whether a run that no commit has is for the next one: trials lead to no state that anybody wants, and
+    stay in the journal of their bench."""
+    return document.cause.kind not in TRIALS
+
+
+def _of(document: Run, seen: Observation) -> bool:
+    return document.environment.get("backend") in (None, seen.backend)
 
 
 def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -> list[RecordedRun]:
@@ -137,9 +156,13 @@ def _seconds(moment: str) -> float:
         return 0.0
 
 
-def _clear(root: Path, files: Mapping[str, bytes]) -> None:
-    """Take away what a commit that failed left of runs that no commit has; they may now have led to another state."""
-    for path, data in files.items():
-        left = root / path
-        if left.is_file() and not left.is_symlink() and left.read_bytes() != data:
-            left.unlink()
+def _clear(root: Path, runs: Iterable[RecordedRun], files: Mapping[str, bytes]) -> None:
+    """Take away what a commit that failed left of runs that no commit has; they may now have led to another state, or
+    be folded otherwise."""
+    for run in runs:
+        for suffix in ("", SUFFIX):
+            for name in (DOCUMENT, TRACE, MEASUREMENTS):
+                path = f"{run_folder(run.document)}{suffix}/{name}"
+                left = root / path
+                if left.is_file() and not left.is_symlink() and left.read_bytes() != files.get(path):
+                    left.unlink()

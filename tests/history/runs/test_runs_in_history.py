@@ -20,6 +20,7 @@ from carrying import (
     turned,
     write,
 )
+from commanding import Pico
 
 from pico.bench.bench import Bench
 from pico.diagnostics import Diagnostic, PicoError
@@ -64,6 +65,10 @@ def document(folder: Path, run: str) -> Run:
     return next(r for r in read_carried(repository, places_at(repository, head, folder).values()) if r.id == run)
 
 
+def recorded(folder: Path, run: str) -> Run:
+    return load_run(LabFolder(folder), run)[0].document
+
+
 # what a commit carries
 
 
@@ -84,11 +89,56 @@ def test_a_commit_carries_the_run_that_led_to_its_state(lab: Path) -> None:
 def test_all_runs_since_the_last_commit_go_along_each_with_the_state_that_it_led_to(lab: Path) -> None:
     first, second, third = turn(lab, "p1", 5), turn(lab, "p1", 7), apply(lab)
     made = commit(lab, "there and back").commit
-    assert added(lab, made) == [first, second, third]
-    one, two, three = (document(lab, run) for run in (first, second, third))
+    assert added(lab, made) == [f"{first}-fold", third]
+    one, two, three = (recorded(lab, run) for run in (first, second, third))
     assert one.state_after == two.state_before
     assert three.state_after == standing(lab).state == one.state_before
     assert len({d.state_after for d in (one, two, three)}) == 3
+    assert own(lab) == []
+
+
+@pytest.mark.slow
+def test_a_session_of_settings_is_one_run_in_a_commit(lab: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    with Bench.open(lab) as bench:
+        angles = [(("p1", "p2", "hwp")[n % 3], str(n % 40 + 1)) for n in range(55)]
+        runs = [bench.apply(bench.plans.single(name, "set", {"angle": a})).run for name, a in angles]
+        made = bench.commit(None, "capture").commit
+    monkeypatch.chdir(lab)
+    text = pico("log", "-n", "1").out.rstrip()
+    assert len(git(lab, "show", "--format=", "--name-only", made).splitlines()) <= 6
+    assert len(git(lab, "log", "-1", "--format=%B").splitlines()) <= 25
+    assert len(text.splitlines()) <= 15
+    assert own(lab) == []
+    whole = load_run(LabFolder(lab))[0]
+    assert [op.run for op in operations(whole.trace)] == runs
+    assert whole.document.tally["done"] == 55
+    found, commit = load_run(LabFolder(lab), runs[17][-6:])
+    assert (found.document.id, commit and commit.id) == (runs[17], made)
+    assert [c.text for c in found.document.changes] == ["15 → 18 deg"]
+    assert [op.arguments["to"] for op in operations(found.trace)] == [18]
+    assert found.after is not None and found.diagnostics == ()
+    assert standing(lab).verdict == "verified"
+
+
+def test_what_was_folded_is_blamed_and_undone_as_what_it_was(lab: Path) -> None:
+    runs = [turn(lab, *one) for one in (("p1", 5), ("p2", 7), ("p1", 9))]
+    commit(lab, "three")
+    with Bench.open(lab) as bench:
+        blamed = [leaf.last.how.run for leaf in bench.history.blame("p1.angle", "p2.angle").leaves]
+        assert blamed == [runs[2], runs[1]]
+        assert bench.recovery.undo_plan().target.of == runs[-1]
+        assert [run.id for run, _ in bench.history.runs(component="p2")][:1] == [f"{runs[0]}-fold"]
+
+
+def test_trials_stay_with_the_bench_and_are_in_no_commit(lab: Path) -> None:
+    first = turn(lab, "p1", 5)
+    with Bench.open(lab) as bench:
+        trial = bench.apply(bench.plans.single("p1", "set", {"angle": "6"}).because("bisect")).run
+    last = turn(lab, "p1", 7)
+    assert added(lab, commit(lab, "found").commit) == [first, last]
+    assert [run.id for run in own(lab)] == [trial]
+    with pytest.raises(PicoError, match="nothing to commit"):
+        commit(lab, "nothing else")
 
 
 def test_a_goal_that_was_reached_counts_though_the_bench_went_on(lab: Path) -> None:
@@ -126,8 +176,8 @@ def test_what_a_refused_commit_left_behind_is_not_what_the_next_one_says(lab: Pa
     hook.unlink()
     turn(lab, "p1", 8)
     made = commit(lab, "allowed").commit
-    assert run in added(lab, made)
-    assert document(lab, run).state_after != standing(lab, made).state
+    assert added(lab, made) == [f"{run}-fold"]
+    assert recorded(lab, run).state_after != standing(lab, made).state
     assert standing(lab, made).verdict == "verified"
     assert git(lab, "status", "--porcelain") == ""
 
