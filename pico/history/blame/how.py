@@ -38,21 +38,21 @@ class RunBrief:
     """What blame needs to know of a run: the leaves that it changed, and those that changed after it."""
 
     how: How
-    started_at: str
+    order: tuple[str, int, str]
     changes: tuple[Address, ...] = ()
     afterwards: tuple[Address, ...] = ()
 
     def as_list(self) -> list[Any]:
         """Return it as JSON data, for `brief_from`."""
         h = self.how
-        return [[h.run, h.cause, h.recipe, h.step, h.evidence], self.started_at, self.changes, self.afterwards]
+        return [[h.run, h.cause, h.recipe, h.step, h.evidence], self.order, self.changes, self.afterwards]
 
 
 def brief_from(data: list[Any]) -> RunBrief:
     """Return what `RunBrief.as_list` gave; raises ValueError or TypeError for anything else."""
-    (run, cause, recipe, step, evidence), started_at, made, after = data
+    (run, cause, recipe, step, evidence), (at, number, name), made, after = data
     how = How(kind="run", run=run, cause=cause, recipe=recipe, step=step, evidence=evidence)
-    return RunBrief(how, started_at, tuple((c, t) for c, t in made), tuple((c, t) for c, t in after))
+    return RunBrief(how, (at, number, name), tuple((c, t) for c, t in made), tuple((c, t) for c, t in after))
 
 
 def brief_of(document: Run) -> RunBrief:
@@ -67,13 +67,13 @@ def brief_of(document: Run) -> RunBrief:
         evidence=document.evidence,
     )
     made, after = (tuple((c.component, c.tunable) for c in found) for found in (document.changes, document.afterwards))
-    return RunBrief(how, document.started_at, made, after)
+    return RunBrief(how, document.order, made, after)
 
 
 def how(commit: Commit, runs: Sequence[RunBrief], at: Address) -> How:
     """Return how `commit`, which brought `runs` along, came to the leaf `at` that it changed."""
     evidence, told = _said(commit.message)
-    changing = max((r for r in runs if at in r.changes), key=lambda run: run.started_at, default=None)
+    changing = max((r for r in runs if at in r.changes), key=lambda run: run.order, default=None)
     if changing is not None and at not in changing.afterwards and evidence != "planned":
         return changing.how
     if len(commit.parents) > 1:
