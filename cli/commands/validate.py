@@ -23,6 +23,7 @@ def validate(
     slots, and where beams end. All errors at once, each with its place. Does not ask the bench; asks Git what it keeps
     out of the folder, and what its merge kept.
     """
+    from pico.bench.updating import waiting
     from pico.history.lab.missing_files import missing_files
     from pico.history.merge.checked import overlapping
     from pico.history.merge.doubts import doubts_in
@@ -40,6 +41,7 @@ def validate(
             *overlapping(read),
             *stray_beams(*read.require()),
             *doubts_in(root, read),
+            *waiting(root),
         ],
         missing_files,
     )

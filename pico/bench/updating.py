@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
 from pico.bench.running.loop import LoopThread
-from pico.diagnostics import PicoError
+from pico.diagnostics import Diagnostic, PicoError
 from pico.edge import own_lab
 from pico.edge.link.opening import opened
 from pico.edge.link.opening import own_lab as kept
@@ -56,6 +57,17 @@ def proposal(root: Path) -> Proposal:
         return Proposal(bench="", tree=wanted.digest(), differences=(lost,), patch="".join(_patch({}, tree.files)))
     patch = "".join(_patch(own.files, tree.files))
     return Proposal(bench=now.digest(), tree=wanted.digest(), differences=tuple(edited(now, wanted)), patch=patch)
+
+
+def waiting(root: Path) -> tuple[Diagnostic, ...]:
+    """Return that the working tree of a lab proposes another bench than its own keeps, if so."""
+    with suppress(PicoError):
+        found = proposal(root)
+        if found.differences:
+            told = ", ".join(found.differences)
+            hint = "`pico bench update` shows it, and lets the bench adopt it; until then plans go by the old one"
+            return (Diagnostic("note", own_lab.CODE, f"the bench has not adopted what was edited: {told}", hint=hint),)
+    return ()
 
 
 def update(root: Path, backend: str) -> None:

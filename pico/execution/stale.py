@@ -37,8 +37,10 @@ def stale(address: str, summary: str) -> Diagnostic:
 
 
 def edited(then: Setup, now: Setup) -> list[str]:
-    """Return what differs in two benches, as `differing` says it: `inventory.p3 added`."""
-    before, after = (as_json({"lab": s.lab, "types": dict(s.catalog)}) for s in (then, now))
+    """Return what differs in two benches, as `differing` says it: `inventory.p3 added`. A type that comes or goes with
+    its parts is not told beside them."""
+    both = then.catalog.keys() & now.catalog.keys()
+    before, after = (as_json({"lab": s.lab, "types": {n: s.catalog[n] for n in both}}) for s in (then, now))
     return [path.removeprefix("lab.") for path in differing(before, after)]
 
 

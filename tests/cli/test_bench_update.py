@@ -24,6 +24,8 @@ def test_the_difference_is_shown_and_adopted_only_with_consent(
     for words in (["plan"], ["status"], ["drift"], ["apply", "--auto-approve"]):
         told = pico(*words)
         assert told.code == 0 and told.err.count("warning[bench-lab]") == 1 and "sim.seed 1 → 2" in told.err
+    valid = pico("validate")
+    assert valid.code == 0 and "note[bench-lab]" in valid.err and "sim.seed 1 → 2" in valid.err
     shown = pico("bench", "update", "--dry-run")
     assert shown.code == 0 and "+  seed: 2" in shown.out and "-  seed: 1" in shown.out
     monkeypatch.setattr("sys.stdin", Typed("n\n"))
@@ -40,7 +42,16 @@ def test_an_import_is_the_benchs_own_at_once(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
     edit(shel / "lab.yaml", "  lx_125:\n    type: plano_convex_125\n    marker: 5\n    home: storage/a3\n", "")
     edit(shel / "state" / "table.yaml", "  lx_125:\n    slot: storage/a3\n", "")
-    assert pico("bench", "update", "--auto-approve").code == 0
+    adopted = json.loads(pico("bench", "update", "--json", "--auto-approve").out)
+    assert adopted["differences"] == ["inventory.lx_125 removed"]
+    edit(
+        shel / "lab.yaml", "  ly_150:\n", "  lx_125: {type: plano_convex_125, marker: 5, home: storage/a3}\n  ly_150:\n"
+    )
+    edit(shel / "state" / "table.yaml", "  ly_150:\n", "  lx_125:\n    slot: storage/a3\n  ly_150:\n")
+    lacking = pico("status")
+    assert lacking.code == 1 and "bench-lab" not in lacking.err and "`pico bench update` adopts it" in lacking.err
+    edit(shel / "lab.yaml", "  lx_125: {type: plano_convex_125, marker: 5, home: storage/a3}\n", "")
+    edit(shel / "state" / "table.yaml", "  lx_125:\n    slot: storage/a3\n", "")
     edit(shel / "lab.yaml", "seed: 1", "seed: 2")
     refused = pico("import", "--types", "5=plano_convex_125:lx_125")
     assert refused.code == 1 and "adopt that first: `pico bench update`" in refused.err

@@ -144,9 +144,9 @@ class LabFolder:
         wrong = load_files(bench_files(files), root=shown).diagnostics
         read = load_files(files, found, setup=own)
         told = [d for d in wrong if d.code != "no-state" and d not in read.diagnostics]
-        if whole.setup:
+        hinted = [_to_adopt(d, self.described) for d in read.diagnostics]
+        if whole.setup and hinted == list(read.diagnostics):  # else it is said where the bench lacks something
             told.append(_proposal(own, whole.setup, whole))
-        hinted = (_to_adopt(d, self.described) for d in read.diagnostics)
         return replace(read, diagnostics=(*told, *hinted))
 
     @property
