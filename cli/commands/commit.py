@@ -34,6 +34,7 @@ def commit(
     meta: Annotated[
         list[str] | None, typer.Option("--meta", metavar="KEY=VALUE", help="Record this, too; may be repeated.")
     ] = None,
+    empty: Annotated[bool, typer.Option("--allow-empty", help="Commit also where nothing changed.")] = False,
 ) -> None:
     """Capture the bench and commit.
 
@@ -50,8 +51,8 @@ def commit(
     if edit:
         from ..terminal.editing import edited
 
-        text = edited(bench, text if text is not None else bench.commits.draft(mode, only=only or ()))
-    made = bench.commits.commit(text, mode, only=only or (), meta=recorded)
+        text = edited(bench, text if text is not None else bench.commits.draft(mode, only=only or (), empty=empty))
+    made = bench.commits.commit(text, mode, only=only or (), meta=recorded, empty=empty)
     session.tell(made.diagnostics)
     session.show(view, made)
 

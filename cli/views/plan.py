@@ -15,6 +15,7 @@ from pico.model.pose import wrap as wrap_angle
 from pico.model.primitive import OWN
 from pico.model.record import as_json
 
+from .diff import brief
 from .style import WIDTH, ago, columns, count, listed, paint, place, seconds, width, wrap
 
 SHOWN_TOLERATED = 5
@@ -22,14 +23,24 @@ BAR = 60
 """Columns for the time of a plan, where several arms are drawn in it."""
 
 
-def text(plan: Plan, *, head: str = "", goal: str = "", next_step: str = "", single: bool = False) -> str:
+def text(
+    plan: Plan,
+    *,
+    head: str = "",
+    goal: str = "",
+    next_step: str = "",
+    single: bool = False,
+    beside: Sequence[Change] | None = None,
+) -> str:
     """Return the screen of a plan. `head` and `goal` name the commits; `next_step` says what to type; `single`: one
-    operation that somebody asked for."""
+    operation that somebody asked for; `beside`: in what the manifest is not as asked, where that is known."""
     blocks = [header(plan, head, goal, single)]
     if plan.operations:
         blocks.append("\n".join(operations(plan)))
         blocks.append("\n".join(timelines(plan)))
-    blocks.append("\n".join([*_tolerated(plan), *(part for line in _summary(plan) for part in wrap(line, "  "))]))
+    blocks.append(
+        "\n".join([*_tolerated(plan), *(part for line in _summary(plan, beside) for part in wrap(line, "  "))])
+    )
     if plan.errored:
         blocks.append("This plan can't be applied; what is wrong stands below.")
     elif plan.denied:
@@ -204,9 +215,9 @@ def tally(operations: Sequence[Operation]) -> str:
     return ", ".join(count(found[words], *words) for words in order if found[words] and any(words))
 
 
-def _summary(plan: Plan) -> list[str]:
+def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     if not plan.operations:
-        return _idle(plan)
+        return _idle(plan, beside)
     parts = [tally(plan.operations)]
     if any(op.kind.carries for op in plan.operations):
         parts.append(_staging(plan))
@@ -225,7 +236,7 @@ def _summary(plan: Plan) -> list[str]:
     return [*lines, f"the bench will not equal {goal_name(plan)} yet: the warnings say why"] if waiting else lines
 
 
-def _idle(plan: Plan) -> list[str]:
+def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     """Return why a plan without operations has none."""
     if plan.absent:
         return [f"Nothing to move, but {listed(plan.absent)} can't be seen: the bench is not {goal_name(plan)}."]
@@ -239,8 +250,15 @@ def _idle(plan: Plan) -> list[str]:
     if plan.target.scope:
         return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
     if plan.target.cause == "single":
-        return ["Nothing to do: it is as asked already."]
+        return [_as_asked(beside)]
     return [f"Nothing to do: the bench equals {goal_name(plan)}."]
+
+
+def _as_asked(beside: Sequence[Change] | None) -> str:
+    if beside:
+        found = f"Nothing to do: the bench is as asked already. The manifest is not ({brief(beside)})"
+        return f"{found}: `pico capture` takes the bench into it."
+    return f"Nothing to do: {'it is' if beside is None else 'bench and manifest are'} as asked already."
 
 
 def policy(plan: Plan) -> list[str]:

@@ -26,7 +26,7 @@ def text(found: Verified) -> str:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
         said = [f"The bench equals {found.goal}{near}."]
     said += expectations(found.expectations) or ["Nothing more is expected: `expect:` in a LabState says what is."]
-    return "\n".join([*said, *(proof(found.standing, left=bool(found.off)) if found.standing else [])])
+    return "\n".join([*said, *(proof(found.standing, left=found.left) if found.standing else [])])
 
 
 def proof(standing: Standing, *, left: bool = False) -> list[str]:

@@ -59,13 +59,15 @@ class Commits:
         *,
         only: Collection[str] = (),
         meta: Mapping[str, str] = MappingProxyType({}),
+        empty: bool = False,
     ) -> Committed:
         """Capture and commit the manifests, with the runs that led to what they say.
 
         `message`: why; the physical diff where None. `mode`: `strict` refuses edits that were never applied; `capture`:
         the bench wins; `planned`: the manifest wins where all of it can stand (exit code IMPOSSIBLE else), and the
         commit says where it was never realized. `only`: components, or single tunables, whose files are to be committed
-        and that may be captured; all where empty. `meta`: what else is to be recorded.
+        and that may be captured; all where there are none. `meta`: what else is to be recorded. `empty`: also where
+        nothing changed.
 
         A commit that ends a merge, a cherry-pick or a revert captures nothing: it is about two histories, and a
         hypothesis until the bench stands so. Every commit at whose state the bench stands carries the runs that no
@@ -90,15 +92,15 @@ class Commits:
             content = contents(folder, named)
             realized = stands(folder.setup, seen, content.state)
             runs = recording.pending(folder, seen, content.state) if realized else {}
-            if not (content.paths or runs or ending):
+            if not (content.paths or runs or ending or empty):
                 raise PicoError([*repository.noticed, nothing(named)])
             changes = _changes(folder, content.state)
             if message is None:
                 message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
             counts = _evidence(folder, seen, content.state, changes, runs, self.opened.fidelity)
-            return committed(folder, message, captured.changes, counts, runs=runs, meta=meta, named=named)
+            return committed(folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, empty=empty)
 
-    def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = ()) -> str:
+    def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
         """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
         seen, folder, repository = self.opened.observe(), self.folder, self.folder.history()
         ending = require_resolved(repository.root, repository.own)
@@ -110,7 +112,7 @@ class Commits:
         if mode != "planned":
             captured, state = folder.preview(self._live(seen), named)
         content = contents(folder, named)
-        if not (captured.files or content.paths or recording.awaited(folder)):
+        if not (captured.files or content.paths or empty or recording.awaited(folder)):
             raise PicoError(nothing(named))
         among = named.keys() | (content.components or ()) if named else folder.setup.lab.inventory
         changes = tuple(c for c in _changes(folder, state) if c.component in among)

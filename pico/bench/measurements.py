@@ -50,14 +50,17 @@ class Measurements:
         from pico.history import runs as recording
         from pico.model.expectation import Verified
         from pico.policy.expectations import check_expectations
+        from pico.runs.evidence import stands
 
         folder, setup = self.opened.folder, self.opened.setup
         wanted = folder.state_at(revision) if revision else folder.state
         seen = replace(self.opened.observe(), measurements=measurements)
+        committed = wanted if revision else folder.committed()
         return Verified(
             goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(setup, seen, wanted),
             expectations=check_expectations(setup, seen, wanted.expect),
             standing=recording.standing_of(folder, revision),
+            left=committed is not None and not stands(setup, seen, committed),
         )  # fmt: skip
 
     def expected(self, plan: Plan) -> Verified:

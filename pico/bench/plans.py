@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
+from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.request import PrimitiveRequest, asked, require_seen
-from pico.model.state import LabState
+from pico.model.state import LabState, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -187,6 +188,13 @@ class Plans:
         found = self._one(seen, asked(self.opened.setup, seen, component, primitive, arguments or {}))
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         return found
+
+    def not_in_manifest(self, plan: Plan, component: str, tunables: Collection[str]) -> tuple[Change, ...]:
+        """Return in which of some tunables of a component (`pose`: where it stands) the goal of a plan is not what the
+        manifest says; raises PicoError where that can't be read."""
+        wanted = state_from_json(plan.lab.name, plan.target.state)
+        found = diff_states(self.opened.setup, self.opened.state, wanted)
+        return tuple(c for c in found if c.component == component and c.tunable in tunables and not c.tolerated)
 
     def place(self, component: str, *, after: str, distance: float) -> Plan:
         """Return the plan that places a component `distance` mm after another along its beam; raises PicoError."""

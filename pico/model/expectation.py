@@ -29,7 +29,7 @@ class Expected:
 class Verified:
     """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `after` is live),
     and the expectations of the state. `standing`: of the commit that the goal is, or of HEAD for the manifest; None
-    without one."""
+    without one. `left`: the bench does not stand as that commit says, whatever the manifest does."""
 
     schema: str = "pico.verified/v1"
     goal: str
@@ -37,6 +37,7 @@ class Verified:
     changes: tuple[Change, ...] = ()
     expectations: tuple[Expected, ...] = ()
     standing: Standing | None = None
+    left: bool = False
 
     @property
     def off(self) -> tuple[Change, ...]:

@@ -120,8 +120,12 @@ def test_only_comments_changed_and_the_commit_says_so(built: Path, pico: Pico) -
     assert pico("commit").code == 0
     assert body().startswith("Nothing on the table changed: comments or layout of state/table.yaml\n")
     assert trailer("Pico-Evidence") == ["kinematic"]
+    made = git("rev-parse", "HEAD")
     again = pico("commit")
-    assert again.code == 1 and "error[nothing-to-commit]" in again.err
+    assert again.code == 1 and "error[nothing-to-commit]" in again.err and "--allow-empty" in again.err
+    assert git("rev-parse", "HEAD") == made
+    assert pico("commit", "--allow-empty", "-m", "before lunch").code == 0
+    assert git("rev-parse", "HEAD~1") == made and git("diff", "--stat", "HEAD~1") == ""
 
 
 def test_only_what_is_named_is_captured_and_committed(built: Path, pico: Pico) -> None:

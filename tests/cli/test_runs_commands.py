@@ -195,6 +195,18 @@ def test_verify_says_what_proves_the_commit(here: Path, pico: Pico) -> None:
     assert own not in json.dumps(data)
 
 
+def test_that_a_commit_is_verified_is_told_of_the_commit_whatever_the_manifest_says(here: Path, pico: Pico) -> None:
+    pico("capture")
+    answer = pico("verify")
+    assert "The bench equals the manifest" in answer.out and "has left it since" in " ".join(answer.out.split())
+    subprocess.run(["git", "checkout", "-q", "state"], check=True)
+    pico("apply", "--auto-approve")
+    table = here / "state" / "table.yaml"
+    table.write_text(table.read_text().replace("x: 520", "x: 525"))
+    answer = pico("verify")
+    assert "not as the manifest says" in answer.out and "is verified" in answer.out
+
+
 def test_a_plan_that_was_committed_is_verified_once_it_was_applied(here: Path, pico: Pico) -> None:
     from commanding import edit
 

@@ -44,9 +44,12 @@ def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) ->
 def test_what_is_so_already_is_not_taken_for_the_manifest(shel: Path, pico: Pico) -> None:
     pico("set", "p1", "angle=5", "-y")
     answer = pico("set", "p1", "angle=5", "-y")
-    assert (answer.code, "as asked already" in answer.out) == (0, True)
+    assert (answer.code, "the bench is as asked already" in answer.out) == (0, True)
+    assert "The manifest is not (p1.angle 90 → 5 deg)" in answer.out
     assert "equals" not in answer.out
     assert pico("plan", "--detailed-exitcode").code == 2
+    pico("capture")
+    assert "bench and manifest are as asked already" in pico("set", "p1", "angle=5", "-y").out
 
 
 def test_one_rule_says_what_is_asked_about(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:

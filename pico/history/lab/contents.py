@@ -77,20 +77,21 @@ def commit(
     runs: Mapping[str, bytes] = MappingProxyType({}),
     meta: Mapping[str, str] = MappingProxyType({}),
     named: Named | None = None,
+    empty: bool = False,
 ) -> Committed:
     """Commit the manifests as they are, with notes and the files of runs, and return the commit; raises PicoError.
 
     `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
     `meta`: what `--meta key=value` gave. `named`: only files that hold these components. Trailers say the digest of
     the state and of the lab, the `evidence`, the runs with their plans, and `meta`; they go into the block of
-    trailers that `message` has. Where a merge is under way, this ends it.
+    trailers that `message` has. Where a merge is under way, this ends it. `empty`: also where nothing changed.
     """
     require_meta(meta)
     repository = folder.history()
     with folder.writing("pico commit"):
         ending = require_resolved(repository.root, repository.own)
         content = contents(folder, None if ending else named)
-        if not content.paths and not runs and not ending:
+        if not (content.paths or runs or ending or empty):
             raise PicoError([*repository.noticed, nothing(named)])
         written = [write_once(folder.root, path, data) for path, data in sorted(runs.items())]
         digest, lab = content.state.digest(), folder.setup.lab
@@ -98,7 +99,7 @@ def commit(
         added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
         text = with_trailers(message, added)
         before = repository.head().commit
-        made = repository.commit(content.paths, text, ignored=written, whole=bool(ending))
+        made = repository.commit(content.paths, text, ignored=written, whole=bool(ending), empty=empty)
     return Committed(
         commit=made.id,
         message=message.strip(),
@@ -116,9 +117,10 @@ def commit(
 
 def nothing(named: Named | None) -> Diagnostic:
     """Return what to say where there is nothing to commit."""
-    what = f"the files that hold {', '.join(sorted(named))}" if named else "the manifests"
-    hint = "`pico status` shows the bench, `pico log` what there is"
-    return error("nothing-to-commit", f"nothing to commit: {what} are as in HEAD", hint=hint)
+    what = f"the files that hold {', '.join(sorted(named))}" if named else "manifests and notes"
+    hint = "`pico status` shows the bench; `--allow-empty` commits all the same"
+    text = f"nothing to commit: {what} are as in HEAD, and there is no run for it"
+    return error("nothing-to-commit", text, hint=hint)
 
 
 def _text(folder: LabFolder, path: str) -> bytes | None:

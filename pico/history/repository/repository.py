@@ -242,25 +242,29 @@ class Repository:
         author: tuple[str, datetime] | None = None,
         ignored: Iterable[str | Path] = (),
         whole: bool = False,
+        empty: bool = False,
     ) -> Commit:
         """Commit `paths` and nothing else that is staged, and return the commit; hooks run, signing as configured.
 
         Killed at any instant, the repository is as before or has the commit (`pico.history.writing.landing`). `author`:
         whose change it is, and when it was made, where that is not now by whoever commits. Files in `ignored` count
-        though .gitignore may name them. `whole`: all that is staged, as a merge needs it. Raises PicoError with git's
-        words: no identity, a hook that refuses, a lock, nothing to commit.
+        though .gitignore may name them. `whole`: all that is staged, as a merge needs it. `empty`: also where nothing
+        differs. Raises PicoError with git's words: no identity, a hook that refuses, a lock, nothing to commit.
         """
         if not message.strip():
             raise PicoError(error("message", "a commit needs a message", hint='say why: `pico commit -m "..."`'))
         forced = tuple(self.relative(p) for p in ignored)
         names = tuple(dict.fromkeys((*(self.relative(p) or "." for p in paths), *forced)))
-        if not names and not whole:
+        if not names and not whole and not empty:
             raise PicoError(error("nothing-to-commit", "there is nothing to commit", hint="nothing differs from HEAD"))
         with self.writing("pico commit"):
             what = Landing(
                 message=message, paths=names, ignored=forced, head=self.head().commit, refs=self._moving(),
                 partial=not whole, tidy=self._on("maintenance.auto"),
-                options=(f"--author={author[0]}", f"--date={author[1].isoformat()}") if author else (),
+                options=(
+                    *((f"--author={author[0]}", f"--date={author[1].isoformat()}") if author else ()),
+                    *(("--allow-empty",) if empty else ()),
+                ),
             )  # fmt: skip
             land(self._folders(), what)
         return self.resolve("HEAD")

@@ -72,7 +72,7 @@ def _stage(under: LockedGit, what: Landing) -> None:
 
 def _commit(under: LockedGit, what: Landing) -> None:
     under.begin()
-    only = ["--only", *listed(under.at, what.paths)] if what.partial else []
+    only = ["--only", *(listed(under.at, what.paths) if what.paths else ())] if what.partial else []
     arguments = [*_LATER, "commit", "--quiet", "--file=-", *what.options, *only]
     under.git(*arguments, doing="commit", stdin=what.message, hook=_HOOKS)
     _follow_hooks(under, what)
