@@ -56,12 +56,12 @@ def _turn(turn: LeafChange, form: str) -> list[str]:
 
 
 def said(how: How) -> str:
-    """Return how a leaf got its value, in few words: `apply a1b2c3`, `by hand`, `planned`."""
+    """Return how a leaf got its value, in few words: `apply a1b2c3`, `by hand`, `edited`."""
     if how.kind == "run":
         step = f" step {how.step}" if how.step else ""
         what = f"{how.cause} {how.recipe}{step}" if how.recipe else how.cause or "run"
         return f"{what} {(how.run or '').rpartition('Z-')[2]}"
-    return {"hand": "by hand", "commit": "-", "edit": ""}.get(how.kind, how.kind)
+    return {"hand": "by hand", "commit": "-", "edit": "", "planned": "edited, planned"}.get(how.kind, how.kind)
 
 
 def _address(leaf: BlamedLeaf) -> str:

@@ -27,7 +27,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
 from pico.model.state import LabState, home_state
 from pico.model.status import refuse_unapplied
-from pico.runs.evidence import changed_by, evidence, never_here, stands
+from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
 
 CommitMode = Literal["strict", "capture", "planned"]
 
@@ -98,7 +98,10 @@ class Commits:
             if message is None:
                 message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
             counts = _evidence(folder, seen, content.state, changes, runs, self.opened.fidelity)
-            return committed(folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, empty=empty)
+            hands = None if ending else _hands(folder, seen, content.state, changes, runs)
+            return committed(
+                folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, hands=hands, empty=empty
+            )  # fmt: skip
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
         """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
@@ -172,6 +175,24 @@ def _evidence(
     before = _before(folder)
     with remembered(folder.root) as memory:
         return evidence(folder.setup, memory, seen, state, changed, observed=observed, before=before)
+
+
+def _hands(
+    folder: LabFolder, seen: Observation, state: LabState, changes: tuple[Change, ...], runs: Mapping[str, bytes]
+) -> list[str] | None:
+    """Return what a hand changed of that which a commit changes, by address; None where its runs changed all."""
+    made = {(c.component, c.tunable): c.tolerated for c in changes}
+    with remembered(folder.root) as memory:
+        found = by_hand(
+            folder.setup,
+            memory,
+            seen,
+            state,
+            [one for one, near in made.items() if not near],
+            stood=_stood(folder) is not None,
+        )
+    documents = [data for path, data in runs.items() if path.endswith("/run.json")]
+    return [".".join(one) for one in found] if found or made.keys() - changed_by(documents) else None
 
 
 def _before(folder: LabFolder) -> str:

@@ -57,6 +57,22 @@ def evidence(
     return min((brought.get(one) or observed for one in known), key=lambda e: STRENGTH.get(e, 0))
 
 
+def by_hand(
+    setup: Setup, memory: Memory | None, seen: Observation, state: LabState, changed: Tunables, *, stood: bool
+) -> set[tuple[str, str]]:
+    """Return which of the tunables that a commit of `state` changes a hand changed on the bench.
+
+    It stands there, and the last operation on it left it elsewhere; or there was none, and it `stood` as the commit
+    before says. What else no run changed was written into the manifest. Raises PicoError where the journal can't be
+    read.
+    """
+    known = [one for one in changed if one[0] in setup.lab.inventory]
+    if not known or not stands(setup, seen, state):
+        return set()
+    brought = _brought(setup, memory, state, known)
+    return {one for one in known if (brought[one] is None if one in brought else stood)}
+
+
 def never_here(
     setup: Setup, memory: Memory | None, seen: Observation, state: LabState, *, stood: datetime | None = None
 ) -> set[tuple[str, str]]:

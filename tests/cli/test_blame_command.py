@@ -50,6 +50,8 @@ def test_a_run_a_hand_a_plan_and_an_edit_are_told_apart(shel: Path, pico: Pico) 
     assert pico("apply", "--auto-approve").code == 0
     assert pico("sim", "nudge", "p2", "--dx", "5").code == 0
     assert pico("commit", "-m", "lens in, p2 pushed", "--capture").code == 0
+    edit(shel / "state" / "table.yaml", "x: 290", "x: 290.01")
+    assert pico("commit", "-m", "p1 as the drawing has it").code == 0
     edit(shel / "state" / "table.yaml", "angle: 22.75", "angle: 30")
     assert pico("commit", "-m", "for tomorrow", "--planned").code == 0
     edit(shel / "state" / "table.yaml", "exposure: 10", "exposure: 20 ms")
@@ -58,11 +60,12 @@ def test_a_run_a_hand_a_plan_and_an_edit_are_told_apart(shel: Path, pico: Pico) 
     assert (how["lx_100.pose"]["kind"], how["lx_100.pose"]["cause"]) == ("run", "apply")
     assert how["lx_100.pose"]["evidence"] == "kinematic"
     kinds = {name: said["kind"] for name, said in how.items()}
-    assert [kinds[n] for n in ("p2.pose", "hwp.angle", "cam.exposure", "p1.pose")] == [
-        "hand", "planned", "edit", "commit",
+    assert [kinds[n] for n in ("p2.pose", "hwp.angle", "cam.exposure", "p1.pose", "p1.angle")] == [
+        "hand", "planned", "edit", "edited", "commit",
     ]  # fmt: skip
     out = pico("blame").out
     assert "by hand" in " ".join(lines(out)["p2.pose"])
+    assert "edited, planned" in " ".join(lines(out)["hwp.angle"])
     assert lines(out)["cam.exposure"] == ["20", "ms", "not", "committed"]
     assert "with edits that are not committed" in out
     run = how["lx_100.pose"]["run"]

@@ -96,7 +96,7 @@ def test_ones_own_words_stay_as_they_are_and_trailers_join(built: Path, pico: Pi
     head, _, block = body().rstrip().rpartition("\n\n")
     assert head == "why: because\n\n# no comment"
     keys = [line.partition(":")[0] for line in block.splitlines()]
-    assert keys == ["Closes", "Pico-State", "Pico-Evidence", "Pico-Lab", "Pico-Meta"]
+    assert keys == ["Closes", "Pico-State", "Pico-Evidence", "Pico-Lab", "Pico-Hand", "Pico-Meta"]
     assert "t: 21.3 degC" in pico("show").out
     assert pico("log", "-n", "1", "--json").data["commits"][0]["meta"] == {"t": "21.3 degC"}
 

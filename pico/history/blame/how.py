@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from pico.history.blame.follow import Address
 from pico.history.git.commit import Commit
-from pico.history.messages.trailers import EVIDENCE, LAB, values
+from pico.history.messages.trailers import EVIDENCE, HAND, LAB, values
 from pico.model.record import record
 from pico.model.run import Run
 
@@ -19,13 +19,14 @@ class How:
     """How a leaf got its value.
 
     `run`: the run `id` changed it on the bench, started by `cause` (`apply`, `single`, `recipe`, `optimizer`, ...),
-    where it was a recipe's in `step` of `recipe`. `hand`: captured from the bench, where no recorded run had changed
-    it. `planned`: the manifest was edited, and the commit says that it was not realized. `merge`: no side of a merge
+    where it was a recipe's in `step` of `recipe`. `hand`: captured from the bench, where no operation had left it so.
+    `edited`: written into the manifest, and no run that the commit brings along had to change the bench for it.
+    `planned`: edited, and the commit says that it was not realized. `merge`: no side of a merge
     had this value. `commit`: the commit does not say (it was made by git, or before runs were kept). `edit`: not
     committed yet.
     """
 
-    kind: Literal["run", "hand", "planned", "merge", "commit", "edit"]
+    kind: Literal["run", "hand", "edited", "planned", "merge", "commit", "edit"]
     run: str | None = None
     cause: str | None = None
     recipe: str | None = None
@@ -80,7 +81,10 @@ def how(commit: Commit, runs: Sequence[RunBrief], at: Address) -> How:
         return How(kind="merge", evidence=evidence)
     if evidence == "planned":
         return How(kind="planned", evidence=evidence)
-    return How(kind="hand" if runs or told else "commit", evidence=evidence)
+    said = values(commit.message, HAND)
+    if said and ".".join(at) not in said[-1].split(", "):
+        return How(kind="edited", evidence=evidence)
+    return How(kind="hand" if said or runs or told else "commit", evidence=evidence)
 
 
 @lru_cache(maxsize=1 << 14)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.lab.folder import LabFolder
 from pico.history.lab.notes import is_note, note_path
 from pico.history.lab.run_files import run_trailers, write_once
-from pico.history.messages.trailers import EVIDENCE, LAB, META, RUN, STATE, require_meta, with_trailers
+from pico.history.messages.trailers import EVIDENCE, HAND, LAB, META, NO_HAND, RUN, STATE, require_meta, with_trailers
 from pico.history.writing.in_progress import require_resolved
 from pico.manifest.edit import components_of
 from pico.manifest.file_names import is_manifest
@@ -77,6 +77,7 @@ def commit(
     runs: Mapping[str, bytes] = MappingProxyType({}),
     meta: Mapping[str, str] = MappingProxyType({}),
     named: Named | None = None,
+    hands: Iterable[str] | None = None,
     empty: bool = False,
 ) -> Committed:
     """Commit the manifests as they are, with notes and the files of runs, and return the commit; raises PicoError.
@@ -84,7 +85,8 @@ def commit(
     `runs`: files by path relative to the lab, `runs/YYYY/MM/<run id>/...`; written here, never over another file.
     `meta`: what `--meta key=value` gave. `named`: only files that hold these components. Trailers say the digest of
     the state and of the lab, the `evidence`, the runs with their plans, and `meta`; they go into the block of
-    trailers that `message` has. Where a merge is under way, this ends it. `empty`: also where nothing changed.
+    trailers that `message` has. Where a merge is under way, this ends it. `hands`: what was changed on the bench by
+    hand, of that which no run changed, by address; None where runs changed all. `empty`: also where nothing changed.
     """
     require_meta(meta)
     repository = folder.history()
@@ -96,6 +98,7 @@ def commit(
         written = [write_once(folder.root, path, data) for path, data in sorted(runs.items())]
         digest, lab = content.state.digest(), folder.setup.lab
         added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {folder.described.digest()}")]
+        added += [] if hands is None else [(HAND, ", ".join(sorted(hands)) or NO_HAND)]
         added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
         text = with_trailers(message, added)
         before = repository.head().commit
