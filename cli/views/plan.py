@@ -225,10 +225,11 @@ def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arm)}" if arm else ""))
     line = " · ".join(part for part in parts if part)
     changed = [op for op in plan.operations if op.reason.kind != "interlock" and op.kind.mutating]
-    touched = {op.component for op in changed if op.component in plan.base.state}
-    stay = len(plan.base.state) - len(touched)
+    carried = {op.component for op in changed if op.kind.carries}
+    known = plan.base.state.keys() | plan.target.state.keys() | carried  # what is held or not seen stands nowhere
+    stay = len(plan.base.state.keys() - {op.component for op in changed})
     whole = [line] if width(line) <= WIDTH - 2 else [" · ".join(parts[:-1]), parts[-1]]
-    lines = [*whole, f"{count(stay, 'component')} of {len(plan.base.state)} {'stays' if stay == 1 else 'stay'} as is"]
+    lines = [*whole, f"{count(stay, 'component')} of {len(known)} {'stays' if stay == 1 else 'stay'} as is"]
     lines += policy(plan)
     if plan.target.scope:
         return [*lines, _scope(plan)]

@@ -93,6 +93,9 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
         assert said.count("warning[cut-short]: run ") == 1 and f"was killed, and arm1 holds {held}" in said
         assert "`pico resume` takes the run up again" in said and "`pico recover` only sets down" in said
         assert "cut-short" in pico(*words, "--json").out
+    operations = pico("plan", "--json").data["operations"]
+    moved = {op["component"] for op in operations if op["reason"]["kind"] != "interlock"} - {"arm1"}
+    assert held in moved and f"  {9 - len(moved)} components of 9 stay as is\n" in pico("plan").out
     drifted = pico("drift").out
     assert f"`pico recover` sets down what a gripper holds: {held}." in drifted and "only you" not in drifted
     assert pico("recover", "--auto-approve").code == 0
