@@ -6,7 +6,7 @@
 Builds labs of about thirty parts with a random history (a commit moves or turns one to five parts, as a sub-assembly is
 worked on; with --scattered parts from anywhere; with --merges branches that were worked on at the same time) and plants
 a commit that breaks an expectation. `pico bisect run` then searches in the simulated bench, kinematic: it measures both
-ends, plans, moves and measures for real. From the same place `git bisect` does, with `pico bisect-step`, which always
+ends, plans, moves and measures for real. From the same place `git bisect` does, with `pico bisect step`, which always
 takes the middle. The expectation speaks of one part, so that commits which moved it are suspected first; with
 `--suspicion 1` all are alike, and only the costs are weighed. Prints a line a seed and the ratios of the simulated
 seconds of the search, a measurement counted with --measure seconds; and how near the estimates
@@ -84,7 +84,7 @@ def cheapest(lab: Written, measure: float, suspicion: float) -> Found:
 
 
 def halved(lab: Written, measure: float) -> Found:
-    """Search as `git bisect run pico bisect-step` does, from the good end."""
+    """Search as `git bisect run pico bisect step` does, from the good end."""
     with Bench.open(lab.root, fidelity="kinematic") as bench:
         under_way(bench).git.reset()
         _stand(bench, "main")

@@ -16,14 +16,15 @@ from typer.core import TyperGroup
 from pico.diagnostics import ExitCode
 
 from . import commands
-from .arguments import PREFIX, remember
+from .arguments import PLAIN, PREFIX, remember
+from .at_once.complete import SHARED, plain
 from .at_once.help import help_text
 from .commands import files, stem
 from .errors import explain
 from .session import Session, standing
 from .terminal.output import unsaid, write
 
-PLAIN: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False, "add_completion": False}
+EVERYWHERE = "Every command takes -C DIR, --json, --debug and --backend NAME, too: see `pico --help`."
 
 
 def _version(value: bool) -> None:
@@ -103,28 +104,34 @@ class Commands(TyperGroup):
 @cache
 def build() -> Any:
     """Return the command line; a program that runs several commands makes it once."""
-    app = typer.Typer(name="pico", cls=Commands, no_args_is_help=True, **PLAIN)
+    app = typer.Typer(name="pico", cls=Commands, no_args_is_help=True, pretty_exceptions_enable=False, **PLAIN)
     app.callback()(root)
     return typer.main.get_command(app)
 
 
 def _hidden_from_function(option: Any) -> Any:
-    """Return the option as a command takes it: its callback remembers the value, the function never sees it."""
+    """Return the option as a command takes it: its callback remembers the value, the function never sees it, and its
+    help has a line for all of them."""
     own = copy.copy(option)
-    own.expose_value = False
+    own.expose_value, own.hidden = False, True
     return own
 
 
 def _share(command: Any, options: list[Any]) -> None:
     taken = {word for p in command.params for word in p.opts}
     command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
+    command.help = (command.help or "").replace("Examples:\n", "\b\nExamples:\n")
+    command.epilog = EVERYWHERE
     for below in getattr(command, "commands", {}).values():
         _share(below, options)
 
 
 def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
-    session, stepping = Session(json="--json" in words, debug="--debug" in words), "bisect-step" in words
+    session = Session(json="--json" in words, debug="--debug" in words)
+    named = plain(words, SHARED)
+    stepping = named[:2] == ["bisect", "step"] or named[:1] == ["bisect-step"]
+    words = [*named[1:], "--help"] if named[:1] == ["help"] else words
     unsaid.clear()
     standing.clear()
     try:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import typer
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 
 from pico.diagnostics import PicoError, error
 
@@ -38,15 +38,6 @@ Yes = Annotated[bool, typer.Option("--auto-approve", "--yes", "-y", help="Do not
 Exact = Annotated[bool, typer.Option("--exact", help="Move for differences below the tolerance, too.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write to FILE.")]
-Targets = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--target",
-        metavar="COMPONENT",
-        help="Plan for this component only; may be given again. The plan names what must move with it, and what stays "
-        "different.",
-    ),
-]
 Exclude = Annotated[
     list[str] | None,
     typer.Option(
@@ -66,7 +57,7 @@ Mainline = Annotated[
 NoCommit = Annotated[bool, typer.Option("--no-commit", help="Write the manifests, and leave the commit to you.")]
 Speed = Annotated[float | None, typer.Option("--speed", metavar="SHARE", help="Share of the joint limits, up to 1.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the plan of it and move nothing.")]
-Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="Arguments.")]
+Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="What is asked of it.")]
 LockTimeout = Annotated[
     float | None,
     typer.Option(
@@ -80,6 +71,25 @@ StopOnError = Annotated[
 GitWords = Annotated[
     list[str] | None, typer.Argument(metavar="REMOTE|REF", help="For git, as it is; git's options, too.")
 ]
+
+
+PLAIN: dict[str, Any] = {"rich_markup_mode": None, "add_completion": False}
+
+
+class Group(TyperGroup):
+    """Commands under one name, each listed with its whole first line."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the list."""
+        known = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, (command.help or "").partition("\n")[0]) for name, command in known if command])
+
+
+def group(help: str, examples: tuple[str, ...], alone: bool = False) -> typer.Typer:
+    """Return commands under one name; `help` is their line in `pico --help`, `alone`: the name does something alone."""
+    said = "\n".join([help, "", "Examples:", *(f"  {line}" for line in examples)])
+    return typer.Typer(cls=Group, help=said, no_args_is_help=not alone, invoke_without_command=alone, **PLAIN)
 
 
 class Scoped(TyperCommand):
@@ -129,7 +139,7 @@ def pairs(words: list[str] | None, positional: tuple[str, ...] = ()) -> dict[str
 def _named(word: str, names: Iterator[str]) -> str:
     if word.startswith("--"):
         raise PicoError(error("usage", f"no such option: {word}"))
-    if "/" in word:
+    if "/" in word or word == "home":
         return "slot"
     name = next(names, None)
     if name is None:

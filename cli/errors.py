@@ -13,6 +13,8 @@ import typer
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 
+from .names import instead
+
 ALIKE = 0.8
 """How much alike a command must be to be offered, besides the first letter: `resume` and `move` move the arm, and are
 nothing for who typed `restore` or `remove`."""
@@ -74,6 +76,8 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
         hint = f"did you mean `{near.split(',')[0]}`? {hint}"
     if message.startswith("No such command"):
         unknown = message.split("'")[1] if "'" in message else next((w for w in words if not w.startswith("-")), "")
+        if path == "pico" and (said := instead(unknown)):
+            return error("usage", said)
         message = f"{path} has no command `{unknown}`"
         names = context.command.list_commands(context) if context else ()
         twisted = [name for name in names if sorted(name) == sorted(unknown)]

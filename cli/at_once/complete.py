@@ -29,11 +29,11 @@ def candidates(words: Sequence[str]) -> list[str]:
 
 def _offered(before: Sequence[str], last: str, folder: Path) -> Iterable[str]:
     options = {**SHARED, "--lock-timeout": "SECONDS"}
-    command, *below = [*_plain(before, options), ""]
+    command, *below = [*plain(before, options), ""]
     taken = _taken(command)
     own, metavars = taken.get("") or taken.get(below[0] if below else "") or ({}, [])
     options |= own
-    given = _plain(before, options)[1 if "" in taken else 2 :]
+    given = plain(before, options)[1 if "" in taken else 2 :]
     metavars = [*metavars, *(m for m in metavars[-1:] for _ in given if m.endswith("..."))]
     if before and options.get(before[-1]):
         return _meant(options[before[-1]], folder)
@@ -55,7 +55,7 @@ def _taken(command: str) -> dict[str, Declared]:
     return declared(files()[command])
 
 
-def _plain(before: Sequence[str], options: Mapping[str, str]) -> list[str]:
+def plain(before: Sequence[str], options: Mapping[str, str]) -> list[str]:
     """Return the words that are neither options nor their values."""
     return [w for i, w in enumerate(before) if not w.startswith("-") and not (i and options.get(before[i - 1]))]
 

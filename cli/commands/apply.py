@@ -18,7 +18,6 @@ from ..arguments import (
     Prefer,
     Scoped,
     StopOnError,
-    Targets,
     Yes,
     scope_of,
 )
@@ -42,7 +41,6 @@ def apply(
     auto_approve: Yes = False,
     exact: Exact = False,
     fidelity: Fidelity = None,
-    target: Targets = None,
     exclude: Exclude = None,
     prefer: Prefer = "fewest-moves",
     record: Record = None,
@@ -50,12 +48,16 @@ def apply(
     refresh: Refresh = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
-    """Move what the plan says.
+    """Show the plan, ask, and move what it says.
 
     Without an argument the bench becomes equal to the manifest. With names after `--` only these components or single
-    tunables do, and the manifest stays as it is: `pico apply e1 -- p2 p1.angle`. A name that is both a file and a
-    revision is an error; ./NAME is the file. A saved plan is refused (exit code 4) where what it stands on has changed
-    since. With --json: the plan, each event and the report, a line each.
+    tunables do, and the manifest stays as it is. A saved plan is refused (exit code 4) where what it stands on has
+    changed since. With --json: the plan, each event and the report, a line each.
+
+    Examples:
+      pico apply e1
+      pico apply e1 -- p2 p1.angle
+      pico apply ./e1.plan --yes --record e1.mp4
     """
     session = Session.of(context)
     if record:
@@ -63,8 +65,7 @@ def apply(
 
         require_kind(session.folder / record)
     bench = session.bench(fidelity, writing=True)
-    targets = (*(target or ()), *scope_of(context))
-    options = {"exact": exact, "prefer": prefer, "targets": targets, "exclude": exclude or ()}
+    options = {"exact": exact, "prefer": prefer, "targets": scope_of(context), "exclude": exclude or ()}
     plan = bench.plans.plan_of(what, folder=session.folder, **options)
     if what is not None and not isinstance(bench.history.find(what, session.folder), str):
         if refresh:

@@ -8,13 +8,11 @@ import typer
 
 from pico.diagnostics import ExitCode
 
-from ..arguments import Yes
+from ..arguments import Yes, group
 from ..session import Session
 from ..views import proposal as view
 
-app = typer.Typer(
-    rich_markup_mode=None, no_args_is_help=True, help="What the bench itself keeps: its own Lab, which plans go by."
-)
+app = group(help="The bench's own Lab, which plans go by.", examples=("pico bench update --dry-run",))
 
 Detailed = Annotated[bool, typer.Option("--dry-run", help="Show what differs, and adopt nothing.")]
 
@@ -25,11 +23,14 @@ def _group() -> None: ...
 
 @app.command()
 def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed = False) -> int:
-    """Show where the lab's files describe another bench than there is, and let the bench adopt that.
+    """Show where the lab's files describe another bench, and adopt that.
 
     The bench keeps its Lab (table, inventory, robots, cameras, policy, its component types) since it was moved first:
     plan and apply go by it, also at an old commit. An edited lab.yaml is a proposal until it is adopted here. Nothing
     moves. Exit code 1 where somebody says no, 5 where the bench is in use.
+
+    Examples:
+      pico bench update --dry-run
     """
     from pico.bench import updating
     from pico.manifest.load import find_lab

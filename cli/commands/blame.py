@@ -24,9 +24,13 @@ def blame(
 ) -> None:
     """Say for each tunable which commit changed it last, and how.
 
-    Without --at: the state at HEAD, and what was edited since. How: by which run; by hand, where the bench was captured
-    and no run had changed it; planned, where a commit says that an edit was never realized. A component is known by its
-    name: moving it to another file changes nothing, nor do comments, nor writing a value in another unit.
+    Without --at: the state at HEAD, and what was edited since. How: by which run; by hand, where the bench was
+    captured and no run had changed it; planned, where a commit says that an edit was never realized. A component is
+    known by its name: moving it to another file changes nothing, nor do comments, nor writing a value in another unit.
+
+    Examples:
+      pico blame p1
+      pico blame p1.angle --history
     """
     from pico.history.blame.blamed import blame as blamed
     from pico.manifest.load import find_lab

@@ -20,6 +20,10 @@ def capture(
     """Write what stands on the bench into the manifest.
 
     Only values that differ by more than their tolerance change, one line each; comments and layout stay.
+
+    Examples:
+      pico capture
+      pico capture p2 p1.angle --dry-run
     """
     session = Session.of(context)
     session.show(view, session.bench(writing=not dry_run).capture(*(only or ()), write=not dry_run))

@@ -1,4 +1,4 @@
-"""Manifests, 4: `pico catalog list` and `pico catalog show NAME`."""
+"""Manifests, 4: `pico catalog`: component types, and the parts of this bench."""
 
 from __future__ import annotations
 
@@ -6,16 +6,28 @@ from typing import Annotated
 
 import typer
 
+from ..arguments import group
 from ..session import Session
 from ..views import catalog as view
 from ..views import component_type as type_view
+from ..views import parts as parts_view
 
-app = typer.Typer(rich_markup_mode=None, no_args_is_help=True, help="List the component types, or show one.")
+app = group(
+    help="List the component types, show one, or list the parts.",
+    examples=("pico catalog", "pico catalog show linear_polarizer", "pico catalog parts --free"),
+    alone=True,
+)
+
+
+@app.callback()
+def main(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        list_types(context)
 
 
 @app.command("list")
 def list_types(context: typer.Context) -> None:
-    """List the component types."""
+    """List the component types; `pico catalog` alone does the same."""
     from pico.manifest.folders import catalog_of
 
     session = Session.of(context)
@@ -26,8 +38,26 @@ def list_types(context: typer.Context) -> None:
 def show(
     context: typer.Context, name: Annotated[str, typer.Argument(metavar="NAME", help="A component type.")]
 ) -> None:
-    """Show a component type: parameters, tunables, measurables, primitives, geometry."""
+    """Show a component type: parameters, tunables, primitives, geometry.
+
+    Examples:
+      pico catalog show linear_polarizer
+    """
     from pico.manifest.folders import component_type
 
     session = Session.of(context)
     session.show(type_view, component_type(session.folder, name))
+
+
+@app.command()
+def parts(
+    context: typer.Context,
+    free: Annotated[bool, typer.Option("--free", help="Only those in storage that the manifest does not use.")] = False,
+) -> None:
+    """List the parts of this bench and where they are.
+
+    Examples:
+      pico catalog parts --free
+    """
+    session = Session.of(context)
+    session.show(parts_view, session.bench().measurements.parts(free=free), free=free)

@@ -54,11 +54,15 @@ def check(
     pictures: Pictures = None,
     fidelity: Fidelity = None,
 ) -> int:
-    """Check a change as a pull request: valid, buildable, as expected in the simulator, allowed.
+    """Check a change as a pull request: valid, buildable, as expected.
 
     Asks the manifests as they are now, in a simulated bench of its own: the bench, its journal and its lock are not
-    touched. Above labs, each that differs from BASE is checked. Exits with 1 where manifests are not valid, 3 where the
-    state is physically impossible, 6 where an expectation fails, 7 where policy denies it; the first that applies.
+    touched. Above labs, each that differs from BASE is checked. Exits with 1 where manifests are not valid, 3 where
+    the state is physically impossible, 6 where an expectation fails, 7 where policy denies it; the first that applies.
+
+    Examples:
+      pico check main
+      pico check --report report.md --junit checks.xml
     """
     from pico.bench.checking import check
 

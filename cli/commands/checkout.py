@@ -35,10 +35,13 @@ def checkout(
     """Go to a revision: files and bench.
 
     Plans from the revision's own files, asks, runs `git checkout`, then moves the bench. With names after `--` only
-    these components or single tunables are taken from REV into the manifest, value by value: `pico checkout e1 -- p2
-    p1.angle`. Refused where edits that are not committed would be lost, save by `HEAD -- COMPONENT`, which drops
-    those of the component. If a move fails, the files stay at REV and
-    `pico status` tells the truth.
+    these components or single tunables are taken from REV into the manifest, value by value. Refused where edits that
+    are not committed would be lost, save by `HEAD -- COMPONENT`, which drops those of the component. If a move fails,
+    the files stay at REV and `pico status` tells the truth.
+
+    Examples:
+      pico checkout e1
+      pico checkout e1 -- p2 p1.angle
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)

@@ -17,11 +17,15 @@ def cherry_pick(
     mainline: Mainline = None,
     no_commit: NoCommit = False,
 ) -> None:
-    """Change on this branch what commits of another one changed on the table, in the manifests only.
+    """Change here in the manifests what commits elsewhere changed.
 
     A commit each, with its message and author, but without its runs: it was not realized here. Nothing is written
     where a tunable was changed here too, or where a result is physically impossible (exit 3). Nothing moves: `pico
     plan` then shows what would.
+
+    Examples:
+      pico cherry-pick E2-2
+      pico cherry-pick main..e1 --no-commit
     """
     session = Session.of(context)
     bench = session.bench(writing=True)

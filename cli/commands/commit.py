@@ -38,8 +38,12 @@ def commit(
 ) -> None:
     """Capture the bench and commit.
 
-    Refused where the manifest holds edits that were never applied: apply them first, or say who wins with --capture
-    or --planned. The commit carries the runs that led to its state, and notes. Without -m its message is what moved.
+    Refused where the manifest holds edits that were never applied: apply them first, or say who wins with --capture or
+    --planned. The commit carries the runs that led to its state, and notes. Without -m its message is what moved.
+
+    Examples:
+      pico commit -m "p1 three degrees from crossed"
+      pico commit --capture --meta temperature=21.3
     """
     if capture and planned:
         raise PicoError(error("usage", "--capture and --planned contradict each other: one of bench and manifest wins"))

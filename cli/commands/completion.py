@@ -14,7 +14,11 @@ def completion(
     context: typer.Context,
     shell: Annotated[Literal["bash", "zsh", "fish"], typer.Argument(metavar="bash|zsh|fish", help="Your shell.")],
 ) -> None:
-    """Print the completion script of a shell; its first line says how to install it."""
+    """Print a shell's completion script; it says how to install it.
+
+    Examples:
+      pico completion bash
+    """
     session = Session.of(context)
     if session.json:
         session.document({"schema": "pico.completion/v1", "shell": shell, "script": SCRIPTS[shell]})

@@ -10,7 +10,7 @@ import typer
 
 from pico.diagnostics import ExitCode, PicoError, error
 
-from ..arguments import Yes
+from ..arguments import Yes, group
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import data as view
@@ -19,10 +19,9 @@ if TYPE_CHECKING:
     from pico.history.data.lab import LabData
     from pico.history.data.transfer import Moved, Shared
 
-app = typer.Typer(
-    rich_markup_mode=None,
-    no_args_is_help=True,
-    help="Bring the large data of runs to where it is kept, and from there; look after it.",
+app = group(
+    help="The large data of runs: where it is, to there and from there.",
+    examples=("pico data status", "pico data push /mnt/share", "pico data gc --dry-run"),
 )
 _UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 Place = Annotated[
@@ -35,7 +34,11 @@ Place = Annotated[
 
 @app.command()
 def status(context: typer.Context, place: Place = None) -> None:
-    """Show which data the runs need, and how much of it is here and there."""
+    """Show which data the runs need, and what of it is here and there.
+
+    Examples:
+      pico data status
+    """
     session = Session.of(context)
     with waiting("Looking"):
         found = _data(session).status(_at(session, place))
@@ -44,7 +47,11 @@ def status(context: typer.Context, place: Place = None) -> None:
 
 @app.command()
 def push(context: typer.Context, place: Place = None) -> int:
-    """Copy what is here and not there; a second time it sends only what lacks."""
+    """Copy what is here and not there; a second time only what lacks.
+
+    Examples:
+      pico data push /mnt/share
+    """
     session = Session.of(context)
     data = _data(session)
     return _move(session, "Sending", "sent", lambda shared: data.push(_at(session, place), shared))
@@ -52,7 +59,11 @@ def push(context: typer.Context, place: Place = None) -> int:
 
 @app.command()
 def pull(context: typer.Context, place: Place = None) -> int:
-    """Copy what the runs need and is not here."""
+    """Copy what the runs need and is not here.
+
+    Examples:
+      pico data pull
+    """
     session = Session.of(context)
     data = _data(session)
     return _move(session, "Fetching", "fetched", lambda shared: data.pull(_at(session, place), shared))
@@ -60,7 +71,13 @@ def pull(context: typer.Context, place: Place = None) -> int:
 
 @app.command()
 def fsck(context: typer.Context) -> int:
-    """Read every object again. Damaged ones are set aside; those and missing ones are named with their runs."""
+    """Read every object again.
+
+    Damaged ones are set aside; those and missing ones are named with their runs.
+
+    Examples:
+      pico data fsck
+    """
     session = Session.of(context)
     with waiting("Reading") as shown:
         found = _data(session).check(lambda share: setattr(shown, "share", share))
@@ -77,7 +94,13 @@ def gc(
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would go, and remove nothing.")] = False,
     yes: Yes = False,
 ) -> None:
-    """Remove old objects that nothing here needs: no run of any ref, reflog, index, working tree or journal."""
+    """Remove old objects that nothing here needs.
+
+    That is: no run of any ref, reflog, index, working tree or journal.
+
+    Examples:
+      pico data gc --grace 6h --dry-run
+    """
     session = Session.of(context)
     data, seconds = _data(session), _seconds(grace)
     with waiting("Looking"):
@@ -96,7 +119,13 @@ def pointers(
     context: typer.Context,
     runs: Annotated[list[str] | None, typer.Argument(metavar="[RUN]...", help="Without: all in the files.")] = None,
 ) -> None:
-    """Write Git LFS pointers for the data of runs beside them, for you to commit, and hand git-lfs the data."""
+    """Write Git LFS pointers for the data of runs beside them.
+
+    For you to commit; git-lfs is handed the data.
+
+    Examples:
+      pico data pointers
+    """
     from pico.manifest.load import find_lab
 
     session = Session.of(context)

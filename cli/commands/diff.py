@@ -35,8 +35,12 @@ def diff(
     """Show what differs between two states, as motions.
 
     Without arguments: from the last commit to the manifest. With one: from A to the manifest. With names after `--` of
-    these components, tunables or files alone: `pico diff e1 e2 -- p2 state/table.yaml`. Differences are exact, however
-    small; `pico plan` knows tolerances and the bench.
+    these components, tunables or files alone. Differences are exact, however small; `pico plan` knows tolerances and
+    the bench.
+
+    Examples:
+      pico diff
+      pico diff e1 e2 -- p2
     """
     session = Session.of(context)
     history = session.history()

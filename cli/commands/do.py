@@ -24,10 +24,14 @@ def do(
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
-    """Run one primitive of a component, through the same checks as a plan.
+    """Run one primitive of a component, checked as a plan is.
 
-    `pico do p2 move x=500 y=420 yaw=30`, `pico do p2 move slot=storage/b2`, `pico do p1 set angle=3`,
-    `pico do p2 measure pose`. The manifest stays as it is: `pico capture` takes the result into it.
+    The manifest stays as it is: `pico capture` takes the result into it.
+
+    Examples:
+      pico do p2 move x=500 y=420 yaw=30
+      pico do p1 home angle
+      pico do p2 measure pose
     """
     from pico.model.primitive import primitive as known
 

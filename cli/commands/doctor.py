@@ -11,7 +11,11 @@ from ..views import doctor as view
 
 
 def doctor(context: typer.Context) -> int:
-    """Check that git, its merge driver and the manifests are as PICO needs them."""
+    """Check git, its merge driver and the manifests; show versions.
+
+    Examples:
+      pico doctor
+    """
     from pico.history.git.attributes import checkup
     from pico.history.lab.missing_files import missing_files
     from pico.manifest.folders import check_folder

@@ -20,7 +20,12 @@ def fmt(
         bool, typer.Option("--check", help="Write nothing; exit with 1 where a file would change.")
     ] = False,
 ) -> int:
-    """Bring manifests into the normal form; comments stay."""
+    """Bring manifests into the normal form; comments stay.
+
+    Examples:
+      pico fmt
+      pico fmt --check state/table.yaml
+    """
     from pico.manifest.folders import format_folder
 
     session = Session.of(context)

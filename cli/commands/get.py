@@ -6,20 +6,24 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Component
 from ..session import Session
 from ..views import values as view
 
 
 def get(
     context: typer.Context,
-    component: Component,
-    tunable: Annotated[str | None, typer.Argument(metavar="TUNABLE", help="Or a measurable; without it, all.")] = None,
+    what: Annotated[str, typer.Argument(metavar="COMPONENT[.TUNABLE]", help="Or a measurable; all without one.")],
 ) -> None:
     """Read the tunables of a component.
 
     Pose included, as they are on the bench. A measurable is peeked at: nothing is opened for it, and nothing of it is
     assured, which `pico do COMPONENT measure` does.
+
+    Examples:
+      pico get p1
+      pico get p1.angle
+      pico get left.frame
     """
     session = Session.of(context)
-    session.show(view, session.bench().measurements.read(component, tunable), component=component)
+    component, _, tunable = what.partition(".")
+    session.show(view, session.bench().measurements.read(component, tunable or None), component=component)

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import typer
 
+from ..arguments import group
 from ..session import Session
 from ..views import attached
 from ..views import wired as view
 
-app = typer.Typer(
-    rich_markup_mode=None, no_args_is_help=True, help="Let git merge manifests by PICO, or not; attach a worktree."
+app = group(
+    help="Let git merge manifests by PICO, or not; attach a worktree.", examples=("pico git install", "pico git attach")
 )
 
 
 @app.command()
 def install(context: typer.Context) -> None:
-    """Tell git about PICO's merge driver, in this repository only. The first command that writes does it by itself."""
+    """Tell git about PICO's merge driver, in this repository only.
+
+    The first command that writes does it by itself.
+
+    Examples:
+      pico git install
+    """
     from pico.history.git.attributes import install
 
     session = Session.of(context)
@@ -25,9 +32,13 @@ def install(context: typer.Context) -> None:
 
 @app.command()
 def attach(context: typer.Context) -> None:
-    """Attach this worktree to the bench, which it takes from the worktree that has it; that one then only plans.
+    """Attach this worktree to the bench.
 
-    A repository's first worktree that moves something is attached by itself.
+    It takes it from the worktree that has it; that one then only plans. A repository's first worktree that moves
+    something is attached by itself.
+
+    Examples:
+      pico git attach
     """
     from pico.edge.lease import attach
 
@@ -38,7 +49,13 @@ def attach(context: typer.Context) -> None:
 
 @app.command()
 def uninstall(context: typer.Context) -> None:
-    """Take PICO's merge driver out of this repository's configuration; it is then not set again by itself."""
+    """Take PICO's merge driver out of this repository's configuration.
+
+    It is then not set again by itself.
+
+    Examples:
+      pico git uninstall
+    """
     from pico.history.git.attributes import uninstall
 
     session = Session.of(context)

@@ -22,10 +22,14 @@ DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be writt
 
 
 def import_(context: typer.Context, types: Types = None, dry_run: DryRun = False) -> None:
-    """Take what stands on the table and is not in the inventory into it, as the cameras see it.
+    """Take parts on the table that the inventory lacks into it.
 
-    Writes an entry into `inventory` and where it stands into the state: `pico plan` then has nothing to do. What is
-    written there stays. A marker of which nothing says the type is asked for, and nothing is written.
+    As the cameras see them: an entry into `inventory`, and where they stand into the state, so that `pico plan` has
+    nothing to do. What is written there stays. A marker of which nothing says the type is asked for, and nothing is
+    written.
+
+    Examples:
+      pico import --types 5=plano_convex_125:lx_125
     """
     session = Session.of(context)
     bench = session.bench(writing=not dry_run)

@@ -19,7 +19,12 @@ def init(
         typer.Option("--example", metavar="minimal|shel|crowded|two_arms", help="With its history."),
     ] = None,
 ) -> None:
-    """Make a new lab, or an example with its history."""
+    """Make a new lab, or an example with its history.
+
+    Examples:
+      pico init mybench
+      pico init --example shel bench
+    """
     from pico.bench.bench import new_lab
 
     session = Session.of(context)

@@ -43,7 +43,11 @@ def log(
     """List commits with what each changed on the table.
 
     With names after `--` only those that changed these components, single tunables, or components that these files
-    hold: `pico log e1 -- p2 p1.angle`, `pico log -- state/table.yaml`.
+    hold.
+
+    Examples:
+      pico log --graph --oneline
+      pico log e1 -- p2 p1.angle
     """
     session = Session.of(context)
     words, limit = _counted(revisions or [], number)

@@ -12,27 +12,20 @@ SETTINGS = {"ignore_unknown_options": True}
 
 
 def move(
-    context: typer.Context,
-    component: Component,
-    arguments: Pairs = None,
-    speed: Speed = None,
-    dry_run: DryRun = False,
-    fidelity: Fidelity = None,
-    auto_approve: Yes = False,
-    lock_timeout: LockTimeout = None,
-) -> int:
-    """Move a component to a pose or a slot.
+    context: typer.Context, component: Component, arguments: Pairs = None, speed: Speed = None, dry_run: DryRun = False,
+    fidelity: Fidelity = None, auto_approve: Yes = False, lock_timeout: LockTimeout = None,
+) -> int:  # fmt: skip
+    """Move a component: to a pose, by an angle, to a slot, home.
 
-    `pico move p2 x=500 y=420 yaw=30`; what is not named stays. `pico move p2 500 420 30` is the same.
-    `pico move p2 storage/b2` takes it to a slot.
+    What is not named of x, y and yaw stays; `turn` counts from where it stands, `distance` from the optical plane of
+    the other one, along its beam. The manifest stays as it is.
+
+    Examples:
+      pico move p2 x=500 y=420 yaw=30
+      pico move p2 turn=-5
+      pico move p2 storage/b2
+      pico move p2 home
+      pico move ly_150 after=p2 distance=150
     """
-    return single(
-        Session.of(context),
-        component,
-        "move",
-        pairs(arguments, ("x", "y", "yaw")),
-        speed,
-        dry_run,
-        fidelity,
-        auto_approve,
-    )
+    given = pairs(arguments, ("x", "y", "yaw"))
+    return single(Session.of(context), component, "move", given, speed, dry_run, fidelity, auto_approve)

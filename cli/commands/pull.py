@@ -18,7 +18,14 @@ SETTINGS = {"ignore_unknown_options": True}
 
 
 def pull(context: typer.Context, words: GitWords = None) -> int:
-    """Get commits with `git pull`, then the large data of their runs. Moves nothing."""
+    """Run `git pull`, then get the large data of the runs.
+
+    Git's own options go along. Moves nothing.
+
+    Examples:
+      pico pull
+      pico pull origin e1
+    """
     from pico.history.data.lab import LabData
     from pico.history.repository.remote import pull
 

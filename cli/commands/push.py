@@ -29,7 +29,14 @@ def push(
         bool, typer.Option("--no-data", help="Send commits only; the data of their runs stays.")
     ] = False,
 ) -> None:
-    """Send the large data of runs to where it is kept, then the commits with `git push`."""
+    """Send the large data of runs to its place, then `git push`.
+
+    Git's own options go along. Nothing is pushed where data would stay behind, unless --no-data says so.
+
+    Examples:
+      pico push
+      pico push origin e1
+    """
     from pico.history.data.lab import LabData
     from pico.history.repository.remote import push
 

@@ -24,10 +24,14 @@ def recover(
     context: typer.Context, done: Keys = None, not_done: NotKeys = None, auto_approve: Yes = False,
     fidelity: Fidelity = None, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
-    """Set down what hands still hold, and settle what only you can know.
+    """Set down what hands still hold; settle what only you can know.
 
     For after a run was stopped or killed. Changes nothing else. `pico resume` and the next `pico apply` do the same
     before they go on.
+
+    Examples:
+      pico recover
+      pico recover --done 20260101-120000-1a2b/op3/1
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)

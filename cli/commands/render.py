@@ -38,10 +38,14 @@ def render(
     ] = False,
     size: Annotated[str, typer.Option("--size", metavar="WxH", help="Pixels of the picture.")] = "960x720",
 ) -> None:
-    """Draw the bench: a picture as PNG, or a drawing with its parts list as SVG.
+    """Draw the bench: a PNG, or as SVG with its parts list.
 
     As it is, with --manifest as the manifest wants it, or as REV wants it. Needs no OpenGL. An SVG is drawn from above
     at true scale, one unit a millimetre, with names and a parts list.
+
+    Examples:
+      pico render e1 --out e1.png
+      pico render --view top --plan
     """
     session = Session.of(context)
     _require(looking, out, plan, manifest and revision is not None)

@@ -16,10 +16,14 @@ def resume(
     stop_on_error: StopOnError = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
-    """Take up the last run again, which was interrupted, failed or killed.
+    """Take up the last run again, which was cut short, failed or killed.
 
-    It plans anew, from what stands on the table now to the goal of that run: nothing that is done is done again. What a
-    hand still holds is set down first.
+    It plans anew, from what stands on the table now to the goal of that run: nothing that is done is done again. What
+    a hand still holds is set down first.
+
+    Examples:
+      pico resume
+      pico resume --stop-on-error
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)

@@ -20,11 +20,14 @@ def revert(
     mainline: Mainline = None,
     no_commit: NoCommit = False,
 ) -> None:
-    """Take back what a commit changed on the table, in the manifests only.
+    """Take back in the manifests what a commit changed on the table.
 
     Later changes of other tunables stay, and so do the runs and notes of that commit. Nothing is written where the
     same tunable was changed since, or where the result is physically impossible (exit 3). Nothing moves: `pico plan`
     then shows what would.
+
+    Examples:
+      pico revert E1-3 -m "too steep"
     """
     if message.strip().isdecimal():
         raise PicoError(error("usage", f"-m is the message; the side of a merge is `--mainline {message.strip()}`"))

@@ -21,8 +21,13 @@ Picture = Annotated[Path | None, typer.Option("--picture", metavar="PNG", help="
 def ruler(context: typer.Context, a: A, b: B, picture: Picture = None) -> None:
     """Measure between two things on the bench.
 
-    Between their points, between their nearest faces, and along the beam axis of the first one. `pico ruler lx_125
-    ly_150`, `pico ruler p2:base hole:12,7`, `pico ruler cam 520,420`. Holes are counted from 1,1 at the front left.
+    Between their points, between their nearest faces, and along the beam axis of the first one. Holes are counted from
+    1,1 at the front left.
+
+    Examples:
+      pico ruler lx_125 ly_150
+      pico ruler p2:base hole:12,7
+      pico ruler cam 520,420
     """
     session = Session.of(context)
     bench = session.bench()

@@ -22,6 +22,8 @@ def set_(
 ) -> int:
     """Set a tunable.
 
-    `pico set p1 angle=3`, `pico set cam exposure="2 ms"`.
+    Examples:
+      pico set p1 angle=3
+      pico set cam exposure="2 ms"
     """
     return single(Session.of(context), component, "set", pairs(arguments), None, dry_run, fidelity, auto_approve)

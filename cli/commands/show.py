@@ -16,8 +16,12 @@ from ..views import revision as revision_view
 def show(context: typer.Context, what: PlanOrRevision = None) -> None:
     """Show a revision or a saved plan.
 
-    Of a revision (HEAD without an argument): what it changed, its runs and what proves it, and the state that it holds.
-    `REV:COMPONENT`: that component alone, with what was noted on it. Text of files: `git show REV:FILE`.
+    Of a revision (HEAD without an argument): what it changed, its runs and what proves it, and the state that it
+    holds. `REV:COMPONENT`: that component alone, with what was noted on it. Text of files: `git show REV:FILE`.
+
+    Examples:
+      pico show e1
+      pico show e1:p2
     """
     session = Session.of(context)
     history = session.history()

@@ -7,23 +7,26 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from ..arguments import Component
+from ..arguments import Component, group
 from ..session import Session
 from ..views import simulated as said
 
 if TYPE_CHECKING:
     from pico.backends.world import World
 
-app = typer.Typer(
-    rich_markup_mode=None,
-    no_args_is_help=True,
-    help="Act on the simulated world: reset it, nudge or remove a component, bump a camera, view it.",
+app = group(
+    help="Act on the simulated world, as a hand would.",
+    examples=("pico sim nudge p2 --dx 5", "pico sim faults drop=0.05 seed=3", "pico sim reset"),
 )
 
 
 @app.command()
 def reset(context: typer.Context) -> None:
-    """Put every part of the simulated bench home, as in a new world."""
+    """Put every part of the simulated bench home, as in a new world.
+
+    Examples:
+      pico sim reset
+    """
     _act(context, lambda sim: sim.reset(), "every part of the simulated bench is at home")
 
 
@@ -35,7 +38,11 @@ def nudge(
     dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
     dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
 ) -> None:
-    """Push a component, as somebody bumping the table would."""
+    """Push a component, as somebody bumping the table would.
+
+    Examples:
+      pico sim nudge p2 --dx 5
+    """
     session = Session.of(context)
     pose = session.bench().sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
     session.show(said, f"{name} now stands at {pose}", pose=pose)
@@ -52,7 +59,13 @@ def bump(
     dz: Annotated[float, typer.Option("--dz", help="Millimetres up.")] = 0.0,
     dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
 ) -> None:
-    """Push a camera, as somebody bumping its post would: it keeps looking from there until a reset."""
+    """Push a camera, as somebody bumping its post would.
+
+    It keeps looking from there until a reset.
+
+    Examples:
+      pico sim bump left --dx 3
+    """
     moved = f"{camera or 'every camera at the table'} moved by ({dx:g}, {dy:g}, {dz:g}) mm, {dyaw:g} deg"
     shift, turn = (dx, dy, dz), (0.0, 0.0, dyaw)
     _act(context, lambda sim: sim.bump(camera, shift=shift, turn=turn), f"{moved}; its calibration is as before")
@@ -60,13 +73,23 @@ def bump(
 
 @app.command()
 def remove(context: typer.Context, name: Component) -> None:
-    """Take a component off the simulated table: it is then missing."""
+    """Take a component off the simulated table: it is then missing.
+
+    Examples:
+      pico sim remove p2
+    """
     _act(context, lambda sim: sim.remove(name), f"{name} is off the table; `pico sim reset` brings everything back")
 
 
 @app.command()
 def view(context: typer.Context) -> None:
-    """Open MuJoCo's own viewer on the bench and follow what moves; needs a display."""
+    """Open MuJoCo's own viewer on the bench; needs a display.
+
+    It follows what moves.
+
+    Examples:
+      pico sim view
+    """
     from pico.drawing.viewer import require_display
 
     require_display()
@@ -81,7 +104,13 @@ def person(
         typer.Argument(metavar="here|away", help="Whether somebody is at the table from now on."),
     ],
 ) -> None:
-    """Let somebody step up to the simulated table, or go away: policies ask about it, and nothing heals meanwhile."""
+    """Let somebody step up to the simulated table, or go away.
+
+    Policies ask about it, and nothing heals meanwhile.
+
+    Examples:
+      pico sim person here
+    """
     here = where == "here"
     _act(context, lambda sim: sim.person(here), f"{'somebody' if here else 'nobody'} is at the table")
 
@@ -92,6 +121,9 @@ def power_cycle(context: typer.Context) -> None:
 
     Axes that must be homed then stand nobody knows where, and the next plan homes them first; electronics are dark and
     closed.
+
+    Examples:
+      pico sim power-cycle
     """
     _act(context, lambda sim: sim.power_cycle(), "the power was off; the next plan homes what must be homed")
 
@@ -103,9 +135,14 @@ def faults(
         list[str] | None, typer.Argument(metavar="KIND=RATE...", help="For example drop=0.05 seed=3; or off.")
     ] = None,
 ) -> None:
-    """Let things go wrong on the simulated bench: drop, slip, jam, camera, timeout, reading, slow, or all.
+    """Let things go wrong on the simulated bench.
 
-    A rate is a share of the operations, from 0 to 1. Without an argument it says what is in force.
+    Drop, slip, jam, camera, timeout, reading, slow, or all. A rate is a share of the operations, from 0 to 1. Without
+    an argument it says what is in force.
+
+    Examples:
+      pico sim faults drop=0.05 seed=3
+      pico sim faults off
     """
     session = Session.of(context)
     found = session.bench().sim.faults(words or ())

@@ -22,10 +22,15 @@ def stash(
     name: Annotated[str, typer.Argument(metavar="[N]", help="Which edits: 0 the last ones, 1 those before.")] = "",
     message: Annotated[str, typer.Option("-m", "--message", help="What to call the edits that are shelved.")] = "",
 ) -> None:
-    """Shelve the edits of the manifests, or bring them back. The bench is not shelved: nothing moves.
+    """Shelve the edits of the manifests, or bring them back.
 
-    The edits of this lab's manifests go into git's stash. `pico plan` then shows what the bench has that the files have
-    not. Edits of tunables that were changed since are not brought back, but named.
+    The bench is not shelved: nothing moves. The edits of this lab's manifests go into git's stash. `pico plan` then
+    shows what the bench has that the files have not. Edits of tunables that were changed since are not brought back,
+    but named.
+
+    Examples:
+      pico stash -m "half an idea"
+      pico stash pop
     """
     session = Session.of(context)
     bench = session.bench(writing=action != "list")

@@ -17,6 +17,10 @@ def status(
     """Show what is committed, desired and live, side by side.
 
     `*` marks what the manifest changes against the last commit, `!` what stands elsewhere than the manifest says.
+
+    Examples:
+      pico status
+      pico status --all
     """
     from pico.history.merge.doubts import unsettled
 

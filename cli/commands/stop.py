@@ -16,6 +16,10 @@ def stop(context: typer.Context, now: Now = False) -> None:
     """Stop the run that goes on, from any terminal.
 
     As Ctrl-C in its own would. Nothing more starts; a part in the hand goes to its goal or back, whichever is sooner.
+
+    Examples:
+      pico stop
+      pico stop --now
     """
     from pico.bench.stopping import stop
 

@@ -12,9 +12,12 @@ from ..session import Session
 def undo(
     context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None, lock_timeout: LockTimeout = None
 ) -> int:
-    """Take everything that the last run moved or set back to where it was before.
+    """Take back what the last run moved or set.
 
     Files stay as they are. Undone twice, it is as the run left it.
+
+    Examples:
+      pico undo
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)

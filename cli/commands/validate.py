@@ -22,6 +22,9 @@ def validate(
     Also that everything has room where the state wants it, that an arm can grip what it is to move and reaches the
     slots, and where beams end. All errors at once, each with its place. Does not ask the bench; asks Git what it keeps
     out of the folder, and what its merge kept.
+
+    Examples:
+      pico validate
     """
     from pico.bench.updating import waiting
     from pico.history.lab.missing_files import missing_files

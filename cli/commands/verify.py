@@ -27,15 +27,18 @@ def verify(
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
-    """Check that the bench is as the manifest says, and that its expectations hold. Moves nothing without --measure.
+    """Check that the bench is as wanted, and that expectations hold.
 
-    Says as well whether any bench ever stood as that commit (HEAD without one) says: which run led there, and whether
-    that was simulated. It exits the same either way.
+    As the manifest wants it, or a revision. Moves nothing without --measure. Says as well whether any bench ever stood
+    as that commit (HEAD without one) says, by which run, and whether that was simulated; it exits the same either way.
 
     With --measure it takes the bench, parks its arms and measures, as `pico do COMPONENT measure` does; without, what
-    speaks of a measurable is not assured.
+    speaks of a measurable is not assured. Exits with 6 where an expectation fails or can't be told, with 1 where
+    something stands elsewhere than it should.
 
-    Exits with 6 where an expectation fails or can't be told, with 1 where something stands elsewhere than it should.
+    Examples:
+      pico verify
+      pico verify e1 --measure
     """
     session = Session.of(context)
     bench = session.bench(writing=measure)

@@ -66,12 +66,7 @@ def single(
     plan = bench.plans.single(component, primitive, arguments)
     asked = arguments if primitive == "set" else ("pose",) if primitive in ("move", "stow") else ()
     beside = bench.plans.not_in_manifest(plan, component, asked) if asked and not plan.operations else None
-    return finish(session, bench, plan, dry_run, auto_approve, beside=beside)
-
-
-def finish(session: Session, bench: Bench, plan: Plan, dry_run: bool, auto_approve: bool, **how: Any) -> int:
-    """Show the plan of one operation, ask, and run it; `how`: see `views.plan.text`."""
-    code = show(session, bench, plan, auto_approve or dry_run, single=True, **how)
+    code = show(session, bench, plan, auto_approve or dry_run, single=True, beside=beside)
     if code or dry_run or not plan.operations:
         return code
     return declined(session, bench, plan, auto_approve) or execute(session, bench, plan)

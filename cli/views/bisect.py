@@ -128,7 +128,7 @@ class StandingView:
 
 
 class StepView:
-    """One trial of `pico bisect-step`."""
+    """One trial of `pico bisect step`."""
 
     @staticmethod
     def text(found: StepRecord) -> str:

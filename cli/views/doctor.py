@@ -8,16 +8,18 @@ from typing import Any
 from pico.diagnostics import Diagnostic
 
 from . import diagnostics
-from .style import count
+from .style import columns, count
+from .version import versions
 
 
 def text(found: Sequence[Diagnostic]) -> str:
-    """Return one line."""
-    if found:
-        return f"{count(len(found), 'thing')} to look at."
-    return "All is well: git knows the drivers of merge and diff, they start, the manifests are valid."
+    """Return the verdict, and the versions."""
+    well = "All is well: git knows the drivers of merge and diff, they start, the manifests are valid."
+    verdict = f"{count(len(found), 'thing')} to look at." if found else well
+    return "\n".join([verdict, "", *columns([[name, known or "not installed"] for name, known in versions().items()])])
 
 
 def data(found: Sequence[Diagnostic]) -> dict[str, Any]:
-    """Return schema `pico.doctor/v1`: `well` and the diagnostics."""
-    return {"schema": "pico.doctor/v1", "well": not found, "diagnostics": diagnostics.data(found)["diagnostics"]}
+    """Return schema `pico.doctor/v1`: `well`, `versions` by name, and the diagnostics."""
+    told = diagnostics.data(found)["diagnostics"]
+    return {"schema": "pico.doctor/v1", "well": not found, "versions": versions(), "diagnostics": told}

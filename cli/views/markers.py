@@ -1,4 +1,4 @@
-"""What `pico markers` wrote."""
+"""What `pico calibrate markers` wrote."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `pico publish` wrote."""
+"""What `pico runs export` wrote."""
 
 from __future__ import annotations
 

@@ -6,25 +6,17 @@ import platform
 import subprocess
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as installed
-from typing import Any
-
-from .style import columns
 
 STANDS_ON = ("mujoco", "numpy", "pygit2", "pydantic", "PyYAML", "ruckig", "typer")
 
 
-def text() -> str:
-    """Return a line a component."""
-    return "\n".join(columns([[name, found or "not installed"] for name, found in data()["versions"].items()]))
-
-
-def data() -> dict[str, Any]:
-    """Return schema `pico.version/v1`: `versions` by name."""
+def versions() -> dict[str, str | None]:
+    """Return the versions of PICO and of what it stands on, None where it is not installed."""
     from pico import __version__
 
     own = {"pico": __version__, "python": platform.python_version(), "git": _git()}
     system = {"system": f"{platform.system()} {platform.machine()}"}
-    return {"schema": "pico.version/v1", "versions": own | {name: _installed(name) for name in STANDS_ON} | system}
+    return own | {name: _installed(name) for name in STANDS_ON} | system
 
 
 def _installed(name: str) -> str | None:

@@ -1,4 +1,4 @@
-"""What `pico watch` tells: a line for each change, and for what was brought back."""
+"""What `pico drift --watch` tells: a line for each change, and for what was brought back."""
 
 from __future__ import annotations
 

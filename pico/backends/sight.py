@@ -171,7 +171,7 @@ def _component(
     if part.marker is None or plate is None:
         if part.pose is not None:
             return ObservedComponent(pose=part.pose, how="fixed"), None
-        hint = "give it a `marker`, and stick that on: `pico markers` prints it"
+        hint = "give it a `marker`, and stick that on: `pico calibrate markers` prints it"
         text = f"{name} carries no marker, so no camera can find it"
         return ObservedComponent(presence="missing"), warning("marker-none", text, hint=hint, address=name)
     wrong = next((f for f in sighting.findings if f.component == name and f.kind != "hidden"), None)

@@ -75,7 +75,7 @@ def _moved_on(before: Change, now: Change) -> bool:
 def require_heal(setup: Setup) -> None:
     """Raise PicoError (exit code DENIED) unless the lab allows that what drifted is brought back unasked."""
     if not setup.lab.policy.heal:
-        hint = "`policy: {heal: true}` in the lab allows it; without --heal `pico watch` only tells"
+        hint = "`policy: {heal: true}` in the lab allows it; without --heal `pico drift --watch` only tells"
         raise PicoError(
             error("denied", f"the policy of {setup.lab.name} does not allow to heal", hint=hint), ExitCode.DENIED
         )

@@ -173,7 +173,7 @@ def _not_there(setup: Setup, marker: int) -> Diagnostic:
         hint = f"`pico capture {known}` takes where it stands into the state"
         return error("no-marker", f"marker {marker} is that of {known}, which the inventory has", hint=hint)
     text = f"no marker {marker} stands on the table that the inventory lacks"
-    return error("no-marker", text, hint="`pico scan` lists what is seen")
+    return error("no-marker", text, hint="`pico look` lists what is seen")
 
 
 def _to(value: float, step: float) -> float:

@@ -13,7 +13,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, erro
 from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Base, Plan, Target
-from pico.model.request import PrimitiveRequest, asked, require_seen
+from pico.model.request import PrimitiveRequest, asked
 from pico.model.state import LabState, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
@@ -135,7 +135,7 @@ class Plans:
             return self.plan(found, **options)
         if any(options.get(k) for k in ("exact", "targets", "exclude")) or options.get("prefer") == "shortest-time":
             text = f"{word} is a saved plan, and is taken as it is"
-            raise PicoError(error("usage", text, hint="--exact, --target, --exclude and --prefer go with `pico plan`"))
+            raise PicoError(error("usage", text, hint="names, --exact, --exclude and --prefer go with `pico plan`"))
         return found
 
     def refreshed(self, plan: Plan) -> Plan:
@@ -195,15 +195,6 @@ class Plans:
         wanted = state_from_json(plan.lab.name, plan.target.state)
         found = diff_states(self.opened.setup, self.opened.state, wanted)
         return tuple(c for c in found if c.component == component and c.tunable in tunables and not c.tolerated)
-
-    def place(self, component: str, *, after: str, distance: float) -> Plan:
-        """Return the plan that places a component `distance` mm after another along its beam; raises PicoError."""
-        from pico.planning import place_after
-
-        seen = self.opened.observe()
-        require_seen(self.opened.setup, seen, component, after)
-        pose = place_after(self.opened.setup, seen, component, after, distance)
-        return self._one(seen, PrimitiveRequest(component=component, primitive="move", pose=pose))
 
     def _one(self, seen: Observation, request: PrimitiveRequest) -> Plan:
         from pico import planning

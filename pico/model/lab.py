@@ -246,10 +246,10 @@ class PolicyRule:
 @record
 class Policy:
     """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's
-    shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico watch --heal` may
-    bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift. `merge`: what
-    becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables): a warning,
-    or with `strict` a conflict."""
+    shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico drift --watch
+    --heal` may bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift.
+    `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
+    a warning, or with `strict` a conflict."""
 
     open_beam: bool = False
     rules: tuple[PolicyRule, ...] = ()

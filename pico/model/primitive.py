@@ -56,7 +56,7 @@ class Primitive:
         return self.by == "person"
 
 
-_PLACE = {"x": "mm", "y": "mm", "yaw": "deg", "by": "deg", "slot": None}
+_PLACE = {"x": "mm", "y": "mm", "yaw": "deg", "turn": "deg", "slot": None, "after": None, "distance": "mm"}
 OWN: Mapping[str, Primitive] = {
     p.name: p
     for p in (

@@ -16,6 +16,7 @@ from pico.model.pose import Pose, wrap
 from pico.model.primitive import primitive
 from pico.model.quantities import QuantityError, Value, convert
 from pico.model.record import as_json, record
+from pico.model.state import LabState, place_of
 
 
 @record
@@ -54,12 +55,14 @@ def asked(setup: Setup, seen: Observation, component: str, name: str, arguments:
 def require_component(setup: Setup, name: str) -> None:
     """Raise PicoError where the inventory has no part of that name."""
     if name not in setup.lab.inventory:
-        hint = did_you_mean(name, setup.lab.inventory) or "`pico parts` lists the parts"
+        hint = did_you_mean(name, setup.lab.inventory) or "`pico catalog parts` lists them"
         raise _wrong(f"there is no component `{name}` in {setup.lab.name}", hint)
 
 
 def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     slot = given.pop("slot", None)
+    if slot == "home" and slot not in setup.lab.slots:
+        return _stow(setup, seen, name, given)
     if slot is not None:
         _only(name, "move", given, ())
         if slot not in setup.lab.slots:
@@ -68,14 +71,26 @@ def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     _only(name, "move", given, primitive("move").arguments)
     if not given:
         raise _wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
+    if "after" in given or "distance" in given:
+        return _after(setup, seen, name, given)
     part = seen.components.get(name)
     if part is None or part.pose is None:
         raise _wrong(f"nobody sees {name}, so it can't be moved", "put it where it is seen", name)
     pose = part.pose
-    turn = _quantity(f"by of {name}", given["by"], "deg") if "by" in given else 0.0
+    turn = _quantity(f"turn of {name}", given["turn"], "deg") if "turn" in given else 0.0
     x, y = (_quantity(f"{k} of {name}", given[k], "mm") if k in given else getattr(pose, k) for k in ("x", "y"))
     yaw = _quantity(f"yaw of {name}", given["yaw"], "deg") if "yaw" in given else pose.yaw
     return PrimitiveRequest(component=name, primitive="move", pose=Pose(x, y, wrap(yaw + turn)))
+
+
+def _after(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
+    _only(name, "move after another", given, ("after", "distance"))
+    if len(given) < 2:
+        raise _wrong(f"where to move {name}?", f"`pico move {name} after=OTHER distance=MM` takes both", name)
+    require_seen(setup, seen, name, given["after"])
+    distance = _quantity(f"distance of {name}", given["distance"], "mm")
+    pose = place_after(setup, seen, name, given["after"], distance)
+    return PrimitiveRequest(component=name, primitive="move", pose=pose)
 
 
 def _stow(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
@@ -176,6 +191,29 @@ def _only(name: str, asked: str, given: Mapping[str, str], known: Iterable[str])
 
 def _wrong(summary: str, hint: str, address: str = "") -> PicoError:
     return PicoError(error("request", summary, hint=hint, address=address))
+
+
+def place_after(setup: Setup, where: Observation | LabState, name: str, other: str, distance_mm: float) -> Pose:
+    """Return the pose at which the optical center of `name` lies `distance_mm` behind that of `other`, along the beam
+    axis of `other` (its local +x), facing the same way.
+
+    Raises KeyError for a component that the lab does not have, or that is not seen.
+    """
+    pose = _pose(setup, where, other)
+    x, y, _ = setup.type_of(other).frames.optical
+    center = pose.apply(x + distance_mm, y)
+    own_x, own_y, _ = setup.type_of(name).frames.optical
+    c, s = math.cos(math.radians(pose.yaw)), math.sin(math.radians(pose.yaw))
+    return Pose(center[0] - (c * own_x - s * own_y), center[1] - (s * own_x + c * own_y), pose.yaw)
+
+
+def _pose(setup: Setup, where: Observation | LabState, name: str) -> Pose:
+    if isinstance(where, LabState):
+        return place_of(setup, where, name)[1]
+    pose = where.components[name].pose
+    if pose is None:
+        raise KeyError(name)
+    return pose
 
 
 def require_seen(setup: Setup, seen: Observation, *names: str) -> None:

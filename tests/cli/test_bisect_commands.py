@@ -1,4 +1,4 @@
-"""`pico bisect` and `git bisect run pico bisect-step`, with real git on a small simulated bench."""
+"""`pico bisect` and `git bisect run pico bisect step`, with real git on a small simulated bench."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from test_stopping_commands import started
 from pico.edge.lease import BenchLock
 from pico.history.bisect.git_state import GitBisect
 
-STEP = f"{sys.executable} -c 'import sys; from pico_cli.main import main; sys.exit(main())' bisect-step -y"
+STEP = f"{sys.executable} -c 'import sys; from pico_cli.main import main; sys.exit(main())' bisect step -y"
 TABLE = Path("state/table.yaml")
 LIMIT = "p1.pose.x < 305"
 YES = ("--auto-approve",)
@@ -145,7 +145,7 @@ def test_what_the_policy_denies_is_skipped_but_somebody_at_the_table_stops_the_s
     pico("sim", "person", "here")
     answer = pico("bisect", "run", "main", "good", "--expect", LIMIT, *YES)
     assert answer.code == 7 and "nobody_near_the_arm" in answer.err and "pico bisect continue" in answer.err
-    assert pico("bisect-step", "-y", "--expect", LIMIT).code == 135
+    assert pico("bisect", "step", "-y", "--expect", LIMIT).code == 135
     pico("sim", "person", "away")
     rule = "plan.target.state.p1.pose.x < 300 || plan.target.state.p1.pose.x > 312"
     edit(Path("lab.yaml"), "policy:\n  rules:", f"policy:\n  rules:\n    - {{name: not_there, that: {rule}}}")
@@ -159,7 +159,7 @@ def test_an_expectation_that_cannot_be_told_is_neither_good_nor_bad(history: dic
     answer = pico("bisect", "run", "main", "good", "--expect", "cam.peak > 200", *YES)
     assert answer.code == 1 and "can't be told" in answer.err and not bisecting()
     git("bisect", "start", "--no-checkout", "main", "good")
-    assert pico("bisect-step", "-y", "--expect", "cam.peak > 200").code == 125
+    assert pico("bisect", "step", "-y", "--expect", "cam.peak > 200").code == 125
 
 
 def test_a_person_judges_step_by_step_in_words_of_git_or_of_pico(history: dict[str, str], pico: Pico) -> None:
@@ -248,7 +248,7 @@ def test_a_bench_in_use_is_told_and_the_search_goes_on_later(history: dict[str, 
     with BenchLock(Path.cwd()).held("somebody's apply"):
         answer = pico("bisect", "run", "main", "good", "--expect", LIMIT, *YES)
         assert answer.code == 5 and "somebody's apply" in answer.err and "pico bisect continue" in answer.err
-        assert pico("bisect-step", "-y", "--expect", "p1.pose.x < 100").code == 133
+        assert pico("bisect", "step", "-y", "--expect", "p1.pose.x < 100").code == 133
     assert pico("bisect", "continue", *YES).code == 0
 
 
@@ -256,7 +256,7 @@ def test_what_is_missing_stops_the_search_instead_of_counting_as_bad(history: di
     pico("sim", "remove", "p2")
     answer = pico("bisect", "run", "main", "good", "--expect", LIMIT, *YES)
     assert answer.code == 1 and "p2" in answer.err
-    assert pico("bisect-step", "-y", "--expect", LIMIT).code == 129
+    assert pico("bisect", "step", "-y", "--expect", LIMIT).code == 129
 
 
 @pytest.mark.parametrize(
@@ -332,9 +332,9 @@ def test_git_bisect_run_finds_it_with_pico_bisect_step(
 
 def test_no_mistake_of_a_step_counts_as_a_bad_commit(history: dict[str, str], pico: Pico) -> None:
     for words in ((), ("--expect", "p1.pose.x <"), ("--expect", LIMIT, "--fidelity", "fysics"), ("--no-such",)):
-        assert pico("bisect-step", "-y", *words).code == 129, words
+        assert pico("bisect", "step", "-y", *words).code == 129, words
     git("bisect", "start", "--no-checkout", "main", "good")
-    assert pico("bisect-step", "-y", "--expect", LIMIT).code in (0, 1)
+    assert pico("bisect", "step", "-y", "--expect", LIMIT).code in (0, 1)
     done = subprocess.run(
         ["git", "bisect", "run", "sh", "-c", f"{STEP} --expect 'p1.pose.x <'"],
         capture_output=True,

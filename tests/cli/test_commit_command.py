@@ -172,7 +172,7 @@ def test_the_evidence_is_that_of_the_runs_that_led_there(shel: Path, pico: Pico)
     assert trailer("Pico-Evidence") == ["physics"]
     pico("sim", "nudge", "p2", "--dx", "5")
     edit(TABLE, "exposure: 12", "exposure: 14")
-    pico("apply", "--auto-approve", "--fidelity", "physics", "--target", "cam")
+    pico("apply", "--auto-approve", "--fidelity", "physics", "--", "cam")
     assert pico("commit", "-m", "by hand, too").code == 0
     assert trailer("Pico-Evidence") == ["kinematic"], "nobody knows better than what looked"
 

@@ -21,7 +21,9 @@ FULL = Path("/dev/full")
 
 
 @pytest.mark.skipif(not FULL.exists(), reason="there is no /dev/full here")
-@pytest.mark.parametrize("words", [("plan", "e1", "--out"), ("markers", "--out"), ("graph", "e1", "--out")])
+@pytest.mark.parametrize(
+    "words", [("plan", "e1", "--out"), ("calibrate", "markers", "--out"), ("plan", "e1", "--graph", "--out")]
+)
 def test_a_file_that_a_full_disk_does_not_take_is_named(shel: Path, pico: Pico, words: tuple[str, ...]) -> None:
     answer = pico(*words, str(FULL))
     assert answer.code == 1 and "can't write /dev/full: no space left on the disk mounted at" in answer.err

@@ -36,7 +36,15 @@ def test_an_old_experiment_comes_back_and_a_nudge_is_found(shel: Path, pico: Pic
 
 def test_lines_fit_a_hundred_columns(shel: Path, pico: Pico) -> None:
     pico("apply", "e1", "--auto-approve")
-    for words in (["plan", "e3"], ["status"], ["diff", "C3", "E1-3"], ["log", "--graph"], ["log"], ["parts"], ["show"]):
+    for words in (
+        ["plan", "e3"],
+        ["status"],
+        ["diff", "C3", "E1-3"],
+        ["log", "--graph"],
+        ["log"],
+        ["catalog", "parts"],
+        ["show"],
+    ):
         answer = pico(*words)
         assert answer.code == 0
         assert max(len(line) for line in answer.out.splitlines()) <= 100, (words, answer.out)

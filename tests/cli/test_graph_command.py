@@ -1,4 +1,4 @@
-"""`pico graph`: DOT and Mermaid that other programs read, and a screen that names what decides the end."""
+"""`pico plan --graph`: DOT and Mermaid that other programs read, and a screen that names what decides the end."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def saved(pico: Pico, folder: Path) -> Plan:
 
 def test_dot_is_well_formed_and_marks_the_critical_path(shel: Path, pico: Pico) -> None:
     plan = saved(pico, shel)
-    first, *lines, last = pico("graph", "e1.plan", "--format", "dot").out.splitlines()
+    first, *lines, last = pico("plan", "e1.plan", "--graph", "--format", "dot").out.splitlines()
     assert (first, last) == ("digraph plan {", "}")
     for line in lines:
         assert STATEMENT.fullmatch(line), line
@@ -42,7 +42,7 @@ def test_dot_is_well_formed_and_marks_the_critical_path(shel: Path, pico: Pico) 
 
 def test_mermaid_is_well_formed_and_marks_the_critical_path(shel: Path, pico: Pico) -> None:
     plan = saved(pico, shel)
-    first, *lines = pico("graph", "e1.plan", "--format", "mermaid").out.splitlines()
+    first, *lines = pico("plan", "e1.plan", "--graph", "--format", "mermaid").out.splitlines()
     assert first == "flowchart LR"
     nodes = [m[1] for line in lines if (m := NODE.fullmatch(line))]
     arrows = [m.groups() for line in lines if (m := ARROW.fullmatch(line))]
@@ -66,21 +66,21 @@ def test_quotes_and_backslashes_in_a_value_break_neither(shel: Path, pico: Pico)
 
 def test_the_screen_names_the_makespan_and_what_decides_it(shel: Path, pico: Pico) -> None:
     plan = saved(pico, shel)
-    screen = pico("graph", "e1.plan")
+    screen = pico("plan", "e1.plan", "--graph")
     assert screen.code == 0
     assert f"{plan.makespan:.1f} s in all" in screen.out
     critical, beside = screen.out.split("Beside it")
     assert "lx_125  " in critical and "arm1 " in critical
     assert "hwp.angle" in beside and "late" in beside
-    data = pico("graph", "e1.plan", "--json").data
+    data = pico("plan", "e1.plan", "--graph", "--json").data
     assert data["schema"] == "pico.graph/v1"
     assert abs(data["length"] - plan.makespan) < 1e-3
 
 
 def test_a_file_gets_the_format_of_its_name(shel: Path, pico: Pico) -> None:
-    assert "to plan.mmd" in pico("graph", "e1", "--out", "plan.mmd").out
+    assert "to plan.mmd" in pico("plan", "e1", "--graph", "--out", "plan.mmd").out
     assert (shel / "plan.mmd").read_text().startswith("flowchart LR\n")
-    pico("graph", "e1", "--out", "plan.dot")
+    pico("plan", "e1", "--graph", "--out", "plan.dot")
     assert (shel / "plan.dot").read_text().startswith("digraph plan {\n")
-    wrong = pico("graph", "e1", "--format", "svg")
+    wrong = pico("plan", "e1", "--graph", "--format", "svg")
     assert wrong.code == 1 and "--format can't be `svg`" in wrong.err

@@ -19,9 +19,12 @@ from pico.history.repository.repository import Repository
 
 LOOKING = (
     ("status",), ("plan", "e2"), ("drift",), ("log",), ("log", "--graph", "--all"), ("diff", "e1", "e2"), ("diff",),
-    ("show", "e2"), ("blame",), ("verify",), ("validate",), ("check",), ("check", "e1"), ("runs", "list"), ("parts",),
-    ("get", "p2"), ("data", "status"), ("doctor",), ("stash", "list"), ("capture", "--dry-run"), ("explain", "e2"),
-    ("merge-driver",), ("fmt", "--check"), ("checkout", "e2"), ("bisect", "status"), ("publish", "--out", "crate"),
+    ("show", "e2"), ("blame",), ("verify",), ("validate",), ("check",), ("check", "e1"), ("runs", "list"),
+    ("catalog", "parts"),
+    ("get", "p2"), ("data", "status"), ("doctor",), ("stash", "list"), ("capture", "--dry-run"),
+    ("plan", "e2", "--explain"),
+    ("merge-driver",), ("fmt", "--check"), ("checkout", "e2"), ("bisect", "status"),
+    ("runs", "export", "--out", "crate"),
 )  # fmt: skip
 STEERS = "\x1b[2J\x1b]0;owned\x07\x9b31m\r\x08\u202e"
 
@@ -161,7 +164,13 @@ def test_what_pico_keeps_is_not_written_through_a_link(shel: Path, tmp_path: Pat
     victim.write_text("mine")
     (shel / name).parent.mkdir(exist_ok=True)
     (shel / name).symlink_to(outside if name in (".pico", ".pico/sim") else victim)
-    for words in (("apply", "e2", "--auto-approve"), ("stow", "p2", "-y"), ("sim", "reset"), ("capture",), ("plan",)):
+    for words in (
+        ("apply", "e2", "--auto-approve"),
+        ("move", "p2", "home", "-y"),
+        ("sim", "reset"),
+        ("capture",),
+        ("plan",),
+    ):
         answer = pico(*words)
         assert answer.code == 1 and "symbolic link" in answer.err, (words, answer.err)
     assert victim.read_text() == "mine" and list(outside.iterdir()) == [victim]
@@ -311,7 +320,7 @@ def test_a_run_that_lies_about_its_names_gets_nowhere(shel: Path, tmp_path: Path
     git(shel, "commit", "-q", "-m", "lies")
     crate, data = str(tmp_path / "crate"), str(tmp_path / "data")
     for words in (
-        ("runs", "list"), ("runs", "show", name), ("publish", "--out", crate), ("data", "status"), ("log",),
+        ("runs", "list"), ("runs", "show", name), ("runs", "export", "--out", crate), ("data", "status"), ("log",),
         ("data", "push", data), ("data", "pull", data), ("show", "HEAD"), ("verify",), ("data", "pointers", name),
     ):  # fmt: skip
         answer = pico(*words)

@@ -20,7 +20,7 @@ def test_movers_end_with_5_and_name_the_holder_and_reading_is_possible(shel: Pat
             refused = pico(*words)
             assert refused.code == 5, words
             assert "pico apply e2" in refused.err
-        for words in (("status",), ("plan", "e1"), ("verify",), ("drift",), ("parts",)):
+        for words in (("status",), ("plan", "e1"), ("verify",), ("drift",), ("catalog", "parts")):
             assert pico(*words).code != 5, words
     assert pico("set", "p1", "angle=3", "--lock-timeout", "5", "-y").code == 0
 

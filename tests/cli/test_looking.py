@@ -10,8 +10,10 @@ import pytest
 from commanding import Pico, edit
 
 LOOKS = (
-    "status", "plan", "plan e1", "explain", "graph", "log", "diff", "diff C3 E1-3", "blame", "drift", "verify", "show",
-    "runs list", "parts", "get p1", "validate", "capture --dry-run", "set p1 angle=3 --dry-run", "watch --looks 1",
+    "status", "plan", "plan e1", "plan --explain", "plan --graph", "log", "diff", "diff C3 E1-3", "blame", "drift",
+    "verify", "show",
+    "runs list", "catalog parts", "get p1", "validate", "capture --dry-run", "set p1 angle=3 --dry-run",
+    "drift --watch --looks 1",
     "render --view top", "ruler p1 p2", "note p1", "stash list", "data status", "sim nudge p1 --dx 1",
 )  # fmt: skip
 """Commands that write neither commits nor manifests and move nothing of the bench."""

@@ -61,7 +61,7 @@ def lines(lab: Path, name: str) -> list[dict[str, object]]:
 def test_a_frame_that_no_commit_has_yet_is_no_garbage(shel: Path, pico: Pico) -> None:
     pico("do", "left", "measure", "frame", "-y")
     assert not LabData.discover(shel).garbage(0).removable
-    assert pico("get", "left", "frame").code == 0  # the same picture, which a run needs
+    assert pico("get", "left.frame").code == 0  # the same picture, which a run needs
 
 
 @pytest.mark.parametrize(
@@ -85,13 +85,13 @@ def test_what_cannot_be_measured_is_said_before_anything_moves(
 
 
 def test_get_peeks_without_lease_or_record(shel: Path, pico: Pico) -> None:
-    answer = pico("get", "left", "frame")
+    answer = pico("get", "left.frame")
     assert answer.code == 0 and "peeked at: nothing of it is assured" in answer.out
-    (found,) = pico("get", "left", "frame", "--json").data["values"].values()
+    (found,) = pico("get", "left.frame", "--json").data["values"].values()
     assert found["status"] == "peeked" and not found["measurement"]["assured"]
     assert set(found["measurement"]["not_assured"]) == {"settled", "arm parked", "not saturated"}
     assert not pico("runs", "list", "--all", "--json").data["runs"]
-    assert "light is not traced" in pico("get", "cam", "image").err
+    assert "light is not traced" in pico("get", "cam.image").err
 
 
 def test_two_runs_that_measured_the_same_are_compared_only_where_that_means_something(shel: Path, pico: Pico) -> None:
@@ -129,7 +129,7 @@ def test_what_a_measurable_needs_is_set_first_and_set_back_afterwards(needing: P
     ]
     found = measured(pico("do", "cam", "measure", "exposure", "--json", "-y"))
     assert found["assured"] == ["settled", "arm parked", "shutter"]
-    assert pico("get", "laser", "shutter", "--json").data["values"]["shutter"]["value"] == "closed"
+    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "closed"
 
 
 def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(needing: Path, pico: Pico) -> None:
@@ -141,7 +141,7 @@ def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(need
     answer = pico("do", "cam", "measure", "exposure", "-y")
     assert answer.code == 1 and "cam.exposure can't be read back" in answer.err
     assert "laser.shutter open → closed" in answer.out and "2 of 3 operations done, 1 failed" in answer.out
-    assert pico("get", "laser", "shutter", "--json").data["values"]["shutter"]["value"] == "closed"
+    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "closed"
 
 
 def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: Path, pico: Pico) -> None:

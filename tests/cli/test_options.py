@@ -60,7 +60,8 @@ def test_completion_knows_the_options_of_every_command(name: str) -> None:
 
 
 def test_tab_offers_commands_names_and_revisions(shel: Path) -> None:
-    assert candidates(["pl"]) == ["place", "plan"]
+    assert candidates(["pl"]) == ["plan"]
+    assert candidates(["plan", "e1", "--explain", "p"]) == ["p1", "p2"]
     assert candidates(["move", "l"]) == ["laser", "lx_100", "lx_125", "ly_150", "ly_200"]
     assert candidates(["diff", "C1", "E1"]) == ["E1-1", "E1-2", "E1-3"]
     assert candidates(["-C", ".", "plan", "--fidelity", ""]) == ["kinematic", "physics"]
@@ -88,9 +89,11 @@ def test_options_count_before_and_after_the_command(shel: Path, pico: Pico, monk
     ("words", "schema"),
     [
         (["plan", "e1"], "plan"), (["status"], "status"), (["diff", "C3", "E1-3"], "diff"), (["log"], "log"),
-        (["log", "--graph"], "log"), (["show", "E1-3"], "revision"), (["drift"], "drift"), (["parts"], "parts"),
+        (["log", "--graph"], "log"), (["show", "E1-3"], "revision"), (["drift"], "drift"),
+        (["catalog", "parts"], "parts"),
         (["catalog", "list"], "catalog"), (["catalog", "show", "linear_polarizer"], "component-type"),
-        (["validate"], "validation"), (["fmt", "--check"], "fmt"), (["get", "p1"], "values"), (["version"], "version"),
+        (["validate"], "validation"), (["fmt", "--check"], "fmt"), (["get", "p1"], "values"), (["doctor"], "doctor"),
+        (["runs"], "runs"), (["catalog"], "catalog"),
         (["sim", "nudge", "p1", "--dx", "1"], "sim"), (["capture"], "capture"), (["completion", "zsh"], "completion"),
         (["note", "p1"], "notes"),
     ],

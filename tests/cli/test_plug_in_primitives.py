@@ -67,7 +67,7 @@ def test_a_plug_in_brings_a_primitive(rinse: None, cuvette: Path, pico: Pico) ->
     answer = pico("do", "cell", "rinse", "volume=0.5 cm", "with=water", "-y")
     assert answer.code == 0, answer
     assert "1 rinsing" in answer.out and "12.5 s" in answer.out
-    assert pico("get", "cell", "level", "--json").data["values"]["level"]["value"] == 5
+    assert pico("get", "cell.level", "--json").data["values"]["level"]["value"] == 5
     (run,) = pico("runs", "list", "--all", "--json").data["runs"]
     (did,) = pico("runs", "show", run["document"]["id"], "--json").data["operations"]
     assert (did["primitive"], did["arguments"], did["outcome"]) == ("rinse", {"volume": 5, "with": "water"}, "done")

@@ -20,14 +20,14 @@ def test_a_plan_shows_the_verdict_and_a_denied_one_moves_nothing(shel: Path, pic
     allowed = pico("plan", "e1")
     assert allowed.code == 0
     assert "policy: 3 rules hold · laser shutter closed during 4 moves" in allowed.out
-    before = pico("parts", "--json").out
+    before = pico("catalog", "parts", "--json").out
     pico("sim", "person", "here")
     for words in (("plan", "e1"), ("apply", "e1", "--auto-approve"), ("move", "p1", "x=300", "y=420", "-y")):
         denied = pico(*words)
         assert denied.code == 7, words
         assert "policy denies: nobody_near_the_arm: no arm moves while somebody is at the table" in denied.out
     assert pico("set", "p1", "angle=3", "-y").code == 0
-    assert pico("parts", "--json").out == before
+    assert pico("catalog", "parts", "--json").out == before
     pico("sim", "person", "away")
     assert pico("apply", "e1", "--auto-approve").code == 0
 

@@ -1,4 +1,4 @@
-"""`pico publish`: a revision as an RO-Crate that is complete, honest about its evidence, and the same each time."""
+"""`pico runs export`: a revision as an RO-Crate that is complete, honest about its evidence, and the same each time."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def run_of(lab: Path) -> Path:
 
 def crate(pico: Pico, *words: str, out: Path) -> dict[str, dict[str, Any]]:
     """Publish into a folder, without pictures, and return the entities of the crate by id."""
-    answer = pico("publish", *words, "--out", str(out), "--pictures", "none")
+    answer = pico("runs", "export", *words, "--out", str(out), "--pictures", "none")
     assert answer.code == 0, answer
     return entities(out)
 
@@ -142,9 +142,9 @@ def test_the_same_commit_gives_the_same_bytes_by_any_name_and_in_any_clone(
     git("clone", "-q", str(lab), "clone", at=tmp_path)
     git("tag", "e9")
     none = ("--pictures", "none", "--out")
-    assert pico("publish", *none, "first.zip").code == 0
-    assert pico("publish", "e9", *none, "second.zip").code == 0
-    assert pico("-C", str(tmp_path / "clone"), "publish", *none, "third.zip").code == 0
+    assert pico("runs", "export", *none, "first.zip").code == 0
+    assert pico("runs", "export", "e9", *none, "second.zip").code == 0
+    assert pico("-C", str(tmp_path / "clone"), "runs", "export", *none, "third.zip").code == 0
     first = (lab / "first.zip").read_bytes()
     assert (lab / "second.zip").read_bytes() == first
     assert (tmp_path / "clone" / "third.zip").read_bytes() == first
@@ -152,7 +152,7 @@ def test_the_same_commit_gives_the_same_bytes_by_any_name_and_in_any_clone(
 
 @pytest.mark.slow
 def test_a_zip_file_holds_pictures_of_the_table(lab: Path, pico: Pico) -> None:
-    assert pico("publish", "--out", "crate.zip").code == 0
+    assert pico("runs", "export", "--out", "crate.zip").code == 0
     with zipfile.ZipFile(lab / "crate.zip") as archive:
         assert archive.testzip() is None
         assert archive.read("pictures/top.png").startswith(b"\x89PNG")
@@ -161,10 +161,10 @@ def test_a_zip_file_holds_pictures_of_the_table(lab: Path, pico: Pico) -> None:
 
 def test_without_out_the_file_is_named_after_lab_and_commit(lab: Path, pico: Pico) -> None:
     commit = git("rev-parse", "HEAD").strip()
-    answer = pico("publish", "--pictures", "none")
+    answer = pico("runs", "export", "--pictures", "none")
     assert f"Wrote shel-{commit[:7]}.zip: commit {commit[:7]}" in answer.out
     assert (lab / f"shel-{commit[:7]}.zip").is_file()
-    assert pico("publish", "--pictures", "none", "--json", "--out", "x.zip").data["commit"] == commit
+    assert pico("runs", "export", "--pictures", "none", "--json", "--out", "x.zip").data["commit"] == commit
 
 
 def test_artifacts_come_along_under_harmless_names(lab: Path, tmp_path: Path, pico: Pico) -> None:
@@ -181,7 +181,7 @@ def test_artifacts_come_along_under_harmless_names(lab: Path, tmp_path: Path, pi
 
 def test_an_artifact_that_is_not_here_is_named_and_nothing_is_written(lab: Path, tmp_path: Path, pico: Pico) -> None:
     rewrite_run(lab, artifacts=[artifact(b"frame a"), artifact(b"frame b", "other.bin")])
-    answer = pico("publish", "--out", str(tmp_path / "crate.zip"))
+    answer = pico("runs", "export", "--out", str(tmp_path / "crate.zip"))
     assert answer.code == 1
     assert f"frame.bin of run {run_of(lab).name} is not here" in answer.err
     assert f"other.bin of run {run_of(lab).name} is not here" in answer.err
@@ -195,7 +195,7 @@ def test_an_artifact_that_is_damaged_stops_it_and_leaves_nothing_half(lab: Path,
     path.chmod(0o644)
     path.write_bytes(b"Frame a")
     rewrite_run(lab, artifacts=[artifact(b"frame a")])
-    answer = pico("publish", "--out", str(tmp_path / "crate.zip"), "--pictures", "none")
+    answer = pico("runs", "export", "--out", str(tmp_path / "crate.zip"), "--pictures", "none")
     assert answer.code == 1
     assert "is damaged" in answer.err
     assert not list(tmp_path.glob("*crate*"))
@@ -205,7 +205,7 @@ def test_a_trace_that_was_changed_afterwards_is_not_published(lab: Path, tmp_pat
     trace = run_of(lab) / "trace.jsonl"
     trace.write_text(trace.read_text() + "{}\n")
     git("commit", "-q", "-a", "--amend", "--no-edit")
-    answer = pico("publish", "--out", str(tmp_path / "crate"))
+    answer = pico("runs", "export", "--out", str(tmp_path / "crate"))
     assert answer.code == 1
     assert "error[run-file]" in answer.err
     assert "trace.jsonl is not what run.json beside it says" in answer.err
@@ -223,7 +223,7 @@ def test_a_run_of_the_real_table_says_so_and_a_failed_one_says_why(lab: Path, tm
 
 
 def test_a_state_that_no_run_led_to_says_so(shel: Path, tmp_path: Path, pico: Pico) -> None:
-    answer = pico("publish", "E1-3", "--out", str(tmp_path / "crate"), "--pictures", "none")
+    answer = pico("runs", "export", "E1-3", "--out", str(tmp_path / "crate"), "--pictures", "none")
     assert answer.code == 0
     assert "warning[evidence]: no run is known that led to this state" in answer.err
     assert "warning[license]" in answer.err
@@ -237,12 +237,12 @@ def test_runs_can_be_chosen_among_those_of_the_revision(lab: Path, tmp_path: Pat
     first = run_of(lab).name
     pico("set", "p1", "angle=13", "-y")
     pico("commit", "-m", "p1 more")
-    made = pico("publish", "--out", str(tmp_path / "a"), "--pictures", "none", "--json").data
+    made = pico("runs", "export", "--out", str(tmp_path / "a"), "--pictures", "none", "--json").data
     assert len(made["runs"]) == 1
     assert first not in made["runs"]
-    made = pico("publish", "--run", first, "--out", str(tmp_path / "b"), "--pictures", "none", "--json").data
+    made = pico("runs", "export", "--run", first, "--out", str(tmp_path / "b"), "--pictures", "none", "--json").data
     assert made["runs"] == [first]
-    answer = pico("publish", "HEAD~1", "--run", f"{first}x", "--out", str(tmp_path / "c"))
+    answer = pico("runs", "export", "HEAD~1", "--run", f"{first}x", "--out", str(tmp_path / "c"))
     assert answer.code == 1
     assert f"did you mean `{first}`?" in answer.err
 
@@ -252,7 +252,7 @@ def test_nothing_is_overwritten(lab: Path, tmp_path: Path, pico: Pico) -> None:
     (tmp_path / "full" / "mine").write_text("mine")
     (tmp_path / "old.zip").write_text("mine")
     for out in ("full", "old.zip"):
-        answer = pico("publish", "--pictures", "none", "--out", str(tmp_path / out))
+        answer = pico("runs", "export", "--pictures", "none", "--out", str(tmp_path / out))
         assert answer.code == 1
         assert "exists already" in answer.err
     assert (tmp_path / "old.zip").read_text() == (tmp_path / "full" / "mine").read_text() == "mine"
@@ -281,7 +281,7 @@ def test_a_lab_in_a_folder_of_a_repository_takes_the_license_at_its_top(
 
 
 def test_pictures_is_all_or_none(lab: Path, pico: Pico) -> None:
-    answer = pico("publish", "--pictures", "non")
+    answer = pico("runs", "export", "--pictures", "non")
     assert answer.code == 1
     assert "did you mean `none`?" in answer.err
 
@@ -297,7 +297,7 @@ def test_a_script_publishes_too(lab: Path, tmp_path: Path) -> None:
 
 
 def test_a_folder_in_the_lab_is_refused_for_its_manifests_would_be_read(lab: Path, pico: Pico) -> None:
-    answer = pico("publish", "--pictures", "none", "--out", "crate")
+    answer = pico("runs", "export", "--pictures", "none", "--out", "crate")
     assert answer.code == 1 and "is in the lab" in answer.err
     assert not (lab / "crate").exists() and pico("validate").code == 0
-    assert pico("publish", "--pictures", "none", "--out", "../crate").code == 0
+    assert pico("runs", "export", "--pictures", "none", "--out", "../crate").code == 0

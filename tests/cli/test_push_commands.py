@@ -186,10 +186,10 @@ def test_runs_and_their_data_go_through_a_bare_repository_and_survive_rebase_and
     git("clone", "-q", "-b", "squashed", str(origin), "clone", at=tmp_path)
     clone = tmp_path / "clone"
     git("config", "pico.data.remote", str(share), at=clone)
-    assert pico("-C", str(clone), "publish").code == 1  # its data is not here yet
+    assert pico("-C", str(clone), "runs", "export").code == 1  # its data is not here yet
     assert pico("-C", str(clone), "pull").code == 0
     assert {n["sha256"] for n in pico("-C", str(clone), "data", "status", "--json").data["needs"]} == needed
     assert pico("-C", str(clone), "data", "fsck").code == 0
-    made = pico("-C", str(clone), "publish", "--pictures", "none", "--json").data
+    made = pico("-C", str(clone), "runs", "export", "--pictures", "none", "--json").data
     assert {f["sha256"] for f in made["files"] if "/artifacts/" in f["path"]} == needed
     assert made["evidence"] == "kinematic"

@@ -43,7 +43,7 @@ def here(ran: Path, tmp_path: Path, shel: Path, monkeypatch: pytest.MonkeyPatch)
 
 
 def runs(pico: Pico, *words: str) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = pico("runs", "list", *words, "--json").data["runs"]
+    found: list[dict[str, Any]] = pico("--json", "runs", "list", *words).data["runs"]
     return found
 
 
@@ -72,8 +72,8 @@ def test_a_revision_a_range_and_a_component_narrow_the_list(here: Path, pico: Pi
     assert ids("HEAD~1..") == [second]
     assert ids("main..e1") == [second, first]
     assert ids("main") == []
-    assert ids("--component", "p1") == [own, second, first]
-    assert ids("--component", "lx_125") == [first]
+    assert ids("--", "p1") == [own, second, first]
+    assert ids("--", "lx_125") == [first]
     subprocess.run(["git", "checkout", "-q", "main"], check=True)
     assert ids() == [own]
     assert ids("--all") == [own, second, first]
@@ -128,7 +128,7 @@ def test_two_runs_are_compared(here: Path, pico: Pico) -> None:
         (["list", "e9"], "there is no revision `e9`"),
         (["list", "--all", "e1"], "--all"),
         (["list", "main...e1"], "runs are listed of `A..B`"),
-        (["list", "--component", "p3"], "there is no component `p3`"),
+        (["list", "--", "p3"], "there is no component `p3`"),
         (["compare", "2026", "1999"], "begin or end with"),
     ],
 )

@@ -65,11 +65,11 @@ def test_what_has_changed_since_is_named_and_nothing_moves(
     saved: Path, pico: Pico, change: Callable[[Path, Pico], None], said: str
 ) -> None:
     change(saved, pico)
-    before = pico("parts", "--json").out
+    before = pico("catalog", "parts", "--json").out
     refused = pico("apply", PLAN, "--auto-approve")
     assert refused.code == 4
     assert said in refused.err.replace("\n        ", " ")
-    assert pico("parts", "--json").out == before
+    assert pico("catalog", "parts", "--json").out == before
 
 
 def test_a_plan_to_the_manifest_is_stale_once_that_is_edited(shel: Path, pico: Pico) -> None:

@@ -18,13 +18,13 @@ def components(answer: object) -> set[str]:
 
 
 def test_a_plan_for_one_component_says_that_the_bench_will_not_be_whole(shel: Path, pico: Pico) -> None:
-    answer = pico("plan", "e1", "--target", "p2")
+    answer = pico("plan", "e1", "--", "p2")
     assert answer.code == 0
     assert " · only p2 · " in answer.out
     assert "only p2: the bench will not equal e1" in answer.out
-    assert "pico apply e1 --target p2" in answer.out
+    assert "pico apply e1 -- p2" in answer.out
     assert "lx_125" in answer.err and "warning[left]" in answer.err
-    assert components(pico("plan", "e1", "--target", "p2", "--json").data) == {"p2"}
+    assert components(pico("plan", "e1", "--json", "--", "p2").data) == {"p2"}
 
 
 def test_what_is_excluded_stays_and_is_named(shel: Path, pico: Pico) -> None:
@@ -35,10 +35,10 @@ def test_what_is_excluded_stays_and_is_named(shel: Path, pico: Pico) -> None:
 
 
 def test_a_partial_apply_is_done_and_says_what_still_differs(shel: Path, pico: Pico) -> None:
-    answer = pico("apply", "e1", "--target", "p2", "--auto-approve")
+    answer = pico("apply", "e1", "--auto-approve", "--", "p2")
     assert answer.code == 0, answer
     assert "As asked, only p2. The bench does not equal e1: cam, hwp, laser, lx_125, ly_150 and p1 still" in answer.out
-    again = pico("plan", "e1", "--target", "p2", "--detailed-exitcode")
+    again = pico("plan", "e1", "--detailed-exitcode", "--", "p2")
     assert again.code == 0
     assert "Nothing to do (only p2)" in again.out
     assert pico("plan", "e1", "--detailed-exitcode").code == 2
@@ -46,15 +46,15 @@ def test_a_partial_apply_is_done_and_says_what_still_differs(shel: Path, pico: P
 
 def test_the_last_missing_component_makes_the_bench_whole(shel: Path, pico: Pico) -> None:
     pico("apply", "e1", "--exclude", "p2", "--auto-approve")
-    assert "only p2: the bench will equal e1" in pico("plan", "e1", "--target", "p2").out
-    assert "nothing else differs from e1" in pico("apply", "e1", "--target", "p2", "--auto-approve").out
+    assert "only p2: the bench will equal e1" in pico("plan", "e1", "--", "p2").out
+    assert "nothing else differs from e1" in pico("apply", "e1", "--auto-approve", "--", "p2").out
     assert pico("plan", "e1", "--detailed-exitcode").code == 0
 
 
 def test_a_saved_plan_keeps_its_scope_and_takes_no_other(shel: Path, pico: Pico) -> None:
-    pico("plan", "e1", "--target", "p2", "--out", "p2.plan")
+    pico("plan", "e1", "--out", "p2.plan", "--", "p2")
     assert " · only p2 · " in pico("show", "p2.plan").out
-    refused = pico("apply", "p2.plan", "--target", "p1", "--auto-approve")
+    refused = pico("apply", "p2.plan", "--auto-approve", "--", "p1")
     assert refused.code == 1 and "is a saved plan" in refused.err
     assert pico("apply", "p2.plan", "--auto-approve").code == 0
 
@@ -68,8 +68,8 @@ def test_less_time_may_be_preferred(shel: Path, pico: Pico) -> None:
     ("options", "said"),
     [
         (["--prefer", "fastest"], "--prefer can't be `fastest`"),
-        (["--target", "p3"], "no component `p3`"),
-        (["--target", "p2", "--exclude", "p2"], "both asked for and excluded"),
+        (["--", "p3"], "no component `p3`"),
+        (["--exclude", "p2", "--", "p2"], "both asked for and excluded"),
     ],
 )
 def test_mistakes_are_named(shel: Path, pico: Pico, options: list[str], said: str) -> None:

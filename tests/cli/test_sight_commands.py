@@ -30,7 +30,7 @@ def test_what_was_pushed_or_taken_is_seen_told_and_repaired(seeing: Path, pico: 
     assert "No drift" in pico("drift").out
     pico("sim", "nudge", "p2", "--dx", "6", "--dyaw", "4")
     pico("sim", "remove", "lx_100")
-    parts = pico("scan", "--json").data["components"]
+    parts = pico("look", "--json").data["components"]
     assert parts["p2"]["pose"]["x"] == pytest.approx(526, abs=0.15) and parts["p2"]["how"] == "stereo"
     assert parts["p2"]["pose"]["yaw"] == pytest.approx(4, abs=0.1)
     assert parts["lx_100"]["presence"] == "missing"
@@ -39,7 +39,7 @@ def test_what_was_pushed_or_taken_is_seen_told_and_repaired(seeing: Path, pico: 
     assert "lx_100  nobody sees it; it belongs in storage/a1" in told.out
     assert "only you can put right: lx_100" in told.out
     assert "p2" in pico("apply", "--auto-approve").out
-    after = pico("scan", "--json").data["components"]
+    after = pico("look", "--json").data["components"]
     assert after["p2"]["pose"]["x"] == pytest.approx(520, abs=0.15)
     pico("sim", "nudge", "lx_100")
     assert pico("apply", "--auto-approve").code == 0
@@ -47,21 +47,21 @@ def test_what_was_pushed_or_taken_is_seen_told_and_repaired(seeing: Path, pico: 
 
 
 def test_a_scan_lists_every_part_and_draws_them(seeing: Path, pico: Pico) -> None:
-    answer = pico("scan", "--picture", "seen.png")
+    answer = pico("look", "--picture", "seen.png")
     assert answer.code == 0 and "9 parts found" in answer.out
     assert re.search(r"lx_100 +1\d\d\.\d\d +3\d\d\.\d\d .* mm .* stereo +storage/a1", answer.out)
     assert cv2.imread(str(seeing / "seen.png")).shape[1] == 1224
 
 
 def test_a_part_is_found_by_hole_slot_and_uncertainty(seeing: Path, pico: Pico) -> None:
-    answer = pico("find", "p2", "--picture", "p2.png")
+    answer = pico("look", "p2", "--picture", "p2.png")
     assert answer.code == 0
     assert re.search(
         r"p2 stands at \(.*\), .* hole \d+,\d+; in storage/b2; seen now ± 0\.0\d mm, .* by stereo", answer.out
     )
     assert (seeing / "p2.png").exists()
     pico("sim", "remove", "p2")
-    answer = pico("find", "p2")
+    answer = pico("look", "p2")
     assert answer.code == 1 and answer.out == "Nobody sees p2.\n" and "its place is in plain view" in answer.err
 
 
@@ -71,13 +71,13 @@ def test_cameras_that_moved_stop_everything(seeing: Path, pico: Pico) -> None:
     for words in (["plan"], ["apply", "--auto-approve"], ["capture"], ["drift"], ["status"]):
         answer = pico(*words)
         assert answer.code == 1 and "camera `left` has moved" in answer.err and "pico calibrate" in answer.err
-    answer = pico("scan")
+    answer = pico("look")
     assert answer.code == 1 and "left has moved" in answer.out
 
 
 def test_black_pictures_stop_everything(seeing: Path, pico: Pico) -> None:
     edit(seeing / "lab.yaml", "marker_height: 0.05", "lost_frames: 1.0")
-    for words in (["apply", "--auto-approve"], ["scan"]):
+    for words in (["apply", "--auto-approve"], ["look"]):
         answer = pico(*words)
         assert answer.code == 1 and "the picture of camera `left` is black" in answer.err
 

@@ -173,7 +173,7 @@ def test_a_plan_is_not_waited_for(
 
 
 def test_watching_ends_with_its_terminal(shel: Path) -> None:
-    process, terminal = on_a_terminal(shel, PROGRAM, "watch", "--interval", "60")
+    process, terminal = on_a_terminal(shel, PROGRAM, "drift", "--watch", "--interval", "60")
     said(terminal, "cam.exposure")
     os.close(terminal)
     assert ended(process) == 0

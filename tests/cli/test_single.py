@@ -13,22 +13,22 @@ def test_a_tunable_is_set_and_read(shel: Path, pico: Pico) -> None:
     assert pico("set", "p1", "angle=3", "-y").code == 0
     assert "p1.angle  3 deg" in pico("get", "p1").out
     assert pico("do", "p1", "set", "angle=0.5 rad", "-y").code == 0
-    assert pico("get", "p1", "angle", "--json").data["values"]["angle"]["value"] == pytest.approx(28.6479, abs=1e-3)
+    assert pico("get", "p1.angle", "--json").data["values"]["angle"]["value"] == pytest.approx(28.6479, abs=1e-3)
 
 
 def test_a_component_is_moved_turned_and_stowed(shel: Path, pico: Pico) -> None:
     assert pico("move", "p1", "x=350", "y=420", "-y").code == 0
-    assert pico("rotate", "p1", "-30", "-y").code == 0
+    assert pico("move", "p1", "yaw=-30", "-y").code == 0
     assert "(350, 420, -30°)" in pico("get", "p1").out
-    assert pico("rotate", "p1", "by=-5", "-y").code == 0
+    assert pico("move", "p1", "turn=-5", "-y").code == 0
     assert "(350, 420, -35°)" in pico("get", "p1").out
-    assert pico("stow", "p1", "-y").code == 0
-    assert "storage/b1" in next(line for line in pico("parts").out.splitlines() if line.startswith("p1 "))
+    assert pico("move", "p1", "home", "-y").code == 0
+    assert "storage/b1" in next(line for line in pico("catalog", "parts").out.splitlines() if line.startswith("p1 "))
 
 
 def test_a_lens_is_placed_after_another_component(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
-    assert pico("place", "ly_150", "--after", "p2", "--distance", "150", "-y").code == 0
+    assert pico("move", "ly_150", "after=p2", "distance=15 cm", "-y").code == 0
     assert "(670, 420, 0°)" in pico("get", "ly_150").out
 
 
@@ -74,7 +74,7 @@ def test_a_dry_run_moves_nothing(shel: Path, pico: Pico) -> None:
 
 def test_home_drives_the_axis_to_its_home(shel: Path, pico: Pico) -> None:
     pico("set", "p1", "angle=3", "-y")
-    assert pico("home", "p1", "-y").code == 0
+    assert pico("do", "p1", "home", "-y").code == 0
     assert "p1.angle  0 deg" in pico("get", "p1").out
 
 
@@ -101,13 +101,16 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["move", "p1", "x=1", "x=2"], "given twice"),
         (["do", "laser", "move", "x=1"], "no primitive `move`"),
         (["do", "cam", "measure"], "light is not simulated yet"),
-        (["rotate", "p1", "x=2"], "one of `yaw=DEGREES` and `by=DEGREES`"),
-        (["home", "cam"], "no primitive `home`"),
-        (["home", "p1", "tilt"], "`tilt` of p1 does not home"),
-        (["stow", "laser"], "stow"),
-        (["place", "p1", "--after", "p9", "--distance", "3"], "there is no component `p9`"),
+        (["move", "p1", "by=2"], "takes no `by`"),
+        (["do", "cam", "home"], "no primitive `home`"),
+        (["do", "p1", "home", "tilt"], "`tilt` of p1 does not home"),
+        (["do", "laser", "stow"], "stow"),
+        (["move", "p1", "after=p9", "distance=3"], "there is no component `p9`"),
+        (["move", "p1", "after=p2"], "after=OTHER distance=MM"),
+        (["move", "p1", "after=p2", "distance=3 kg"], "mass"),
+        (["move", "p1", "home", "x=3"], "takes no `x`"),
         (["move", "p1", "290", "420", "--speed", "7"], "share of the joint limits"),
-        (["get", "p1", "nothing"], "no tunable `nothing`"),
+        (["get", "p1.nothing"], "no tunable `nothing`"),
         (["sim", "nudge", "p9", "--dx", "1"], "there is no component `p9`"),
     ],
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""`pico markers` and `pico calibrate` from the command line."""
+"""`pico calibrate markers` and `pico calibrate` from the command line."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from commanding import Pico
 
 
 def test_markers_are_written_as_a_pdf(shel: Path, pico: Pico) -> None:
-    answer = pico("markers", "--out", "m.pdf", "--paper", "letter")
+    answer = pico("calibrate", "markers", "--out", "m.pdf", "--paper", "letter")
     assert answer.code == 0 and "Print at 100 %" in answer.out
     assert (shel / "m.pdf").read_bytes().startswith(b"%PDF-1.4")
-    assert pico("markers", "--paper", "a5").code == 1
+    assert pico("calibrate", "markers", "--paper", "a5").code == 1
 
 
 @pytest.mark.slow

@@ -58,13 +58,13 @@ def test_what_the_policy_ignores_is_no_drift(applied: Path, pico: Pico) -> None:
     found = pico("drift")
     assert "No drift" in found.out
     assert "Ignored by the policy of the lab: p2.pose." in found.out
-    assert pico("watch", "--looks", "1").out.startswith("No drift")
+    assert pico("drift", "--watch", "--looks", "1").out.startswith("No drift")
 
 
 def test_watching_tells_each_change_once_while_somebody_else_has_the_bench(applied: Path, pico: Pico) -> None:
     pico("sim", "nudge", "p2", "--dx", "4")
     with BenchLock(applied).held("pico apply e2"):
-        found = pico("watch", "--looks", "3", "--interval", "0", "--json")
+        found = pico("drift", "--watch", "--looks", "3", "--interval", "0", "--json")
     assert found.code == 0
     (line,) = found.out.splitlines()
     assert [c["component"] for c in json.loads(line)["drifted"]] == ["p2"]
@@ -81,7 +81,7 @@ def test_news_are_what_drifted_drifted_on_or_came_back() -> None:
 
 
 def test_healing_needs_the_policy(applied: Path, pico: Pico) -> None:
-    refused = pico("watch", "--heal", "-y", "--looks", "1")
+    refused = pico("drift", "--watch", "--heal", "-y", "--looks", "1")
     assert refused.code == 7
     assert "does not allow to heal" in refused.err
 
@@ -90,7 +90,7 @@ def test_healing_brings_back_what_a_hand_moved_and_leaves_what_an_operation_did(
     heal_allowed(applied, pico)
     pico("set", "p1", "angle=60", "-y")
     pico("sim", "nudge", "p2", "--dx", "4")
-    healed = pico("watch", "--heal", "-y", "--looks", "2", "--interval", "0")
+    healed = pico("drift", "--watch", "--heal", "-y", "--looks", "2", "--interval", "0")
     assert "healed: " in healed.out
     left = {c["component"] for c in pico("drift", "--json").data["changes"] if not c["tolerated"]}
     assert left == {"p1"}
@@ -100,11 +100,11 @@ def test_nothing_is_healed_while_somebody_is_at_the_table_or_a_run_goes_on(appli
     heal_allowed(applied, pico)
     pico("sim", "nudge", "p2", "--dx", "4")
     pico("sim", "person", "here")
-    found = pico("watch", "--heal", "-y", "--looks", "2", "--interval", "0")
+    found = pico("drift", "--watch", "--heal", "-y", "--looks", "2", "--interval", "0")
     assert found.out.count("not healed: somebody is at the table") == 1
     pico("sim", "person", "away")
     with BenchLock(applied).held("pico apply e2"):
-        assert "not healed: a run goes on" in pico("watch", "--heal", "-y", "--looks", "1").out
+        assert "not healed: a run goes on" in pico("drift", "--watch", "--heal", "-y", "--looks", "1").out
     assert pico("drift", "--detailed-exitcode").code == 2
 
 

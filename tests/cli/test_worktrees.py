@@ -52,7 +52,8 @@ def test_the_first_that_moves_has_the_bench_and_the_other_one_plans_against_it(
     "words",
     [
         ("apply", "e2", "--auto-approve"), ("checkout", "e2", "--auto-approve"), ("set", "cam", "exposure=3"),
-        ("stow", "p2", "-y"), ("sim", "reset"), ("sim", "nudge", "p2", "--dx", "5"), ("sim", "faults", "drop=0.5"),
+        ("move", "p2", "home", "-y"), ("sim", "reset"), ("sim", "nudge", "p2", "--dx", "5"),
+        ("sim", "faults", "drop=0.5"),
         ("sim", "person", "here"),
     ],
 )  # fmt: skip
@@ -167,7 +168,7 @@ def test_a_bench_from_before_worktrees_belongs_to_the_main_one(shel: Path, other
     at(pico, shel, "apply", "e1", "--auto-approve")
     lab_place(shel).record.unlink()
     at(pico, other, "apply", "e1", "--auto-approve", code=0)  # nothing to do there
-    at(pico, other, "stow", "p2", "-y", code=5)
+    at(pico, other, "move", "p2", "home", "-y", code=5)
 
 
 def test_a_record_that_is_damaged_names_nobody(shel: Path, pico: Pico) -> None:

@@ -11,7 +11,8 @@ from pico.diagnostics import PicoError
 from pico.model.catalog import Frames
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.planning import home_one, move_one, place_after, set_one
+from pico.model.request import place_after
+from pico.planning import home_one, move_one, set_one
 
 
 def test_a_single_move_is_one_move_for_the_reason_that_it_was_asked_for() -> None:

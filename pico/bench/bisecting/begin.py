@@ -69,7 +69,7 @@ def under_way(bench: TrialBench, *, expect: str | None = None, measure: float | 
     if git is None:
         raise PicoError(error("bisect", "no bisection is under way", hint="`pico bisect start BAD GOOD`"))
     if not git.detached_from_files:
-        hint = "`git bisect run pico bisect-step --expect ...` goes on with it, `git bisect reset` ends it"
+        hint = "`git bisect run pico bisect step -y --expect ...` goes on with it, `git bisect reset` ends it"
         raise PicoError(error("bisect", "git checks files out for the bisection under way", hint=hint))
     if expect is not None:
         require_expressions(bench.setup, [expect])

@@ -97,5 +97,5 @@ def _expected(old: Iterable[str], new: Iterable[str]) -> tuple[tuple[str, str], 
 
 
 def _unknown(name: str, known: Iterable[str]) -> Diagnostic:
-    hint = did_you_mean(name, known) or "`pico parts` lists them"
+    hint = did_you_mean(name, known) or "`pico catalog parts` lists them"
     return error("unknown-component", f"neither state has a component `{name}`", hint=hint)

@@ -79,7 +79,7 @@ def unknown_parts(folder: LabFolder, scope: Scope) -> list[Diagnostic]:
         error(
             "unknown-component",
             f"the lab has no component `{name}`, and no commit that was looked at changed one",
-            hint=did_you_mean(name, known) or "`pico parts` lists them",
+            hint=did_you_mean(name, known) or "`pico catalog parts` lists them",
         )
         for name in scope.parts
         if name not in known

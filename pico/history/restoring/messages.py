@@ -45,7 +45,7 @@ def cherry_message(commit: Commit) -> str:
 def rootless(name: str) -> Diagnostic:
     """Return why the first commit can't be taken back."""
     text = f"{name} is the first commit of this lab: there is no state before it to go back to"
-    return error("first-commit", text, hint="`pico stow COMPONENT` takes single parts off the table")
+    return error("first-commit", text, hint="`pico move COMPONENT home` takes single parts off the table")
 
 
 def mainline_needed(name: str, sides: Sequence[Commit], given: int | None) -> Diagnostic:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
@@ -18,21 +20,23 @@ def list_runs(
     revision: str | None = None,
     *,
     every: bool = False,
-    component: str | None = None,
+    components: Sequence[str] = (),
     diagnostics: list[Diagnostic] | None = None,
 ) -> tuple[tuple[Run, Commit | None], ...]:
     """Return the runs in the history of a revision (HEAD), of a range `A..B`, or of `every` branch and tag, each with
     the oldest commit that carries it; None where no commit has it yet.
 
-    The newest comes first. Unless a revision is named, those that this bench alone knows yet count, too. `component`:
-    only what changed that one. Damaged files are warnings in `diagnostics`. Raises PicoError for what there is not.
+    The newest comes first. Unless a revision is named, those that this bench alone knows yet count, too. `components`:
+    only what changed one of these, or of these tunables (`p1.angle`). Damaged files are warnings in `diagnostics`.
+    Raises PicoError for what there is not.
     """
     own = [] if revision else [run.document for run in unrecorded(folder, diagnostics)]
     places = _places(folder, revision, every)
     carried = read_carried(folder.history(), places.values(), diagnostics) if places else ()
     found = [*carried, *(run for run in own if run.id not in places)]
-    if component is not None:
-        found = _of_component(folder, component, found)
+    if components:
+        kept = {run.id for name in components for run in _of_component(folder, name, found)}
+        found = [run for run in found if run.id in kept]
     found.sort(key=lambda run: run.order, reverse=True)
     names = {run.id: places[run.id].commit for run in found if run.id in places}
     commits = folder.history().commits(set(names.values())) if names else {}
@@ -64,9 +68,17 @@ def _span(repository: Repository, revision: str | None) -> tuple[tuple[str, ...]
 
 
 def _of_component(folder: LabFolder, component: str, runs: list[Run]) -> list[Run]:
-    """Return the runs that changed a component; raises PicoError for one that neither the bench nor a run knows."""
-    found = [run for run in runs if any(c.component == component for one in (run, *members(run)) for c in one.changes)]
-    if not found and component not in folder.setup.lab.inventory:
+    """Return the runs that changed a component or a tunable; raises PicoError for one that there is not."""
+    found = [
+        run
+        for run in runs
+        if any(
+            component in (c.component, f"{c.component}.{c.tunable}")
+            for one in (run, *members(run))
+            for c in one.changes
+        )
+    ]
+    if not found and component.partition(".")[0] not in folder.setup.lab.inventory:
         hint = did_you_mean(component, folder.setup.lab.inventory)
         raise PicoError(error("unknown-component", f"there is no component `{component}`", hint=hint))
     return found

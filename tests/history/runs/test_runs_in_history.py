@@ -127,7 +127,7 @@ def test_what_was_folded_is_blamed_and_undone_as_what_it_was(lab: Path) -> None:
         blamed = [leaf.last.how.run for leaf in bench.history.blame("p1.angle", "p2.angle").leaves]
         assert blamed == [runs[2], runs[1]]
         assert bench.recovery.undo_plan().target.of == runs[-1]
-        assert [run.id for run, _ in bench.history.runs(component="p2")][:1] == [f"{runs[0]}-fold"]
+        assert [run.id for run, _ in bench.history.runs(components=["p2"])][:1] == [f"{runs[0]}-fold"]
 
 
 def test_trials_stay_with_the_bench_and_are_in_no_commit(lab: Path) -> None:

@@ -16,8 +16,9 @@ from pico.model.observation import Observation, UnknownObject
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base
 from pico.model.pose import Pose
+from pico.model.request import place_after
 from pico.motion.types import Blocked
-from pico.planning import place_after, set_one
+from pico.planning import set_one
 from pico.planning.actors import actors
 from pico.planning.checks.bolted import check_bolted
 from pico.planning.checks.contacts import Contact, ends_of, spot_of, starts_of

@@ -22,7 +22,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
 
     frame = picture(table.setup, table.world, component)
     if frame.black:
-        hint = "measure again; a camera that stays dark is told by `pico scan`"
+        hint = "measure again; a camera that stays dark is told by `pico look`"
         raise Failed(error("dark", f"the frame of {component} is black", hint=hint, address=component))
     full = int((frame.gray >= FULL).sum())
     camera = table.setup.lab.cameras[component]

@@ -32,7 +32,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     if part.pose is None or part.how not in SEEN:
         said = next((p for p in problems if p.address == component), None)
         text = f"the cameras do not see {component}"
-        raise Failed(said or error("unseen", text, hint="`pico scan` shows what they see", address=component))
+        raise Failed(said or error("unseen", text, hint="`pico look` shows what they see", address=component))
     pose, sigma = part.pose, part.uncertainty
     return Reading(
         {"x": pose.x, "y": pose.y, "yaw": pose.yaw},

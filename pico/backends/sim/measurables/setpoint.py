@@ -18,6 +18,6 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     live = table.world.components[component].values.get(measurable)
     if live is None or live.status != "known":
         address = f"{component}.{measurable}"
-        hint = f"`pico home {component}` finds out, where it is an axis"
+        hint = f"`pico do {component} home` finds out, where it is an axis"
         raise Failed(error("unread", f"{address} can't be read back: nobody knows it", hint=hint, address=address))
     return Reading(live.value)

@@ -1,0 +1,54 @@
+"""Names of the top level that no command answers to: those of before, and those kept for what comes.
+
+docs/decisions/0014-command-table.md has the table. A command file of a reserved name takes over by being there.
+"""
+
+from __future__ import annotations
+
+MOVED = {
+    "explain": "pico plan --explain",
+    "graph": "pico plan --graph",
+    "watch": "pico drift --watch",
+    "bisect-step": "pico bisect step",
+    "find": "pico look COMPONENT",
+    "scan": "pico look",
+    "markers": "pico calibrate markers",
+    "rotate": "pico move COMPONENT yaw=DEGREES",
+    "place": "pico move COMPONENT after=OTHER distance=MM",
+    "stow": "pico move COMPONENT home",
+    "home": "pico do COMPONENT home",
+    "parts": "pico catalog parts",
+    "publish": "pico runs export",
+    "version": "pico doctor",
+}
+RESERVED = {
+    "beam": "the light on the table",
+    "measure": "measurements of the beam",
+    "optimize": "closed-loop alignment",
+    "teleop": "moving the arm by hand",
+    "laser": "arming a laser",
+    "run": "running a recipe",
+    "recipe": "recipes",
+    "test": "recipes tried in the simulator",
+    "budget": "error budgets",
+    "morning": "the check of a morning",
+    "swap": "exchanging one part for another",
+    "devices": "the instruments of a bench",
+    "commission": "taking a real bench into use",
+    "serve": "serving a bench to others",
+    "edge": "benches that are served",
+    "remote": "benches elsewhere",
+    "lease": "who has a bench",
+    "login": "people at a served bench",
+    "token": "programs at a served bench",
+    "gui": "PICO in a browser",
+}
+
+
+def instead(name: str) -> str:
+    """Return what is said to who types such a name, in one line; empty for any other."""
+    if name in MOVED:
+        return f"`pico {name}` is now `{MOVED[name]}`"
+    if name in RESERVED:
+        return f"`pico {name}` is reserved for {RESERVED[name]}; this version can't do it yet"
+    return ""
