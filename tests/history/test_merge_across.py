@@ -193,6 +193,7 @@ def test_plan_tells_while_a_merge_is_under_way_and_not_once_pico_has_ended_it(br
     folder = branches(moved("p1"), taken_out("p1"))
     git("merge", "-q", "--no-commit", "theirs")
     (told,) = planned(folder.root)
+    assert told.summary.endswith("and git's merge kept it")
     moved_it = git("rev-parse", "HEAD").strip()
     assert told.address == "p1" and f"{moved_it[:7]} moved it to {OTHER}" in told.summary
     assert "`pico commit`, which ends the merge" in str(told.hint)

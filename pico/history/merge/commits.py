@@ -10,12 +10,14 @@ from pico.history.git import command as git
 from pico.history.git.commit import Commit
 from pico.history.git.unread import read_tree
 from pico.history.lab.folder import LabFolder, edited
+from pico.history.lab.notes import is_note
 from pico.history.merge.markers import Labels
 from pico.history.merge.trees import Union, opened, unite_commits
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.history.writing.claim import Goal
 from pico.history.writing.commit_object import NewCommit
 from pico.history.writing.in_progress import refuse_begun
+from pico.manifest.file_names import is_manifest
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
 from pico.model.record import record
@@ -82,11 +84,13 @@ def label_of(commit: Commit, revision: str = "") -> str:
 
 
 def _refuse_unfit(folder: LabFolder) -> None:
-    """Raise PicoError where edits would be lost, or where git has begun something else here."""
-    root = folder.history().root
+    """Raise PicoError where manifests or notes are edited, or where git has begun something else here. Other files that
+    are edited, and that the merge changes, git refuses to overwrite."""
+    root, inside = folder.history().root, folder.history().relative(folder.root)
     refuse_begun(folder.history().own, "merge")
     listed = git.run(root, ["status", "--porcelain", "-z", "--untracked-files=no"], doing="list what was edited")
-    paths = tuple(entry[3:] for entry in listed.split("\0") if len(entry) > 3)
+    names = tuple(entry[3:] for entry in listed.split("\0") if len(entry) > 3)
+    paths = tuple(p for p in names if is_manifest(p) or is_note(p.removeprefix(f"{inside}/" if inside else "")))
     if paths:
         raise PicoError(edited(paths))
 

@@ -88,9 +88,10 @@ def _later(repository: Repository, commit: str) -> bool:
 
 def _told(name: str, took: str, moved: str, path: str, merge: str, manifests: Manifests) -> Diagnostic:
     ends = '`git commit --allow-empty -m "why"`' if merge else "`pico commit`, which ends the merge"
+    kept = f"git's merge {merge[:7]}" if merge else "git's merge"
     return error(
         "merge-conflict",
-        f"{name}: {took[:7]} took it out, {moved[:7]} moved it to {path}, and git's merge {merge[:7]} kept it".rstrip(),
+        f"{name}: {took[:7]} took it out, {moved[:7]} moved it to {path}, and {kept} kept it",
         detail="git merges file by file, and in no file did both change it",
         hint=f"if it shall go, take it out of {path}; if it shall stay, say so with {ends}",
         address=name,

@@ -30,7 +30,21 @@ def drive(arguments: Sequence[str]) -> tuple[int, str]:
         file.write(merged.data)
         file.flush()
         os.fsync(file.fileno())
-    return (CLEAN if merged.clean else CONFLICT), "".join(f"{line}\n" for line in told(merged, path, labels))
+    ways = [] if merged.clean else ways_out(path, os.environ.get("GIT_REFLOG_ACTION", ""))
+    return (CLEAN if merged.clean else CONFLICT), "".join(f"{line}\n" for line in (*told(merged, path, labels), *ways))
+
+
+def ways_out(path: str, doing: str) -> list[str]:
+    """Return what can be done about conflicts in a file; `doing`: what git says of itself (`merge left`). After other
+    commands than a merge git itself says how to go on, and how to go back."""
+    command, _, names = doing.partition(" ")
+    if command != "merge":
+        return []
+    instead = f"then `pico merge {names}` asks first whether the result can stand on the table"
+    return [
+        f"pico: {path}: edit what is between the markers, `git add`, `pico commit`",
+        f"pico: or `git merge --abort` takes it back; {instead}",
+    ]
 
 
 def told(merged: Merged, path: str, labels: Labels) -> list[str]:

@@ -110,6 +110,27 @@ def test_edits_that_would_be_lost_are_refused(branches: Branches) -> None:
     assert refused(folder).diagnostics[0].code == "edited"
 
 
+def test_edits_of_other_files_stand_in_the_way_only_where_the_merge_changes_them(branches: Branches, git: Git) -> None:
+    folder = branches([("p1", "angle: 90", "angle: 80")], [("p2", "angle: 90", "angle: 45")])
+    other = folder.root / "README.txt"
+    other.write_text("ours\n")
+    git("add", "README.txt")
+    git("commit", "-qm", "a file of somebody else")
+    other.write_text("edited\n")
+    merge(folder, "theirs")
+    assert other.read_text() == "edited\n" and git("status", "--porcelain").strip() == "M README.txt"
+    git("checkout", "-q", "--force", "-b", "more", "HEAD~1")
+    other.write_text("theirs\n")
+    git("commit", "-qam", "more")
+    git("checkout", "-q", "-")
+    other.write_text("edited again\n")
+    found = refused(folder, "more")
+    assert (
+        "README.txt" in found.diagnostics[0].summary + str(found.diagnostics[0].detail)
+        and other.read_text() == "edited again\n"
+    )
+
+
 def test_a_hook_that_refuses_leaves_everything_as_it_was(branches: Branches, git: Git) -> None:
     folder = branches([("p1", "angle: 90", "angle: 80")], [("p2", "angle: 90", "angle: 45")])
     hook = folder.root / ".git" / "hooks" / "commit-msg"

@@ -99,6 +99,7 @@ def test_stash_pop_and_revert_unite_too(sandbox: Sandbox) -> None:
 def test_the_same_tunable_conflicts_and_git_says_what_each_side_did(sandbox: Sandbox) -> None:
     said = sandbox.git("merge", "clash", code=1)
     assert "pico: table.yaml: m1.tip: base 1 | ours 1.5 (+0.5) | theirs 0.5 (-0.5)" in said
+    assert "`git merge --abort` takes it back; then `pico merge clash`" in said
     assert sandbox.file.read_text().count("<<<<<<< ours: m1.tip 1.5 (+0.5)\n") == 1
     assert sandbox.git("ls-files", "-u").count("table.yaml") == 3
 
