@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from pico.bench.checking.verdict import TITLES, Check, CheckReport, LabChecked
@@ -78,13 +79,18 @@ def why(plan: Plan, op: Operation) -> tuple[str, str, str]:
     return op.address, motion, "" if because == motion else because
 
 
+def drawn(lab: LabChecked) -> str:
+    """Return where the pictures of a lab are, seen from where the command was started."""
+    return f"Pictures: {', '.join(os.path.relpath(p.path) for p in lab.pictures)}."
+
+
 def _lab(checked: CheckReport, lab: LabChecked) -> str:
     where = "" if lab.folder == "." else f" · {lab.folder}"
     head = f"{paint('bold', lab.lab)}{where} · {checked.what} against {base(lab)}"
     blocks = [head, "\n".join(line for check in lab.checks for line in _check(check)), *_changes(lab), *_plan(lab)]
     blocks += ["\n".join(line for note in lab.notes for line in wrap(f"Note: {note}.", ""))] if lab.notes else []
     if lab.pictures:
-        blocks.append(f"Pictures: {', '.join(p.path for p in lab.pictures)}.")
+        blocks.append(drawn(lab))
     color = "red" if lab.exit_code else "green"
     word = "Refused" if lab.exit_code else "Passed"
     return "\n\n".join([*blocks, f"{paint(color, word)}: {verdict(lab)}."])

@@ -12,7 +12,7 @@ from pico.model.diff import Change
 from pico.model.plan import Plan
 
 from . import diagnostics
-from .check import SIGNS, base, notable, plan_line, said, verdict, why
+from .check import SIGNS, base, drawn, notable, plan_line, said, verdict, why
 from .diff import poses_first
 from .diff import said as motion
 from .markdown import fenced, prose, table
@@ -114,7 +114,7 @@ def _pictures(lab: LabChecked, folder: Path | None) -> list[str]:
     if not lab.pictures:
         return []
     if folder is None:
-        return [prose("Pictures: " + ", ".join(p.path for p in lab.pictures) + ".")]
+        return [prose(drawn(lab))]
     links = [f"![{p.title}]({quote(os.path.relpath(p.path, folder))})" for p in lab.pictures]
     return ["\n".join(table([f"**{p.title}**" for p in lab.pictures], [links]))]
 

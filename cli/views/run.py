@@ -17,7 +17,7 @@ class Progress:
 
     def __init__(self, plan: Plan) -> None:
         self.operations = {op.id: op for op in plan.operations}
-        self.order = {op.id: i for i, op in enumerate(plan.operations, 1)}
+        self.ended: set[str] = set()
         self.titles = {op.id: f"{op.address} {what(op, change_of(plan, op))}" for op in plan.operations}
         self.names = max(map(width, self.titles.values()), default=0)
         self.began: float | None = None
@@ -35,6 +35,8 @@ class Progress:
         }
         if event.kind not in marks:
             return ""
+        if event.kind != "operation_retried":
+            self.ended.add(event.operation or "")
         mark = paint("yellow", "↩") if _put_back(event) else marks[event.kind]
         return f"  {mark} {self._head(event)}  {self._tail(event)}".rstrip()
 
@@ -53,9 +55,9 @@ class Progress:
         return shorten(f"  {paint('cyan', '▸')} {self._head(event)}  {tail}".rstrip(), WIDTH)
 
     def _head(self, event: Event) -> str:
-        op = self.operations[event.operation or ""]
-        total = len(self.operations)
-        return f"{self.order[op.id]:>{len(str(total))}}/{total} " + pad(self.titles[op.id], self.names)
+        """How many operations ended with this one, or will have when it does: several may run beside one another."""
+        op, total = event.operation or "", len(self.operations)
+        return f"{len(self.ended | {op}):>{len(str(total))}}/{total} " + pad(self.titles[op], self.names)
 
     def _tail(self, event: Event) -> str:
         data = event.data

@@ -82,8 +82,10 @@ class Drawing:
         }
         if bold:
             style["font_weight"] = "bold"
-        if halo:
-            style |= {"stroke": "#ffffff", "stroke_width": f"{0.3 * size:.3g}", "paint_order": "stroke"}
+        if halo:  # not a white stroke: where `paint-order` is not known it is drawn over the letters
+            left, top, right, bottom = text_box(text, at, size, anchor, bold)
+            ground = {"x": f"{left:.6g}", "y": f"{top:.6g}", "width": f"{right - left:.6g}", "rx": f"{0.2 * size:.3g}"}
+            self._add("rect", {**ground, "height": f"{bottom - top:.6g}"}, {"fill": "#ffffff", "fill_opacity": 0.8})
         self._add("text", place, style).text = text
 
     def rule(self, start: Point, end: Point, color: str, width: float) -> None:

@@ -70,6 +70,8 @@ def test_the_report_is_written_with_its_pictures_and_printed_without(shel: Path,
     links = re.findall(r"!\[\w+\]\(([^)]*)\)", written)
     assert [(shel / "out" / link).is_file() for link in links] == [True, True]
     assert printed.startswith("<!-- pico check -->\n## ✓ shel: all is well") and "![" not in printed
+    assert "Pictures: out/pictures/shel-before.png, out/pictures/shel-after.png." in printed.replace("\\", "")
+    assert str(shel) not in printed + written
     assert "| p2 | pose | (520, 420, 0°) | (520, 420, 30°) | turned +30° |" in printed
     assert "**Plan**: 1 move, 0 staged" in printed
     assert pico("check", "--report", "r.md", "--pictures", "none").code == 0 and "![" not in (shel / "r.md").read_text()
