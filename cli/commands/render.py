@@ -36,7 +36,9 @@ def render(
     plan: Annotated[
         bool, typer.Option("--plan", help="Show what would move on the way to REV or the manifest.")
     ] = False,
-    size: Annotated[str, typer.Option("--size", metavar="WxH", help="Pixels of the picture.")] = "960x720",
+    size: Annotated[
+        str, typer.Option("--size", metavar="W[xH]", help="Pixels; without H as high as the table.")
+    ] = "960",
 ) -> None:
     """Draw the bench: a PNG, or as SVG with its parts list.
 
@@ -80,11 +82,13 @@ def _require(looking: str, out: Path, plan: bool, both: bool) -> None:
         raise PicoError(error("usage", "what would move is drawn from above only", hint="add `--view top`"))
 
 
-def _pixels(size: str) -> tuple[int, int]:
-    """Return width and height of `960x720`."""
-    found = re.fullmatch(r"(\d+)x(\d+)", size)
-    width, height = (int(found[1]), int(found[2])) if found else (0, 0)
-    if not (64 <= width <= LARGEST and 48 <= height <= LARGEST):
-        hint = f"width x height in pixels, for example 1920x1440; at least 64x48, at most {LARGEST}x{LARGEST}"
+def _pixels(size: str) -> tuple[int, int | None]:
+    """Return width and height of `960x720`; without a height that is None."""
+    found = re.fullmatch(r"(\d+)(?:x(\d+))?", size)
+    width, height = (int(found[1]), int(found[2]) if found[2] else None) if found else (0, None)
+    if not (64 <= width <= LARGEST and (height is None or 48 <= height <= LARGEST)):
+        hint = (
+            f"width, or width x height, in pixels, for example 1920x1440; at least 64x48, at most {LARGEST}x{LARGEST}"
+        )
         raise PicoError(error("usage", f"`{size}` is no size of a picture", hint=hint))
     return width, height

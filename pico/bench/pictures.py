@@ -34,14 +34,15 @@ class Pictures:
         manifest: bool = False,
         view: View = "perspective",
         plan: bool | Plan = False,
-        size: tuple[int, int] = (960, 720),
+        size: tuple[int, int | None] = (960, None),
         out: Path | None = None,
     ) -> Image:
         """Return a picture (height, width, 3), sRGB, of the bench as it is, or as a revision or the manifest wants it.
 
         `plan` (from above only): the bench as it is, with what this plan moves, or that to the revision or the
         manifest, drawn dashed and numbered, with a list below; where it is impossible, what is in whose way, in red.
-        `size`: width and height [pixels], without that list. `out`: write it there, too, as PNG. Raises PicoError.
+        `size`: width and height [pixels], without that list; no height: as high as what is in it. `out`: write it
+        there, too, as PNG. Raises PicoError.
         """
         from pico.bench.picture_contents import goals, marks, standing, steps, wanted
         from pico.drawing.picture import render, write_png

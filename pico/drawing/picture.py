@@ -31,9 +31,10 @@ if TYPE_CHECKING:
 
 View = Literal["perspective", "top"]
 
+WIDTH = 960
+"""Pixels."""
 _IN_HAND = 8.0
 """A part whose grasp is nearer to the tool center point than this is drawn as held [mm]."""
-_AZIMUTH, _ELEVATION, _FIELD = -80.0, 30.0, 24.0
 
 
 def render(
@@ -42,8 +43,8 @@ def render(
     joints: Mapping[str, Joints],
     *,
     view: View = "perspective",
-    width: int = 960,
-    height: int = 720,
+    width: int = WIDTH,
+    height: int | None = None,
     ghosts: Mapping[str, Pose] | None = None,
     labels: bool = True,
     beams: bool = True,
@@ -52,7 +53,7 @@ def render(
     dimensions: Sequence[Dimension] = (),
     values: Values | None = None,
 ) -> Image:
-    """Return a picture (height, width, 3) of the bench, sRGB.
+    """Return a picture (height, width, 3) of the bench, sRGB; without a `height` as high as what is in it.
 
     `poses`: where components stand, by name; a `Placement` where one does not stand on its base; names that are
     missing are not drawn. `joints`: of each robot [rad], parked where missing. `beams`: draw the light of sources up to
@@ -95,17 +96,18 @@ def _perspective(
     poses: Mapping[str, Place],
     joints: Mapping[str, Joints],
     width: int,
-    height: int,
+    height: int | None,
     labels: bool,
     light: tuple[Beam, ...],
 ) -> Image:
     from pico.drawing.perspective import Stage, photograph
+    from pico.drawing.standpoint import standpoint
     from pico.twin.surfaces import surfaces
 
     places = placed(poses)
     model, data = posed_model(setup, places, joints)
     points = scene_extent(setup, model, data)
-    view = viewpoint(setup, points, width, height)
+    view = standpoint(model, data, places, points, width, height)
     stage = Stage(model, data, surfaces(setup, model, places), light, center_of(setup))
     image = photograph(stage, view)
     if labels:
@@ -214,13 +216,6 @@ def _opening(setup: Setup, robot: Robot, joints: Joints, places: Mapping[str, Pl
         if abs(place.position[2] * 1000 + grasp.height - z) < _IN_HAND:
             return grasp.width
     return robot.gripper.stroke
-
-
-def viewpoint(setup: Setup, points: Any, width: int, height: int) -> Viewpoint:
-    """Return the camera in front of the table that has all of `points` (n, 3) [m] in the picture."""
-    from pico.drawing.viewpoint import framing
-
-    return framing(points, _AZIMUTH, _ELEVATION, _FIELD, width, height, margin=0.04)
 
 
 def glow(

@@ -56,7 +56,7 @@ def draw(
     joints: Mapping[str, Joints],
     *,
     width: int,
-    height: int,
+    height: int | None,
     ghosts: Mapping[str, Pose],
     labels: bool,
     beams: bool,
@@ -73,9 +73,13 @@ def draw(
     return with_list(canvas.finished(), steps, 0.95 * letters(width, height))
 
 
-def letters(width: int, height: int) -> float:
+def letters(width: int, height: int | None) -> float:
     """Return the size of the letters on a drawing [pixels]."""
-    return max(9.0, min(width / 64, height / 48))
+    return max(9.0, _unit(width, height))
+
+
+def _unit(width: int, height: int | None) -> float:
+    return min(width / 64, height / 48) if height else width / 64
 
 
 def drawn(
@@ -84,7 +88,7 @@ def drawn(
     joints: Mapping[str, Joints],
     *,
     width: int,
-    height: int,
+    height: int | None,
     ghosts: Mapping[str, Pose],
     labels: bool,
     beams: bool,
@@ -145,14 +149,19 @@ def _draw_goals(
             draw_way(canvas, setup, name, start, goal, size)
 
 
-def new_canvas(setup: Setup, width: int, height: int) -> Canvas:
-    """Return the canvas on which table and mounts fit, with room for a title above and a scale below."""
+def new_canvas(setup: Setup, width: int, height: int | None) -> Canvas:
+    """Return the canvas on which table and mounts fit, with room for a title above and a scale below; without a
+    `height` as high as these are."""
     x, y = setup.lab.table.size
     mounts = [robot.mount for robot in setup.lab.robots.values()]
     left, right = min([0.0, *(m.x - 80 for m in mounts)]), max([x, *(m.x + 80 for m in mounts)])
     low, high = min([0.0, *(m.y - 80 for m in mounts)]), max([y, *(m.y + 80 for m in mounts)])
-    head, foot, side = 0.075 * height, 0.085 * height, 0.035 * width
-    scale = min((width - 2 * side) / (right - left), (height - head - foot) / (high - low))
+    unit, side = _unit(width, height), 0.035 * width
+    head, foot = 3.6 * unit, 4.08 * unit
+    scale = (width - 2 * side) / (right - left)
+    if height is None:
+        height = round(head + foot + scale * (high - low))
+    scale = min(scale, (height - head - foot) / (high - low))
     spare = height - head - foot - scale * (high - low)
     origin = ((width - scale * (left + right)) / 2, height - foot - spare / 2 + scale * low)
     return Canvas(width, height, scale, origin, _PAPER)

@@ -96,3 +96,9 @@ def framing(
         fill = max((high - low) / np.array((width, height))) / (1 - 2 * margin)
         distance *= float(fill)
     return look(target + distance * towards, target, field_of_view, width, height)
+
+
+def trimmed(view: Viewpoint, points: Array, margin: float) -> Viewpoint:
+    """Return the camera without what is above and below `points` (n, 3) but a margin, a share of the width."""
+    v, spare = view.project(points)[:, 1], margin * view.width
+    return view.cut(0, max(0, int(v.min() - spare)), view.width, min(view.height, int(v.max() + spare) + 1))

@@ -193,6 +193,6 @@ def test_the_bench_closes_and_opens_again(bench: Bench) -> None:
 
 
 def test_a_picture_of_the_bench_is_an_image(bench: Bench, tmp_path: Path) -> None:
-    image = bench.pictures.render(out=tmp_path / "bench.png")
+    image = bench.pictures.render(size=(160, None), out=tmp_path / "bench.png")
     assert image.ndim == 3
     assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")

@@ -92,8 +92,8 @@ def test_a_part_that_left_the_inventory_is_a_stranger_that_status_and_plan_name(
     assert "note[stranger]: unknown/5 stands at (395, 420, 0°)" in plan.err and "`pico import`" in plan.err
     drift = pico("drift")  # HEAD still has the part
     assert drift.code == 0 and "~ p2 turned +30°" in " ".join(drift.out.split()) and "lx_125" not in drift.out
-    assert pico("render", "--view", "top", "--out", "with.png").code == 0
-    assert pico("render", "--view", "top", "--manifest", "--out", "without.png").code == 0
+    assert pico("render", "--view", "top", "--size", "240", "--out", "with.png").code == 0
+    assert pico("render", "--view", "top", "--size", "240", "--manifest", "--out", "without.png").code == 0
     assert Path("with.png").read_bytes() != Path("without.png").read_bytes()
     assert pico("render", "--out", "bench.svg").code == 0 and "unknown/5" in Path("bench.svg").read_text()
     assert pico("ruler", "unknown/5", "p1").code == 0

@@ -14,9 +14,10 @@ from pico.drawing.dimensions import Dimension
 from pico.drawing.label_places import Box, bounds, overlap
 from pico.drawing.labels import Anchor, label
 from pico.drawing.outlines import outline
-from pico.drawing.picture import placed, posed_model, scene_extent, shadows, top_of, viewpoint
+from pico.drawing.picture import placed, posed_model, scene_extent, shadows, top_of
+from pico.drawing.standpoint import hidden, standpoint
 from pico.drawing.steps import DrawnStep
-from pico.drawing.topview import drawn
+from pico.drawing.topview import drawn, new_canvas
 from pico.manifest.load import load_folder
 from pico.model.lab import Setup
 from pico.model.pose import Pose
@@ -55,6 +56,22 @@ def test_from_above_every_part_is_named_and_no_name_lies_on_anything(
     assert all(box[2] <= size[0] and box[3] <= size[1] for _, box in canvas.words)
 
 
+def test_without_a_height_a_picture_is_as_high_as_the_table_and_what_stands_on_it() -> None:
+    for name in ("shel", "two_arms"):  # 1200 x 900 and 2000 x 900 mm
+        setup, state = lab_of(name)
+        canvas = new_canvas(setup, 960, None)
+        width, depth = setup.lab.table.size
+        (left, foot), (right, top) = canvas.pixel((0.0, 0.0)), canvas.pixel((width, depth))
+        assert left == pytest.approx(960 - right) and left < 0.04 * 960
+        assert 0 < top < 70 and 0 < canvas.bounds[3] - foot < 70
+        model, data = posed_model(setup, placed(standing(setup, state)), {})
+        points = scene_extent(setup, model, data)
+        view = standpoint(model, data, standing(setup, state), points, 960, None)
+        u, v, _ = view.project(points).T
+        assert 0 < v.min() < 60 and 0 < view.height - v.max() < 60 and u.min() > 0 and u.max() < 960
+        assert u.max() - u.min() > 0.9 * 960  # nothing is made small for the sake of a band
+
+
 @pytest.mark.parametrize("name", ["shel", "minimal", "crowded", "two_arms"])
 def test_numbers_and_turns_of_steps_lie_on_no_name(name: str) -> None:
     setup, state = lab_of(name)
@@ -78,15 +95,17 @@ def test_measures_of_a_ruler_lie_on_no_name() -> None:
     assert not crossing(canvas.words, parts_of(canvas, setup, poses))
 
 
+@pytest.mark.parametrize("goal", ["manifest", "home"])
 @pytest.mark.parametrize("name", ["shel", "minimal", "crowded", "two_arms"])
-def test_in_perspective_every_part_is_named_and_no_name_lies_on_anything(name: str) -> None:
+def test_in_perspective_every_part_is_seen_and_named_and_no_name_lies_on_anything(name: str, goal: str) -> None:
     setup, state = lab_of(name)
-    places = placed(standing(setup, state))
+    places = placed(standing(setup, state if goal == "manifest" else home_state(setup)))
     model, data = posed_model(setup, places, {})
-    view = viewpoint(setup, scene_extent(setup, model, data), 960, 720)
+    view = standpoint(model, data, places, scene_extent(setup, model, data), 960, None)
+    assert not hidden(model, data, view, places)
     taken = shadows(view, model, data)
     tops = {n: (p.position[0], p.position[1], top_of(setup, n, p)) for n, p in places.items()}
-    image = np.zeros((720, 960, 3), np.uint8)
+    image = np.zeros((view.height, view.width, 3), np.uint8)
     boxes = label(image, view, [Anchor(n, at) for n, at in sorted(tops.items())], taken)
     assert boxes.keys() == places.keys()
     assert not crossing(sorted(boxes.items()), {str(n): box for n, box in enumerate(taken)})

@@ -13,7 +13,8 @@ import pytest
 from physical import LABS, bench
 
 from pico.bench.bench import Bench
-from pico.drawing.picture import placed, posed_model, render, scene_extent, viewpoint, write_png
+from pico.drawing.picture import placed, posed_model, render, scene_extent, write_png
+from pico.drawing.standpoint import standpoint
 from pico.drawing.topview import new_canvas
 from pico.history.examples.example import make_example
 from pico.model.lab import Setup
@@ -51,7 +52,7 @@ def test_the_red_camera_is_seen_where_it_stands(setup: Setup, poses: dict[str, P
         at = {**poses, "cam": Pose(x, 420.0, 0.0)}
         image = render(setup, at, {}, width=W, height=H, labels=False, beams=False)
         model, data = posed_model(setup, placed(at), {})
-        view = viewpoint(setup, scene_extent(setup, model, data), W, H)
+        view = standpoint(model, data, at, scene_extent(setup, model, data), W, H)
         u, v, _ = view.project(np.array([[x / 1000 + 0.008, 0.40, 0.07]]))[0]
         r, g, b = near(image, u, v).mean(axis=0)
         assert r > 1.5 * g

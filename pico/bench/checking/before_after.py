@@ -8,9 +8,6 @@ from pico.bench.checking.candidate import Candidate, Origin, start
 from pico.bench.checking.verdict import LabChecked, Picture
 from pico.disk import writing
 
-SIZE = (960, 720)
-"""Width and height of a picture in pixels, without its list of steps."""
-
 
 def draw(candidate: Candidate, before: Origin, found: LabChecked, folder: Path, stem: str) -> tuple[Picture, ...]:
     """Draw a lab before and after into `folder` as STEM-before.png and STEM-after.png, and return them; none where
@@ -24,12 +21,11 @@ def draw(candidate: Candidate, before: Origin, found: LabChecked, folder: Path, 
     begin, _ = start(setup, before)
     with writing(folder, what=f"can't make the folder {folder}"):
         folder.mkdir(parents=True, exist_ok=True)
-    width, height = SIZE
     first = render(
-        setup, standing(setup, begin), {}, view="top", width=width, height=height,
+        setup, standing(setup, begin), {}, view="top",
         ghosts=goals(setup, found.plan), marks=marks(setup, found.plan), steps=steps(found.plan),
     )  # fmt: skip
-    then = render(setup, standing(setup, wanted), {}, view="top", width=width, height=height)
+    then = render(setup, standing(setup, wanted), {}, view="top")
     paths = (folder / f"{stem}-before.png", folder / f"{stem}-after.png")
     for image, path in zip((first, then), paths, strict=True):
         path.unlink(missing_ok=True)  # a link that somebody put there is not followed

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from pico.drawing.lighting import KEY
 from pico.drawing.perspective import FLOOR, Beam, Stage, photograph
-from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, top_of, viewpoint
+from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, top_of
+from pico.drawing.standpoint import standpoint
 from pico.model.lab import Setup
 from pico.twin.placement import Placement
 from pico.twin.snapshot import Snapshot
@@ -104,7 +105,8 @@ def build_set(setup: Setup, snapshots: Sequence[Snapshot], size: tuple[int, int]
         pose_model(setup, model, data, {n: snapshot.places.get(n, _AWAY) for n in names}, snapshot.joints)
         extent = scene_extent(setup, model, data)
         points.append(extent[extent[:, 2] > -1.0])
-    return Set(setup, model, data, viewpoint(setup, np.vstack(points), *size), names)
+    view = standpoint(model, data, snapshot.places, np.vstack(points), *size)
+    return Set(setup, model, data, view, names)
 
 
 def _reach(centers: Array, radius: Array) -> Array:
