@@ -23,6 +23,7 @@ from pico.runs.folding import SUFFIX, folded_ids
 from pico.runs.reading import read_document
 
 _PLACE = re.compile(r"\d{4}/\d{2}/")
+_ADDED = re.compile(r"(?P<name>\d{4}/\d{2}/[^/]+):(?P<tree>[0-9a-f]{40,64})")
 CACHE = "pico/runs.sqlite"
 SLACK = 86400.0
 """Seconds by which the clocks of two machines may differ."""
@@ -197,17 +198,21 @@ class _Trees:
         if not before:
             return tuple(self.places(commit).values())
         fresh = self._remembered(own, before)
-        return tuple(RunPlace(n[8:], f"runs/{n}", str(own[n].id), str(commit.id)) for n in fresh)
+        return tuple(RunPlace(n[8:], f"runs/{n}", tree, str(commit.id)) for n, tree in fresh.items())
 
-    def _remembered(self, own: Any, before: list[Any]) -> list[str]:
-        """Return the runs, as `2026/11/<id>`, that one `runs` folder has and none of those `before`."""
-        key = " ".join(["runs", str(own.id), *sorted(str(b.id) for b in before)])
+    def _remembered(self, own: Any, before: list[Any]) -> dict[str, str]:
+        """Return the runs, as `2026/11/<id>` with their trees, that one `runs` folder has and none of those `before`.
+
+        A month of many runs is a large tree, and is not read again where it is known what it adds.
+        """
+        key = " ".join(["added", str(own.id), *sorted(str(b.id) for b in before)])
         known = self.cache.get(key) if self.cache else None
-        if known is not None and all(name in own for name in known.split()):
-            return known.split()
-        fresh = sorted(set.intersection(*(_fresh(b, own) for b in before)))
+        words = [_ADDED.fullmatch(word) for word in (known or "").split()]
+        if known is not None and all(word and word["tree"] in self.repository.handle for word in words):
+            return {word["name"]: word["tree"] for word in words if word}
+        fresh = {name: str(own[name].id) for name in sorted(set.intersection(*(_fresh(b, own) for b in before)))}
         if self.cache:
-            self.cache.put(key, " ".join(fresh))
+            self.cache.put(key, " ".join(f"{name}:{tree}" for name, tree in fresh.items()))
         return fresh
 
     def places(self, commit: Any) -> dict[str, RunPlace]:

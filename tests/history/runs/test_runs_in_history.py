@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import sqlite3
+import zlib
 from contextlib import closing
 from pathlib import Path
 
@@ -118,6 +120,19 @@ def test_a_session_of_settings_is_one_run_in_a_commit(lab: Path, pico: Pico, mon
     assert [op.arguments["to"] for op in operations(found.trace)] == [18]
     assert found.after is not None and found.diagnostics == ()
     assert standing(lab).verdict == "verified"
+
+
+@pytest.mark.parametrize("spoilt", ["nonsense", "2026/11/x:zz", f"2026/11/x:{'0' * 40}", ":"])
+def test_what_was_remembered_of_runs_counts_only_where_git_has_it(lab: Path, spoilt: str) -> None:
+    turned(lab, "p1", 5)
+    turned(lab, "p1", 6)
+    found = carried(lab)
+    assert len(found) == 2 and carried(lab) == found
+    with closing(sqlite3.connect(lab / ".git" / "pico" / "runs.sqlite")) as cache, cache:
+        spoiled = zlib.compress(spoilt.encode())
+        cache.execute("UPDATE read SET data = ? WHERE key LIKE 'added %'", (spoiled,))
+        assert cache.total_changes == 1
+    assert carried(lab) == found
 
 
 def test_what_was_folded_is_blamed_and_undone_as_what_it_was(lab: Path) -> None:
