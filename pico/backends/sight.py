@@ -19,7 +19,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, UnknownObject
 from pico.model.observation import Uncertainty as Sigma
 from pico.model.pose import Pose
-from pico.vision.anchor import Drifting, anchored
+from pico.vision.anchor import SHARED, Drifting, anchored
 from pico.vision.calibration import Calibration
 from pico.vision.datums import ENOUGH, check, offset
 from pico.vision.localize import recognize, replace_dark
@@ -92,7 +92,7 @@ def seen_by(
     right = {p.camera: anchored(setup, basis.cameras[p.camera], p) for p in pictures}
     cameras = replace(basis, cameras={**basis.cameras, **right})
     if calibration is None:
-        drift = _displaced(setup, pictures, basis, cameras)
+        drift = _displaced(setup, pictures, basis)
     else:
         drift, loose = _drifted(setup, pictures, basis)
         cameras = basis if drift or loose else cameras
@@ -106,9 +106,7 @@ def _drifted(setup: Setup, pictures: Sequence[Markers], basis: Calibration) -> t
     return tuple(d for d, _ in checked if d), any(f.kind == "datum" for _, found in checked for f in found)
 
 
-def _displaced(
-    setup: Setup, pictures: Sequence[Markers], basis: Calibration, right: Calibration
-) -> tuple[CameraMoved, ...]:
+def _displaced(setup: Setup, pictures: Sequence[Markers], basis: Calibration) -> tuple[CameraMoved, ...]:
     """The cameras that are farther from where the lab has them than a mount is ever off."""
     usual, found = Drifting(), []
     for picture in pictures:
@@ -117,7 +115,7 @@ def _displaced(
         if len(seen) < ENOUGH:
             continue
         was: CameraModel = basis.cameras[picture.camera]
-        shift, turn = apart(was.pose, right.cameras[picture.camera].pose)
+        shift, turn = apart(was.pose, anchored(setup, was, picture, usual, SHARED).pose)
         if shift > _FAR * usual.position or turn > _FAR * usual.turn:
             effect = max(offset(datum, was, marker) for datum, marker in seen)
             found.append(CameraMoved(camera=picture.camera, shift=shift, turn=turn, effect=effect))
