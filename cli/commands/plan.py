@@ -77,17 +77,7 @@ def plan(
 
 
 def _require(explain: bool, graph: bool, component: str | None, form: str | None) -> None:
-    """Show what would move to make the bench as wanted. Moves nothing.
-
-    As the manifest wants it, or a revision; with names after `--` for these components or single tunables only. Exits
-    with 3 where that is physically impossible, with 7 where policy denies it.
-
-    Examples:
-      pico plan e1 -- p2 p1.angle
-      pico plan e1 --out e1.plan
-      pico plan e1 --explain p2
-      pico plan e1 --graph --format dot | dot -Tsvg > plan.svg
-    """
+    """Raise PicoError for options that contradict each other."""
     if explain and graph:
         raise PicoError(error("usage", "--explain and --graph are two answers", hint="ask for one of them"))
     if component is not None and not explain:

@@ -10,7 +10,7 @@ from pico.history.blame.how import How
 from pico.history.lab.notes import Note
 from pico.model.record import as_json
 
-from .style import WIDTH, columns, count, paint, place, shorten, width
+from .style import columns, count, paint, place, shorten, wide, width
 
 _HEAD = ("tunable", "value", "commit", "when", "how", "who", "why")
 
@@ -42,7 +42,7 @@ def _histories(blamed: Blamed) -> list[str]:
 def _fitted(rows: list[list[str]], indent: str = "") -> list[str]:
     """Return aligned lines; the last cell, what the commit says of itself, takes the room that is left."""
     taken = len(indent) + sum(2 + max(width(row[i]) for row in rows) for i in range(len(rows[0]) - 1))
-    return columns(rows, indent=indent, last=max(WIDTH - taken, 16))
+    return columns(rows, indent=indent, last=max(wide() - taken, 16))
 
 
 def _turn(turn: LeafChange, form: str) -> list[str]:

@@ -13,7 +13,7 @@ from pico.model.record import as_json
 
 from .diff import lines
 from .plan import change_of, reason, tally, what
-from .style import WIDTH, columns, count, listed, pad, paint, seconds, width, wrap
+from .style import columns, count, listed, pad, paint, seconds, wide, width, wrap
 
 SIGNS = {"passed": "✓", "advised": "!", "failed": "✗", "skipped": "–"}
 _COLORS = {"passed": "green", "advised": "yellow", "failed": "red", "skipped": "dim"}
@@ -100,7 +100,7 @@ def _check(check: Check) -> list[str]:
     """Return the line of a question; what was found stands beside it, or below where that is too long."""
     found, room = said(check), max(len(title) for title in TITLES.values())
     head = f"  {paint(_COLORS[check.verdict], SIGNS[check.verdict])} {pad(TITLES[check.question], room)}"
-    if width(head) + 2 + width(found) <= WIDTH:
+    if width(head) + 2 + width(found) <= wide():
         return [f"{head}  {found}".rstrip()]
     return [head.rstrip(), *wrap(found, " " * 6)]
 

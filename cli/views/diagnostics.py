@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import Any
 
 from pico.diagnostics import Diagnostic, SourceRange
 
-from .style import count, paint, shorten, width, wrap
+from .style import count, paint, shorten, wide, width, wrap
 
 _COLORS = {"error": "red", "warning": "yellow", "note": "cyan"}
 
@@ -21,14 +22,23 @@ def text(diagnostics: Sequence[Diagnostic], *, tally: bool = True) -> str:
     return "\n\n".join(blocks)
 
 
+def _room() -> int:
+    """Return in how many columns messages are wrapped: in those of a terminal; in a pipe, where others search, not."""
+    return wide(sys.stderr) if sys.stderr.isatty() else 1_000_000
+
+
 def _lines(d: Diagnostic) -> list[str]:
-    head = paint(_COLORS[d.severity], f"{d.severity}[{d.code}]") + paint("bold", f": {d.summary}")
-    lines = [head]
+    kind, room = f"{d.severity}[{d.code}]", _room()
+    first, *rest = wrap(f"{kind}: {d.summary}", "", room)
+    lines = [
+        paint(_COLORS[d.severity], kind) + paint("bold", first.removeprefix(kind)),
+        *(paint("bold", r) for r in rest),
+    ]
     if d.source:
         lines += _snippet(d, d.source)
-    lines += wrap(d.detail, "   ") if d.detail and d.detail != d.label else []
+    lines += wrap(d.detail, "   ", room) if d.detail and d.detail != d.label else []
     if d.hint:
-        first, *rest = wrap(d.hint, " " * 10)
+        first, *rest = wrap(d.hint, " " * 11, room)
         lines += [f"   = {paint('cyan', 'help')}: {first.strip()}", *rest]
     return lines
 

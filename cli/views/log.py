@@ -16,7 +16,7 @@ from pico.model.run import Run
 
 from .diff import brief, lines
 from .runs import shown
-from .style import WIDTH, columns, count, pad, paint, printable, seconds, width, wrap
+from .style import columns, count, pad, paint, printable, seconds, wide, width, wrap
 
 CHANGES = 8
 """Lines about what a commit changed, at most; `pico show` has them all."""
@@ -43,7 +43,7 @@ def blocks(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> 
         return
     render = _short(first, head) if oneline else _long
     for commit in chain(first, commits):
-        yield "\n".join(render(log.entry(commit), WIDTH))
+        yield "\n".join(render(log.entry(commit), wide()))
 
 
 def _railed(log: Log, head: str | None) -> Iterator[str]:
@@ -57,7 +57,7 @@ def _railed(log: Log, head: str | None) -> Iterator[str]:
         if row.commit is None:
             yield row.rail.rstrip()
             continue
-        first, *rest = render(log.entry(row.commit), WIDTH - len(row.rail) - 1)
+        first, *rest = render(log.entry(row.commit), wide() - len(row.rail) - 1)
         below = _below(rows, i)
         yield "\n".join([f"{row.rail} {first}", *(f"{below}{line}".rstrip() for line in rest)])
 

@@ -16,7 +16,7 @@ from pico.model.primitive import OWN
 from pico.model.record import as_json
 
 from .diff import brief
-from .style import WIDTH, ago, columns, count, listed, paint, place, seconds, width, wrap
+from .style import ago, columns, count, listed, paint, place, seconds, wide, width, wrap
 
 SHOWN_TOLERATED = 5
 BAR = 60
@@ -77,7 +77,7 @@ def operations(plan: Plan) -> list[str]:
     whole = []
     room = max((width(line) for line in lines), default=0)
     for line, (*_, why) in zip(lines, rows, strict=True):
-        if room + 2 + width(why) <= WIDTH or not why:
+        if room + 2 + width(why) <= wide() or not why:
             whole.append((line + " " * (room - width(line) + 2) + paint("dim", why)).rstrip())
         else:
             whole += [line, *(paint("dim", w) for w in wrap(why, " " * 6))]
@@ -228,7 +228,7 @@ def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     carried = {op.component for op in changed if op.kind.carries}
     known = plan.base.state.keys() | plan.target.state.keys() | carried  # what is held or not seen stands nowhere
     stay = len(plan.base.state.keys() - {op.component for op in changed})
-    whole = [line] if width(line) <= WIDTH - 2 else [" · ".join(parts[:-1]), parts[-1]]
+    whole = [line] if width(line) <= wide() - 2 else [" · ".join(parts[:-1]), parts[-1]]
     lines = [*whole, f"{count(stay, 'component')} of {len(known)} {'stays' if stay == 1 else 'stay'} as is"]
     lines += policy(plan)
     if plan.target.scope:

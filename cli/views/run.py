@@ -9,7 +9,7 @@ from pico.model.plan import Plan
 
 from . import measured
 from .plan import change_of, what
-from .style import WIDTH, pad, paint, seconds, shorten, width
+from .style import pad, paint, seconds, shorten, wide, width
 
 
 class Progress:
@@ -52,7 +52,7 @@ class Progress:
         done = float(event.data.get("fraction", 0.0)) * op.seconds
         phase, passed = event.data.get("phase", ""), event.time - self.began
         tail = f"{done:5.1f} / {op.seconds:.1f} s  {phase:8}  {passed:.0f} s in all"
-        return shorten(f"  {paint('cyan', '▸')} {self._head(event)}  {tail}".rstrip(), WIDTH)
+        return shorten(f"  {paint('cyan', '▸')} {self._head(event)}  {tail}".rstrip(), wide())
 
     def _head(self, event: Event) -> str:
         """How many operations ended with this one, or will have when it does: several may run beside one another."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from typing import Any
+from typing import Any, TextIO
 
 WIDTH = 100
 _CODES = {"bold": 1, "dim": 2, "red": 31, "green": 32, "yellow": 33, "blue": 34, "cyan": 36}
@@ -68,15 +70,28 @@ def columns(rows: Sequence[Sequence[str]], *, gap: int = 2, indent: str = "", la
 
 
 def shorten(text: str, columns: int) -> str:
-    """Return `text`, cut with an ellipsis where it is wider than `columns`."""
-    return text if width(text) <= columns else plain(text)[: max(columns - 1, 0)] + "…"
+    """Return `text`, cut with an ellipsis where it is wider than `columns`: after a word, where there is one."""
+    if width(text) <= columns:
+        return text
+    kept = plain(text)[: max(columns - 1, 0)]
+    words, space, _ = kept.rpartition(" ")
+    return (words.rstrip(" ,;:") if space and 2 * len(words) > columns else kept) + "…"
 
 
-def wrap(text: str, indent: str, columns: int = WIDTH) -> list[str]:
-    """Return `text` in lines of at most `columns`, each after `indent`; line breaks in it are kept."""
+def wide(stream: TextIO | None = None) -> int:
+    """Return how many columns text may take: WIDTH, or those of the terminal where `stream` (standard output) is one
+    that has fewer."""
+    import shutil
+
+    shown = (stream or sys.stdout).isatty() or "GIT_PAGER_IN_USE" in os.environ
+    return min(WIDTH, shutil.get_terminal_size((WIDTH, 24)).columns) if shown else WIDTH
+
+
+def wrap(text: str, indent: str, columns: int = 0) -> list[str]:
+    """Return `text` in lines of at most `columns` (as `wide` says), each after `indent`; line breaks stay."""
     import textwrap
 
-    room = max(columns - len(indent), 20)
+    room = max((columns or wide()) - len(indent), 20)
     lines = [line for part in text.splitlines() for line in (textwrap.wrap(part, room) or [""])]
     return [f"{indent}{line}".rstrip() for line in lines]
 

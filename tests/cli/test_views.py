@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from commanding import Typed
 from hypothesis import given
 from hypothesis import strategies as st
 from pico_cli.views import diagnostics as view
@@ -76,3 +77,19 @@ def test_columns_align_whatever_their_color() -> None:
 @given(st.text(alphabet=st.characters(blacklist_categories=["Cs", "Cc"]), max_size=40), st.integers(1, 30))
 def test_a_shortened_text_fits(text: str, room: int) -> None:
     assert width(shorten(text, room)) <= room
+
+
+def test_what_is_cut_is_cut_after_a_word() -> None:
+    assert shorten("p2 moved 5 mm, lx_125 and ly_150", 26) == "p2 moved 5 mm, lx_125…"
+    assert shorten("p2 moved 5 mm, lx_125 and ly_150", 20) == "p2 moved 5 mm…"
+    assert shorten("a" * 30, 10) == "a" * 9 + "…"
+
+
+def test_messages_are_wrapped_for_a_terminal_and_left_whole_for_a_pipe(monkeypatch: pytest.MonkeyPatch) -> None:
+    long = [error("a", "what is wrong " * 12, detail="where " * 40, hint="what would be right " * 12)]
+    assert len(view.text(long).splitlines()) == 3
+    monkeypatch.setattr("sys.stderr", Typed())
+    monkeypatch.setattr("sys.stdout", Typed())
+    monkeypatch.setenv("COLUMNS", "80")
+    assert max(len(plain(line)) for line in view.text(long).splitlines()) <= 80
+    assert plain(view.text(long)).startswith("error[a]: what is wrong what")
