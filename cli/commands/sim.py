@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -20,6 +21,18 @@ app = group(
 )
 
 
+def _finite(value: float) -> float:
+    if not math.isfinite(value):
+        raise typer.BadParameter(f"{value} is no length and no angle")
+    return value
+
+
+Dx = Annotated[float, typer.Option("--dx", help="Millimetres to the right.", callback=_finite)]
+Dy = Annotated[float, typer.Option("--dy", help="Millimetres away from you.", callback=_finite)]
+Dz = Annotated[float, typer.Option("--dz", help="Millimetres up.", callback=_finite)]
+Dyaw = Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.", callback=_finite)]
+
+
 @app.command()
 def reset(context: typer.Context) -> None:
     """Put every part of the simulated bench home, as in a new world.
@@ -34,9 +47,9 @@ def reset(context: typer.Context) -> None:
 def nudge(
     context: typer.Context,
     name: Component,
-    dx: Annotated[float, typer.Option("--dx", help="Millimetres to the right.")] = 0.0,
-    dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
-    dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
+    dx: Dx = 0.0,
+    dy: Dy = 0.0,
+    dyaw: Dyaw = 0.0,
 ) -> None:
     """Push a component, as somebody bumping the table would.
 
@@ -54,10 +67,10 @@ def bump(
     camera: Annotated[
         str | None, typer.Argument(help="The camera; where none is named, all at the table move as one.")
     ] = None,
-    dx: Annotated[float, typer.Option("--dx", help="Millimetres to the right.")] = 0.0,
-    dy: Annotated[float, typer.Option("--dy", help="Millimetres away from you.")] = 0.0,
-    dz: Annotated[float, typer.Option("--dz", help="Millimetres up.")] = 0.0,
-    dyaw: Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.")] = 0.0,
+    dx: Dx = 0.0,
+    dy: Dy = 0.0,
+    dz: Dz = 0.0,
+    dyaw: Dyaw = 0.0,
 ) -> None:
     """Push a camera, as somebody bumping its post would.
 

@@ -95,9 +95,9 @@ class LabHistory:
         return self.folder.note(part, text)
 
     def head_name(self) -> str:
-        """Return what is checked out as a person calls it; empty without Git."""
+        """Return what is checked out as a person calls it; empty without Git and before the first commit."""
         head = self.folder.head()
-        return head.label if head else ""
+        return head.label if head and head.commit else ""
 
     def here(self) -> str:
         """Return what to check out to come back to what is checked out now: the branch, else the commit's short id."""

@@ -105,4 +105,6 @@ def test_before_the_first_commit_nothing_is_called_committed(
     assert pico("init", str(tmp_path / "bench")).code == 0
     monkeypatch.chdir(tmp_path / "bench")
     assert pico("apply", "--auto-approve").code == 0
-    assert "nothing is committed yet" in pico("status").out
+    told = pico("status").out
+    assert "nothing is committed yet" in told and "committed (" not in told
+    assert "· → the manifest ·" in pico("plan").out

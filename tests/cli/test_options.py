@@ -153,6 +153,7 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["capture", "p2.angel"], "did you mean `angle`"),
         (["note", "p9", "x"], "no part `p9`"),
         (["sim", "kick"], "kick"),
+        (["sim", "nudge", "p2", "--dx", "nan"], "--dx"),
         (["sim"], "reset, nudge, bump, remove"),
         (["plan", "e1", "e2"], "extra argument"),
         (["plan", "e9"], "there is no revision `e9`"),
