@@ -117,8 +117,20 @@ def _hidden_from_function(option: Any) -> Any:
     return own
 
 
+def _named(argument: Any) -> None:
+    """Let an argument be called in its command's help as it is here: `REV`, `[REV]` or `[REV]...`."""
+    word = (argument.metavar or argument.name.upper()).removesuffix("...")
+    word = word[1:-1] if word[:1] == "[" else word
+    piece = (word if argument.required else f"[{word}]") + ("..." if argument.nargs == -1 else "")
+    argument.get_usage_pieces = lambda ctx: [piece]
+    argument.get_help_record = lambda ctx: (word, argument.help)
+
+
 def _share(command: Any, options: list[Any]) -> None:
     taken = {word for p in command.params for word in p.opts}
+    for argument in command.params:
+        if argument.param_type_name == "argument":
+            _named(argument)
     command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
     command.help = (command.help or "").replace("Examples:\n", "\b\nExamples:\n")
     command.epilog = EVERYWHERE

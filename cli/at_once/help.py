@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..commands import summary
 
 LAST = """\
+What moves something or lets light out asks first, unless told --yes (or -y).
 Every command takes -C DIR (work as if started there), --json, --debug (show
 tracebacks) and --backend sim|hardware. `pico help COMMAND` explains one."""
 
