@@ -66,7 +66,7 @@ def goals(setup: Setup, plan: Plan) -> dict[str, Pose]:
 
 
 def steps(plan: Plan) -> tuple[DrawnStep, ...]:
-    """Return the operations of a plan, numbered as `pico apply` counts them."""
+    """Return the operations of a plan, numbered in its order."""
     return tuple(_step(number, op, plan) for number, op in enumerate(plan.operations, 1))
 
 

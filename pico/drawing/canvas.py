@@ -34,6 +34,8 @@ class Canvas:
         """Where no words may go any more [pixels]: on what stands there, and on other words."""
         self.words: list[tuple[str, Box]] = []
         """What is written, and where [pixels]."""
+        self.leaders: list[tuple[str, Point, Point]] = []
+        """Lines from names to what they belong to [pixels]."""
         self._badges: list[tuple[str, Point, float, Color, Color]] = []
 
     def pixel(self, point: Point) -> Point:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 Box = tuple[float, float, float, float]
 Point = tuple[float, float]
@@ -31,20 +32,51 @@ def bounds(points: Sequence[Point]) -> Box:
 
 
 def free_place(
-    around: Box, width: float, height: float, taken: Sequence[Box], within: Box, beside: Sequence[int] = BESIDE
-) -> tuple[Box, bool] | None:
+    around: Box, width: float, height: float, taken: Sequence[Box], within: Box, beside: Sequence[int] = BESIDE,
+    crossed: Sequence[Box] | None = None,
+) -> tuple[Box, bool] | None:  # fmt: skip
     """Return the box of `width` x `height` nearest to `around` that meets none of `taken` and lies `within`, and
-    whether it lies right beside it; None where there is no room."""
+    whether it lies right beside it; None where there is no room. `crossed`: what the line from it to `around` does not
+    cross, unless there is no other room."""
     import numpy as np
 
     left, top, right, bottom = np.array(taken, float).reshape(-1, 4).T
+    last = None
     for ring, box in _candidates(around, width, height, beside):
         if box[0] < within[0] or box[1] < within[1] or box[2] > within[2] or box[3] > within[3]:
             continue
         aside = (box[0] < right + _GAP) & (left < box[2] + _GAP)
-        if not (aside & (box[1] < bottom + _GAP) & (top < box[3] + _GAP)).any():
+        if (aside & (box[1] < bottom + _GAP) & (top < box[3] + _GAP)).any():
+            continue
+        if ring == 0 or not crossed or not meets(*leader(around, box), crossed):
             return box, ring == 0
-    return None
+        last = last or (box, False)
+    return last
+
+
+def leader(around: Box, box: Box) -> tuple[Point, Point]:
+    """Return the ends of the line from a thing to its name."""
+    start = nearest(around, middle(box))
+    return start, nearest(box, start)
+
+
+def meets(start: Point, end: Point, boxes: Sequence[Box]) -> bool:
+    """Return whether a line between two points meets any of the boxes."""
+    import numpy as np
+
+    walls = np.array(boxes, float).reshape(-1, 2, 2)
+    way = np.subtract(end, start)
+    way = np.where(np.abs(way) < 1e-9, 1e-9, way)
+    enter = np.minimum(*((walls - start) / way).swapaxes(0, 1))
+    leave = np.maximum(*((walls - start) / way).swapaxes(0, 1))
+    return bool((np.maximum(enter.max(axis=1), 0.0) < np.minimum(leave.min(axis=1), 1.0)).any())
+
+
+def along(start: Point, end: Point) -> list[Box]:
+    """Return boxes that cover a line."""
+    pieces = max(1, math.ceil(math.dist(start, end) / 8))
+    ends = [tuple(a + (b - a) * n / pieces for a, b in zip(start, end, strict=True)) for n in range(pieces + 1)]
+    return [bounds((a, b)) for a, b in pairwise(ends)]  # type: ignore[arg-type]
 
 
 def nearest(box: Box, point: Point) -> Point:

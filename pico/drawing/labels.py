@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pico.drawing.label_places import ABOVE, Box, free_place, nearest, overlap
+from pico.drawing.label_places import ABOVE, Box, along, free_place, leader, nearest, overlap
 from pico.twin.lettering import extent, write
 
 if TYPE_CHECKING:
@@ -29,11 +29,12 @@ class Anchor:
 
 
 def label(
-    image: NDArray[np.uint8], view: Viewpoint, anchors: Sequence[Anchor], taken: Sequence[Box] = ()
+    image: NDArray[np.uint8], view: Viewpoint, anchors: Sequence[Anchor], things: Sequence[tuple[str, Box]] = ()
 ) -> Mapping[str, Box]:
     """Write names into `image` (h, w, 3) at the nearest free place above their anchors, with a line to them.
 
-    `taken`: what is not to be covered [pixels]. Returns where each name is; one that finds no room is left out.
+    `things`: what is not to be covered [pixels], with whose it is; a line crosses things of others only where there is
+    no other way. Returns where each name is; one that finds no room is left out.
     """
     import numpy as np
 
@@ -43,13 +44,17 @@ def label(
     spots = view.project(np.array([a.at for a in anchors]))
     within = (3.0, 3.0, image.shape[1] - 3.0, image.shape[0] - 3.0)
     boxes: dict[int, Box] = {}
+    lines: list[Box] = []
     for index in sorted(range(len(anchors)), key=lambda i: (spots[i][1], spots[i][0])):  # the highest first
         u, v, _ = (float(x) for x in spots[index])
         width, height = extent(anchors[index].name, size, _WEIGHT)[0] + 0.9 * size, 1.4 * size
         around = (u - 2.0, v - 0.3 * height, u + 2.0, v)
-        found = free_place(around, width, height, [*taken, *boxes.values()], within, (ABOVE,))
+        done = [*boxes.values(), *lines]
+        crossed = [*(box for name, box in things if name != anchors[index].name), *done]
+        found = free_place(around, width, height, [*(box for _, box in things), *done], within, (ABOVE,), crossed)
         if found is not None:
             boxes[index] = found[0]
+            lines += along(*leader(around, found[0]))
             _line(image, (u, v), found[0])
     for index, box in boxes.items():
         _pill(image, box)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from pico.drawing.conflict_marks import Mark
     from pico.drawing.dimensions import Dimension
+    from pico.drawing.label_places import Box
     from pico.drawing.perspective import Beam
     from pico.drawing.steps import DrawnStep
     from pico.drawing.viewpoint import Viewpoint
@@ -119,12 +120,12 @@ def _perspective(
         named = label(image, view, anchors, taken)
         slots = sorted(setup.lab.slots.items())
         plates = [Anchor(name.rpartition("/")[2], (s.x / 1000, s.y / 1000, 0.0)) for name, s in slots]
-        engrave(image, view, plates, [*taken, *named.values()])
+        engrave(image, view, plates, [*(box for _, box in taken), *named.values()])
     return image
 
 
-def shadows(view: Viewpoint, model: mujoco.MjModel, data: mujoco.MjData) -> list[tuple[float, float, float, float]]:
-    """Return the boxes (left, top, right, bottom) [pixels] in which each shape of components and arms is seen."""
+def shadows(view: Viewpoint, model: mujoco.MjModel, data: mujoco.MjData) -> list[tuple[str, Box]]:
+    """Return the boxes [pixels] in which each shape of components and arms is seen, with the body that it is of."""
     import numpy as np
 
     boxes = []
@@ -133,7 +134,8 @@ def shadows(view: Viewpoint, model: mujoco.MjModel, data: mujoco.MjData) -> list
         center, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
         points = data.geom_xpos[geom] + (center + corners * half) @ data.geom_xmat[geom].reshape(3, 3).T
         u, v, _ = view.project(points).T
-        boxes.append((float(u.min()), float(v.min()), float(u.max()), float(v.max())))
+        body = model.body(int(model.body_rootid[model.geom_bodyid[geom]])).name
+        boxes.append((body, (float(u.min()), float(v.min()), float(u.max()), float(v.max()))))
     return boxes
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from pico.drawing import parts_list as partslist
 from pico.drawing.beams import Place, beam_paths, flat
-from pico.drawing.label_places import Box, bounds, free_place, middle, nearest, overlap
+from pico.drawing.label_places import Box, along, bounds, free_place, leader, overlap
 from pico.drawing.outlines import circle, outline, square
 from pico.drawing.svg import Drawing, Point, text_box, text_width
 from pico.model.lab import Box2, Setup, Slot
@@ -179,11 +179,13 @@ def _names(drawing: Drawing, setup: Setup, places: Mapping[str, Pose], taken: li
     for name, shape in sorted(shapes.items(), key=lambda item: (item[1][1], item[1][0])):
         wide = text_width(name, letters, bold=True)
         others = [*taken, *labels, *shapes.values()]
-        box, beside = free_place(shape, wide, letters, others, within) or (shape, True)
+        crossed = [other for other in others if other != shape]
+        box, beside = free_place(shape, wide, letters, others, within, crossed=crossed) or (shape, True)
         labels.append(box)
         foot = ((box[0] + box[2]) / 2, box[1] + 0.77 * letters)
         if not beside:
-            drawing.rule(middle(shape), nearest(box, middle(shape)), _FAINT, 0.08 * size)
+            drawing.rule(*leader(shape, box), _FAINT, 0.08 * size)
+            labels += along(*leader(shape, box))
         drawing.text(name, foot, letters, _INK, anchor="middle", bold=True, halo=True)
     slots = [_around(drawing, _plate(slot)) for slot in setup.lab.slots.values()]
     _area_names(drawing, setup, [*taken, *labels, *shapes.values(), *slots], size)

@@ -18,6 +18,8 @@ from pico.diagnostics import PicoError
 from pico.drawing.film.camerawork import build_set
 from pico.drawing.film.film import Caption, write_film
 from pico.drawing.film.gif import GifWriter
+from pico.drawing.label_places import overlap
+from pico.drawing.labels import Anchor, label
 from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
 from pico.model.state import home_state, place_of
@@ -25,6 +27,7 @@ from pico.twin.placement import upright
 from pico.twin.snapshot import Recording, Snapshot, at
 
 SIZE = (224, 126)
+LARGE = (288, 162)
 
 
 @pytest.fixture(scope="module")
@@ -56,10 +59,10 @@ def redness(image: np.ndarray) -> float:
 @pytest.mark.parametrize("kind", [".mp4", ".gif"])
 def test_what_moves_is_seen_to_move(setup: Setup, run: list[Snapshot], kind: str, tmp_path: Path) -> None:
     path = tmp_path / f"run{kind}"
-    steps = list(write_film(setup, run, path, captions=[Caption(0.0, "cam", "cam")], fps=4, size=SIZE))
+    steps = list(write_film(setup, run, path, captions=[Caption(0.0, "cam", "cam")], fps=4, size=LARGE))
     assert steps[-1] == (len(steps), len(steps))
     film = pictures(path)
-    assert film[0].shape == (SIZE[1], SIZE[0], 3)
+    assert film[0].shape == (LARGE[1], LARGE[0], 3)
     across = [redness(image) for image in film[:5]]
     assert all(b > a for a, b in pairwise(across))
     assert np.abs(film[-1].astype(int) - film[-2]).max() < 40  # it stands in the end
@@ -120,6 +123,15 @@ def test_looking_only_where_something_moved_shows_the_same(setup: Setup, run: li
     anew = build_set(setup, run, SIZE).shoot(run[1])
     # the arm and the cut-out tiles sample light a little differently at their rims
     assert (np.abs(again.astype(int) - anew).max(axis=2) > 24).mean() < 0.002
+
+
+def test_the_name_of_what_is_carried_lies_beside_the_grip(setup: Setup, run: list[Snapshot]) -> None:
+    going = build_set(setup, run, SIZE)
+    image = going.shoot(run[0])
+    things = going.grip("cam")
+    assert {body for body, _ in things} > {"cam"} and "laser" not in dict(things)
+    (box,) = label(image, going.view, [Anchor("cam", going.top("cam", run[0]))], things).values()
+    assert not any(overlap(box, thing) for _, thing in things)
 
 
 def test_a_closed_shutter_lets_no_light_out(setup: Setup, run: list[Snapshot]) -> None:

@@ -11,7 +11,7 @@ from physical import LABS
 from pico.bench.picture_contents import standing
 from pico.drawing.canvas import Canvas
 from pico.drawing.dimensions import Dimension
-from pico.drawing.label_places import Box, bounds, overlap
+from pico.drawing.label_places import Box, bounds, meets, overlap
 from pico.drawing.labels import Anchor, label
 from pico.drawing.outlines import outline
 from pico.drawing.picture import placed, posed_model, scene_extent, shadows, top_of
@@ -23,7 +23,7 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.state import LabState, home_state
 
-SIZES = ((960, 720), (640, 480), (1600, 1000))
+SIZES = ((960, 785), (960, 720), (640, 480), (1600, 1000))
 
 
 def lab_of(name: str) -> tuple[Setup, LabState]:
@@ -49,7 +49,11 @@ def test_from_above_every_part_is_named_and_no_name_lies_on_anything(
     setup, state = lab_of(name)
     poses = standing(setup, state if goal == "manifest" else home_state(setup))
     canvas = drawn(setup, poses, {}, width=size[0], height=size[1], ghosts={}, labels=True, beams=True)
-    assert not crossing(canvas.words, parts_of(canvas, setup, poses))
+    parts = parts_of(canvas, setup, poses)
+    assert not crossing(canvas.words, parts)
+    lines = [(part, start, end, [*parts.items(), *canvas.words]) for part, start, end in canvas.leaders]
+    met = [part for part, start, end, all_ in lines if meets(start, end, [box for n, box in all_ if n != part])]
+    assert len(met) <= 3 * (name == "crowded") or size < (960, 720), met  # its parts stand a finger apart
     if size >= (960, 720):
         assert set(poses) <= {word for word, _ in canvas.words}
     assert all(box[0] >= 0 and box[1] >= 0 for _, box in canvas.words)
@@ -108,4 +112,4 @@ def test_in_perspective_every_part_is_seen_and_named_and_no_name_lies_on_anythin
     image = np.zeros((view.height, view.width, 3), np.uint8)
     boxes = label(image, view, [Anchor(n, at) for n, at in sorted(tops.items())], taken)
     assert boxes.keys() == places.keys()
-    assert not crossing(sorted(boxes.items()), {str(n): box for n, box in enumerate(taken)})
+    assert not crossing(sorted(boxes.items()), {str(n): box for n, (_, box) in enumerate(taken)})

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.drawing.lighting import KEY
 from pico.drawing.perspective import FLOOR, Beam, Stage, photograph
-from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, top_of
+from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, shadows, top_of
 from pico.drawing.standpoint import standpoint
 from pico.model.lab import Setup
 from pico.twin.placement import Placement
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from pico.drawing.label_places import Box
     from pico.drawing.viewpoint import Viewpoint
 
     Array = NDArray[np.float64]
@@ -62,6 +63,11 @@ class Set:
         """Return the point over a component where its name goes [m]."""
         place = now.places[name]
         return place.position[0], place.position[1], top_of(self._setup, name, place)
+
+    def grip(self, name: str) -> list[tuple[str, Box]]:
+        """Return the boxes [pixels] in which a component and the arms were seen in the last picture."""
+        seen = shadows(self.view, self._model, self._data)
+        return [(body, box) for body, box in seen if body == name or body not in self._names]
 
     def _all(self, now: Snapshot) -> Mapping[str, Placement]:
         return {name: now.places.get(name, _AWAY) for name in self._names}

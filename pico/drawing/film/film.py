@@ -99,7 +99,9 @@ def _titled(image: Image, stage: Set, now: Snapshot, caption: Caption, elapsed: 
     from pico.twin.lettering import write
 
     if caption.component in now.places:
-        label(image, stage.view, [Anchor(caption.component, stage.top(caption.component, now))])
+        anchor = Anchor(caption.component, stage.top(caption.component, now))
+        grip = [("", box) for _, box in stage.grip(caption.component)]  # its line keeps off the component, too
+        label(image, stage.view, [anchor], grip)
     width, size = image.shape[1], _letters(height)
     whole = np.full((height, width, 3), _PAPER, np.uint8)
     whole[: image.shape[0]] = image
