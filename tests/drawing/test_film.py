@@ -165,6 +165,19 @@ def test_a_gif_holds_what_was_put_into_it(seed: int, tmp_path: Path) -> None:
         assert np.abs(image.astype(int) - wanted).max(axis=2).mean() < 4
 
 
+def test_a_color_that_comes_later_is_in_a_gif_as_it_was(tmp_path: Path) -> None:
+    gray = np.repeat(np.arange(250, dtype=np.uint8)[None, :, None], 60, axis=0).repeat(3, axis=2)
+    lit = gray.copy()
+    lit[30:32] = (230, 30, 20)
+    reel = GifWriter(tmp_path / "beam.gif", 12)
+    for image in (gray, gray, lit):
+        reel.add(image)
+    reel.close()
+    read = pictures(tmp_path / "beam.gif")
+    assert np.abs(read[2][30:32].astype(int) - (230, 30, 20)).max() < 12
+    assert (read[0] == read[1]).all() and (read[0][40:] == read[2][40:]).all()  # what stands does not flicker
+
+
 @given(st.floats(-1, 3), st.floats(-180, 180), st.floats(-170, 170))
 def test_between_two_snapshots_everything_is_on_the_straight_way(t: float, yaw: float, turn: float) -> None:
     ends = [Snapshot(float(i), {"a": upright(Pose(100.0 * i, 0.0, yaw + i * turn))}, {"r": (i, -i)}) for i in (0, 1)]

@@ -1,7 +1,9 @@
-"""A film as GIF, by Pillow, written picture by picture: each holds only what differs from the one before."""
+"""A film as GIF, by Pillow: its colors are those of all pictures, each of which holds only what differs from the one
+before."""
 
 from __future__ import annotations
 
+import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,44 +14,70 @@ if TYPE_CHECKING:
     Image = NDArray[np.uint8]
 
 _COLORS = 255
+_SAMPLED = 300_000
+"""Values of a picture that decide which colors there are."""
 _CLEAR_PIXEL = 255  # the index of "as before"
 
 
 class GifWriter:
-    """A GIF that plays on and on. Its colors are those of the first picture; it can be played once it is closed."""
+    """A GIF that plays on and on. Pictures are kept packed until it is closed, for only then are its colors known."""
 
     def __init__(self, path: Path, fps: float) -> None:
-        self._fps, self._count = fps, 0
+        import tempfile
+
+        self._fps, self._lengths = fps, list[int]()
+        self._shape: tuple[int, ...] = ()
+        self._sample: list[Any] = []
         self._before: Any = None
-        self._colors: Any = None
         self._file = path.open("wb")
+        self._kept = tempfile.TemporaryFile(dir=path.parent)  # noqa: SIM115  closed with the film
 
     def add(self, picture: Image) -> None:
-        """Write the next picture (height, width, 3), sRGB."""
+        """Take the next picture (height, width, 3), sRGB."""
+        import numpy as np
+
+        left, top, right, bottom = _changed(self._before, picture)
+        part = picture[top:bottom, left:right]
+        self._sample.append(part.reshape(-1, 3)[:: max(1, part.size // _SAMPLED)])
+        packed = zlib.compress(np.ascontiguousarray(picture).tobytes(), 1)
+        self._lengths.append(self._kept.write(packed))
+        self._shape, self._before = picture.shape, picture.copy()
+
+    def close(self) -> None:
+        """Write the file, and end it."""
         import numpy as np
         from PIL import GifImagePlugin, Image
 
-        image = Image.fromarray(picture)
-        if self._colors is None:
-            self._colors = image.quantize(_COLORS, kmeans=1)
-            self._file.writelines(GifImagePlugin.getheader(self._colors, info={"loop": 0, "optimize": False})[0])
-        now = np.asarray(image.quantize(palette=self._colors, dither=Image.Dither.NONE))
-        left, top, right, bottom = _changed(self._before, now)
-        part = now[top:bottom, left:right]
-        if self._before is not None:
-            part = np.where(part == self._before[top:bottom, left:right], np.uint8(_CLEAR_PIXEL), part)
-        self._count += 1
-        lasts = round(100 * self._count / self._fps) - round(100 * (self._count - 1) / self._fps)  # 1/100 s
-        data = GifImagePlugin.getdata(
-            Image.fromarray(part), (left, top), duration=10 * lasts, transparency=_CLEAR_PIXEL, disposal=1
-        )
-        self._file.writelines(data)
-        self._before = now
-
-    def close(self) -> None:
-        """End the file."""
-        with self._file:
+        with self._file, self._kept:
+            if not self._lengths:
+                return
+            seen = np.concatenate(self._sample)
+            colors = Image.fromarray(seen[None]).quantize(_COLORS, kmeans=1)
+            self._file.writelines(
+                GifImagePlugin.getheader(
+                    colors.resize((self._shape[1], self._shape[0])), info={"loop": 0, "optimize": False}
+                )[0]
+            )
+            self._kept.seek(0)
+            before = None
+            for number, length in enumerate(self._lengths, 1):
+                picture = np.frombuffer(zlib.decompress(self._kept.read(length)), np.uint8).reshape(self._shape)
+                now = np.asarray(Image.fromarray(picture).quantize(palette=colors, dither=Image.Dither.NONE))
+                self._file.writelines(self._frame(before, now, number))
+                before = now
             self._file.write(b";")
+
+    def _frame(self, before: Any, now: Any, number: int) -> list[bytes]:
+        import numpy as np
+        from PIL import GifImagePlugin, Image
+
+        left, top, right, bottom = _changed(before, now)
+        part = now[top:bottom, left:right]
+        if before is not None:
+            part = np.where(part == before[top:bottom, left:right], np.uint8(_CLEAR_PIXEL), part)
+        lasts = round(100 * number / self._fps) - round(100 * (number - 1) / self._fps)  # 1/100 s
+        image = Image.fromarray(part)
+        return GifImagePlugin.getdata(image, (left, top), duration=10 * lasts, transparency=_CLEAR_PIXEL, disposal=1)
 
 
 def _changed(before: Any, now: Any) -> tuple[int, int, int, int]:
@@ -58,7 +86,8 @@ def _changed(before: Any, now: Any) -> tuple[int, int, int, int]:
 
     if before is None:
         return 0, 0, now.shape[1], now.shape[0]
-    rows, columns = np.nonzero((before != now).any(axis=1))[0], np.nonzero((before != now).any(axis=0))[0]
+    differs = (before != now).reshape(*now.shape[:2], -1).any(axis=2)
+    rows, columns = np.nonzero(differs.any(axis=1))[0], np.nonzero(differs.any(axis=0))[0]
     if not len(rows):
         return 0, 0, 1, 1
     return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
