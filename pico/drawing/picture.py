@@ -112,14 +112,18 @@ def _perspective(
     stage = Stage(model, data, surfaces(setup, model, places), light, center_of(setup))
     image = photograph(stage, view)
     if labels:
+        from pico.drawing.camera_marks import mark_cameras
         from pico.drawing.labels import Anchor, engrave, label
 
         tops = {n: (p.position[0], p.position[1], top_of(setup, n, p)) for n, p in places.items()}
         anchors = [Anchor(name, at) for name, at in sorted(tops.items())]
+        mark_cameras(image, view, setup, model, data)
         taken = shadows(view, model, data)
         named = label(image, view, anchors, taken)
         slots = sorted(setup.lab.slots.items())
         plates = [Anchor(name.rpartition("/")[2], (s.x / 1000, s.y / 1000, 0.0)) for name, s in slots]
+        eyes = [(n, c.position) for n, c in sorted(setup.lab.cameras.items()) if c.robot is None]
+        plates += [Anchor(name, (x / 1000, (y - 40) / 1000, 0.0)) for name, (x, y, _) in eyes]
         engrave(image, view, plates, [*(box for _, box in taken), *named.values()])
     return image
 

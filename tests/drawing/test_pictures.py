@@ -13,6 +13,7 @@ import pytest
 from physical import LABS, bench
 
 from pico.bench.bench import Bench
+from pico.drawing.camera_marks import mark_cameras
 from pico.drawing.picture import placed, posed_model, render, scene_extent, write_png
 from pico.drawing.standpoint import standpoint
 from pico.drawing.topview import new_canvas
@@ -57,6 +58,21 @@ def test_the_red_camera_is_seen_where_it_stands(setup: Setup, poses: dict[str, P
         r, g, b = near(image, u, v).mean(axis=0)
         assert r > 1.5 * g
         assert r > 1.5 * b
+
+
+def test_a_ring_shows_what_a_camera_hangs_over_unless_something_stands_there(
+    setup: Setup, poses: dict[str, Pose]
+) -> None:
+    x, y, _ = setup.lab.cameras["left"].position
+    drawn = []
+    for at in (poses, {**poses, "cam": Pose(x, y - 20, 0.0)}):
+        model, data = posed_model(setup, placed(at), {})
+        view = standpoint(model, data, at, scene_extent(setup, model, data), 960, 720)
+        image = np.full((720, 960, 3), 255, np.uint8)
+        mark_cameras(image, view, setup, model, data)
+        u, v, _ = view.project(np.array([[x / 1000, y / 1000, 0.0]]))[0]
+        drawn.append((near(image, u, v, 20) < 200).sum())
+    assert drawn[0] > 200 and drawn[1] < 0.5 * drawn[0]
 
 
 def test_a_component_that_is_gone_is_not_drawn(setup: Setup, poses: dict[str, Pose]) -> None:
