@@ -24,7 +24,7 @@ from .errors import explain
 from .session import Session, standing
 from .terminal.output import unsaid, write
 
-EVERYWHERE = "Every command takes -C DIR, --json, --debug and --backend NAME, too: see `pico --help`."
+EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME: `pico --help`."
 
 
 def _version(value: bool) -> None:

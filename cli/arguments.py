@@ -35,7 +35,7 @@ Fidelity = Annotated[
     str | None, typer.Option("--fidelity", metavar="kinematic|physics", help="How the simulator moves things.")
 ]
 Yes = Annotated[bool, typer.Option("--auto-approve", "--yes", "-y", help="Do not ask.")]
-Exact = Annotated[bool, typer.Option("--exact", help="Move for differences below the tolerance, too.")]
+Exact = Annotated[bool, typer.Option("--exact", help="Move for less than the tolerance, too.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write to FILE.")]
 Exclude = Annotated[
@@ -43,12 +43,12 @@ Exclude = Annotated[
     typer.Option(
         "--exclude",
         metavar="COMPONENT",
-        help="Leave this component alone; may be given again. The plan names what can't be done without it.",
+        help="Leave it alone; may be given again.",
     ),
 ]
 Prefer = Annotated[
     Literal["fewest-moves", "shortest-time"],
-    typer.Option("--prefer", metavar="fewest-moves|shortest-time", help="What counts first in the choice of a plan."),
+    typer.Option("--prefer", metavar="fewest-moves|shortest-time", help="What counts first."),
 ]
 Mainline = Annotated[
     int | None,
@@ -65,9 +65,7 @@ LockTimeout = Annotated[
     ),
 ]
 """Of commands that take the bench; `Session.of` knows it."""
-StopOnError = Annotated[
-    bool, typer.Option("--stop-on-error", help="Start nothing more once an operation fails, not even beside it.")
-]
+StopOnError = Annotated[bool, typer.Option("--stop-on-error", help="Start nothing more once something fails.")]
 GitWords = Annotated[
     list[str] | None, typer.Argument(metavar="REMOTE|REF", help="For git, as it is; git's options, too.")
 ]

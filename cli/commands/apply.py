@@ -27,12 +27,10 @@ from ..session import Session
 CLASS = Scoped
 Record = Annotated[
     Path | None,
-    typer.Option("--record", metavar="FILE", help="Film it in the simulator, in simulated time: FILE.mp4 or FILE.gif."),
+    typer.Option("--record", metavar="FILE", help="Film it: FILE.mp4 or FILE.gif."),
 ]
 
-Refresh = Annotated[
-    bool, typer.Option("--refresh", help="Plan anew to the goal of the saved plan, from what stands there now.")
-]
+Refresh = Annotated[bool, typer.Option("--refresh", help="Plan to the goal of a saved plan anew.")]
 
 
 def apply(

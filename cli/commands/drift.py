@@ -40,12 +40,12 @@ def drift(
       pico drift
       pico drift --watch --interval 60
     """
+    if not watch and (heal or looks is not None):
+        raise PicoError(error("usage", "--interval, --looks and --heal go with --watch"))
     session = Session.of(context)
     bench = session.bench(writing=heal)
     if watch:
         return _watch(session, bench, interval, looks, heal, auto_approve)
-    if heal or looks is not None:
-        raise PicoError(error("usage", "--interval, --looks and --heal go with --watch"))
     found = bench.drift.look()
     session.tell(found.cut_short)
     session.show(view, found)

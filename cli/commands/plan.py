@@ -30,7 +30,7 @@ Format = Annotated[
 ]
 Picture = Annotated[
     Path | None,
-    typer.Option("--picture", metavar="PNG", help="Draw it from above, steps numbered, who blocks whom in red."),
+    typer.Option("--picture", metavar="PNG", help="Draw it from above, steps numbered."),
 ]
 
 
@@ -66,7 +66,8 @@ def plan(
     if explain:
         _explain(session, bench, found, component)
     elif not graph:
-        step = _next(what, out, _again(exclude, prefer), named)
+        saved = what is not None and found.target.revision != what
+        step = f"Apply with `pico apply {what}`." if saved else _next(what, out, _again(exclude, prefer), named)
         session.show(view, found, **_named(bench, found), next_step=step)
     session.draw(picture, "the plan", lambda path: bench.pictures.render(view="top", plan=found, out=path))
     if not explain:

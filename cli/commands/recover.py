@@ -31,7 +31,7 @@ def recover(
 
     Examples:
       pico recover
-      pico recover --done 20260101-120000-1a2b/op3/1
+      pico recover --done 20260101T120000Z-1a2b3c/op3/1
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)

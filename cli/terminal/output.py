@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import stat
 import sys
 from typing import TextIO
 
-from ..views.style import inert, plain
+from ..views.style import folded, inert, plain
 
 GONE = (errno.EPIPE, errno.EIO)
 """Writing fails so where nobody reads any more: a pipe was closed, or a terminal."""
@@ -26,10 +27,12 @@ def colored(stream: TextIO) -> bool:
 def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False) -> bool:
     """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly.
 
-    What would steer a terminal is written out (`views.style.inert`). `over`: over the line where the cursor is.
-    Return whether somebody may still read.
+    What would steer a terminal is written out (`views.style.inert`), and no word is broken at its edge. `over`: over
+    the line where the cursor is. Return whether somebody may still read.
     """
     safe = inert(text if colored(stream) else plain(text))
+    if stream.isatty() and not over:
+        safe = folded(safe, shutil.get_terminal_size().columns)
     try:
         stream.write(f"\r{safe}\x1b[K{end}" if over else f"{safe}{end}")
         stream.flush()

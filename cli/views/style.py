@@ -96,6 +96,24 @@ def wrap(text: str, indent: str, columns: int = 0) -> list[str]:
     return [f"{indent}{line}".rstrip() for line in lines]
 
 
+def folded(text: str, columns: int) -> str:
+    """Return `text` with lines wider than `columns` broken between words; what follows begins where the line began."""
+    return "\n".join(part for line in text.split("\n") for part in _folded(line, columns))
+
+
+def _folded(line: str, columns: int) -> list[str]:
+    if width(line) <= columns:
+        return [line]
+    indent = " " * min(len(line) - len(line.lstrip(" ")), columns // 2)
+    found = [""]
+    for number, word in enumerate(line.split(" ")):
+        if number and width(found[-1]) + 1 + width(word) > columns:
+            found.append(indent + word)
+        else:
+            found[-1] += f" {word}" if number else word
+    return [part.rstrip(" ") for part in found]
+
+
 def count(number: int, noun: str, plural: str = "") -> str:
     """Return `1 move`, `2 moves`."""
     return f"{number} {noun if number == 1 else plural or noun + 's'}"

@@ -7,7 +7,7 @@ from commanding import Typed
 from hypothesis import given
 from hypothesis import strategies as st
 from pico_cli.views import diagnostics as view
-from pico_cli.views.style import columns, count, listed, number, paint, plain, seconds, shorten, width
+from pico_cli.views.style import columns, count, folded, listed, number, paint, plain, seconds, shorten, width
 
 from pico.diagnostics import Position, SourceRange, error, warning
 
@@ -83,6 +83,14 @@ def test_what_is_cut_is_cut_after_a_word() -> None:
     assert shorten("p2 moved 5 mm, lx_125 and ly_150", 26) == "p2 moved 5 mm, lx_125…"
     assert shorten("p2 moved 5 mm, lx_125 and ly_150", 20) == "p2 moved 5 mm…"
     assert shorten("a" * 30, 10) == "a" * 9 + "…"
+
+
+@given(st.text("ab ✓\n", max_size=300), st.integers(10, 100))
+def test_a_terminal_breaks_lines_between_words_and_loses_none(text: str, columns: int) -> None:
+    lines = folded(text, columns).split("\n")
+    assert " ".join(lines).split() == text.split()
+    assert all(len(line) <= columns or " " not in line.strip() for line in lines)
+    assert plain(folded(paint("red", "a b") + " c", 3)) == "a b\nc"
 
 
 def test_messages_are_wrapped_for_a_terminal_and_left_whole_for_a_pipe(monkeypatch: pytest.MonkeyPatch) -> None:
