@@ -44,6 +44,8 @@ def _refused(exc: BaseException) -> Diagnostic | None:
         return None
     if isinstance(exc, OSError) and exc.filename:
         return unwritable(Path(os.fsdecode(exc.filename)), exc, what=os.fsdecode(exc.filename), code="file")
+    if isinstance(exc, FileNotFoundError) and Path().stat().st_nlink == 0:
+        return error("file", "the folder you are in is gone: removed or moved", hint="`cd` to one that is there")
     words = " ".join(str(exc).split())
     if number_of(exc) is not None:
         return error("file", words, hint="`df -h` shows which disk is full or read-only")

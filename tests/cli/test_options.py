@@ -182,6 +182,15 @@ def test_mistakes_exit_1_with_a_sentence(shel: Path, pico: Pico, words: list[str
     assert as_json.data["diagnostics"][0]["severity"] == "error"
 
 
+def test_a_folder_that_is_gone_is_called_gone(tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    for words in (["status"], ["init", "new"]):
+        answer = pico(*words)
+        assert answer.code == 1 and "the folder you are in is gone" in answer.err, answer
+
+
 def test_a_mistake_in_pico_itself_is_one_line_with_what_to_report(
     shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     Image = NDArray[np.uint8]
 
 _COLORS = 255
-_SAMPLED = 300_000
-"""Values of a picture that decide which colors there are."""
+_SAMPLED, _MOST = 4_000, 1_000_000
+"""Pixels of a picture, and of a film, that decide which colors there are."""
 _CLEAR_PIXEL = 255  # the index of "as before"
 
 
@@ -38,7 +38,7 @@ class GifWriter:
 
         left, top, right, bottom = _changed(self._before, picture)
         part = picture[top:bottom, left:right]
-        self._sample.append(part.reshape(-1, 3)[:: max(1, part.size // _SAMPLED)])
+        self._sample.append(_some(part.reshape(-1, 3), _SAMPLED))
         packed = zlib.compress(np.ascontiguousarray(picture).tobytes(), 1)
         self._lengths.append(self._kept.write(packed))
         self._shape, self._before = picture.shape, picture.copy()
@@ -51,7 +51,7 @@ class GifWriter:
         with self._file, self._kept:
             if not self._lengths:
                 return
-            seen = np.concatenate(self._sample)
+            seen = _some(np.concatenate(self._sample), _MOST)
             colors = Image.fromarray(seen[None]).quantize(_COLORS, kmeans=1)
             self._file.writelines(
                 GifImagePlugin.getheader(
@@ -78,6 +78,11 @@ class GifWriter:
         lasts = round(100 * number / self._fps) - round(100 * (number - 1) / self._fps)  # 1/100 s
         image = Image.fromarray(part)
         return GifImagePlugin.getdata(image, (left, top), duration=10 * lasts, transparency=_CLEAR_PIXEL, disposal=1)
+
+
+def _some(pixels: Image, most: int) -> Image:
+    """About `most` of pixels (n, 3), evenly; all where they are fewer."""
+    return pixels[:: max(1, len(pixels) // most)]
 
 
 def _changed(before: Any, now: Any) -> tuple[int, int, int, int]:
