@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
@@ -64,6 +64,7 @@ LINE = st.sampled_from(
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(LINE, max_size=7))
+@example(["", "Key: value", "(cherry picked from commit 0123)", "  goes on"])
 def test_git_reads_what_is_written_and_the_users_words_stay(lines: list[str]) -> None:
     message = "subject\n" + "\n".join(lines)
     made = with_trailers(message, OURS)

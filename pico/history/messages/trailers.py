@@ -37,14 +37,13 @@ def with_trailers(message: str, added: Iterable[tuple[str, str]]) -> str:
 
 def trailers(message: str) -> Trailers:
     """Return the trailers of a message in their order; values that go on in indented lines in one line."""
-    found: list[tuple[str, str]] = []
+    whole: list[str] = []
     for line in _split(message.rstrip())[1]:
-        match = _TRAILER.fullmatch(line)
-        if match and not line[0].isspace():
-            found.append((match[1], match[2].strip()))
-        elif found and line[0].isspace():
-            found[-1] = (found[-1][0], f"{found[-1][1]} {line.strip()}".strip())
-    return tuple(found)
+        if whole and line[0].isspace():
+            whole[-1] = f"{whole[-1]} {line.strip()}"
+        else:
+            whole.append(line.rstrip())
+    return tuple((match[1], match[2].strip()) for match in map(_TRAILER.fullmatch, whole) if match)
 
 
 def without_trailers(message: str) -> str:
