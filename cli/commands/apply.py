@@ -71,4 +71,8 @@ def apply(
         bench.plans.require_fresh(plan)
     elif refresh:
         raise PicoError(error("usage", "--refresh is for a saved plan", hint="without one every plan is a new one"))
-    return approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
+    code = approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
+    if not code and bench.plans.leaves_manifest(plan):
+        where = plan.target.revision
+        session.say(f"The manifest is another: `pico apply` goes back to it, `pico checkout {where}` brings it along.")
+    return code

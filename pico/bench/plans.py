@@ -125,6 +125,13 @@ class Plans:
             _require_sense(check_rules(self.opened.folder.manifests))
         return judged(self.opened.setup, plan, seen)
 
+    def leaves_manifest(self, plan: Plan) -> bool:
+        """Whether a plan leads the whole bench to a revision, and away from what the manifest says."""
+        if not plan.target.revision or plan.target.only or plan.target.exclude:
+            return False
+        now = self.opened.folder.state_now()
+        return now is not None and now.as_json() != dict(plan.target.state)
+
     def plan_of(self, word: str | None, *, folder: Path = Path(), **options: Any) -> Plan:
         """Return the saved plan that `word` names, or the plan to the revision it names (the manifest for None).
 

@@ -21,7 +21,7 @@ def test_an_old_experiment_comes_back_and_a_nudge_is_found(shel: Path, pico: Pic
 
     applied = pico("apply", "e1", "--auto-approve")
     assert applied.code == 0, applied
-    assert "The bench equals e1." in applied.out
+    assert "The bench equals e1.\nThe manifest is another: `pico apply` goes back to it" in applied.out
 
     again = pico("plan", "e1", "--detailed-exitcode")
     assert again.code == 0

@@ -81,6 +81,18 @@ def test_a_duplicate_names_both_places() -> None:
     assert "state/table.yaml:8:3" in found.detail
 
 
+@pytest.mark.parametrize(
+    ("first", "second", "columns"),
+    [("   m1", "  p2", "4, this one in column 3"), ("  m1", " p2", "3, this one in column 2")],
+)
+def test_of_lines_that_stand_askew_both_are_named(first: str, second: str, columns: str) -> None:
+    head = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: bench}\ncomponents:\n"
+    text = f"{head}{first}:\n      slot: storage/a1\n  # about p2\n\n{second}:\n      slot: storage/a2\n"
+    (found,) = load_files(GOOD | {"state/table.yaml": text.encode()}).diagnostics[:1]
+    assert found.source is not None and found.source.start.line == 9
+    assert found.detail == f"line 5 begins in column {columns}: one of them is askew"
+
+
 def test_more_than_200_components_in_a_file_are_warned_about() -> None:
     names = [f"c{i:03}" for i in range(201)]
     slots = "".join(f"  storage/{n}: {{x: {10 + i}, y: 10}}\n" for i, n in enumerate(names))

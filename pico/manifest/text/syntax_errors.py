@@ -76,8 +76,25 @@ def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:
     if opened is not None and index >= len(source.content.rstrip()):
         index = opened.index  # what never ends is shown where it begins, not at the end of the file
     elif opened is not None and mark is not None and opened.line != mark.line:
-        detail = f"it began in line {opened.line + 1}"
+        detail = _askew(source, index) or f"it began in line {opened.line + 1}"
     return error("yaml", summary, detail=detail, hint=hint, label=problem, source=source.range(index))
+
+
+def _askew(source: Source, index: int) -> str:
+    """Return which line above should begin in the same column as the one at `index`; empty where one does."""
+    at, beside = source.position(index), None
+    column = at.column
+    for number in range(at.line - 1, 0, -1):
+        text = source.line(number)
+        if text.strip() and not text.lstrip().startswith("#"):
+            column = len(text) - len(text.lstrip(" ")) + 1
+            if column <= at.column:
+                break
+            if beside is None or column <= beside[1]:
+                beside = number, column
+    if beside is None or column == at.column:
+        return ""
+    return f"line {beside[0]} begins in column {beside[1]}, this one in column {at.column}: one of them is askew"
 
 
 def _meaning(source: Source, index: int, problem: str) -> tuple[str, str]:
