@@ -96,5 +96,5 @@ def _internal(exc: BaseException) -> Diagnostic:
     where = f" at {'/'.join(Path(last.filename).parts[-3:])}:{last.lineno}" if last else ""
     text = " ".join(str(exc).split())[:200]
     summary = f"PICO itself failed: {type(exc).__name__}{f': {text}' if text else ''}{where}"
-    again = " ".join(["pico", *sys.argv[1:], "--debug"])
+    again = " ".join(["pico", *(word for word in sys.argv[1:] if word != "--debug"), "--debug"])
     return error("internal", summary, hint=f"this is a mistake in PICO; report it with the output of `{again}`")

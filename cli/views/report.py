@@ -62,7 +62,8 @@ def _bench(report: RunReport) -> list[str]:
             return [_partial(report)]
         if report.measurements:
             return [f"As asked: `pico runs show {report.run}` has it."]
-        return ["As asked. The manifest is as it was: `pico capture` takes the bench into it."]
+        said = "As asked. The manifest is as it was: `pico capture` takes the bench into it."
+        return [said, *(_in_hand(robot, part) for robot, part in report.held.items())]
     lines = []
     if report.remaining:
         lines.append(f"Still to do for {report.goal}: {brief(report.remaining)}.")

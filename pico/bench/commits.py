@@ -7,10 +7,12 @@ is in one commit or in the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from datetime import datetime
 from types import MappingProxyType
 from typing import Literal
 
+from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.link.opening import remembered
@@ -99,9 +101,10 @@ class Commits:
                 message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
             counts = _evidence(folder, seen, content.state, changes, runs, self.opened.fidelity)
             hands = None if ending else _hands(folder, seen, content.state, changes, runs)
-            return committed(
+            made = committed(
                 folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, hands=hands, empty=empty
             )  # fmt: skip
+        return replace(made, diagnostics=(*cut_short(self.opened, seen), *made.diagnostics))
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
         """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""

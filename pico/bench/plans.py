@@ -194,7 +194,8 @@ class Plans:
         seen = self.opened.observe()
         found = self._one(seen, asked(self.opened.setup, seen, component, primitive, arguments or {}))
         require_able(found, self.opened.wait(self.opened.edge.describe()))
-        return found
+        told = cut_short(self.opened, seen)
+        return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
 
     def not_in_manifest(self, plan: Plan, component: str, tunables: Collection[str]) -> tuple[Change, ...]:
         """Return in which of some tunables of a component (`pose`: where it stands) the goal of a plan is not what the

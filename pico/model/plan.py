@@ -141,7 +141,7 @@ class Plan:
     def asked(self) -> bool:
         """Whether it is of single operations that somebody asked for, not of a state."""
         kinds = {op.reason.kind for op in self.operations}
-        return "asked" in kinds and kinds <= {"asked", "parked", "interlock", "held"}
+        return (self.target.cause == "single" or "asked" in kinds) and kinds <= {"asked", "parked", "interlock", "held"}
 
     def because(self, cause: str, of: str | None = None) -> Plan:
         """Return the plan, sealed, with why it was made: see `Target`."""

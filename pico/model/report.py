@@ -51,8 +51,9 @@ class RunReport:
 
     @property
     def reached(self) -> bool:
-        """Whether the bench, as it was observed after the run, is as was wanted, and every hand is empty."""
-        return not (self.remaining or self.absent or self.held)
+        """Whether the bench, as it was observed after the run, is as was wanted, and every hand is empty; what a hand
+        held before single operations that somebody asked for, it may hold after them."""
+        return not (self.remaining or self.absent or (self.held and (self.whole or self.scope)))
 
     @property
     def exit_code(self) -> ExitCode:

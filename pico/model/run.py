@@ -25,6 +25,8 @@ SHARED = (
     "schema", "lab", "parent", "cause", "evidence", "seed", "operator", "calibration", "environment", "versions",
 )  # fmt: skip
 """What runs have in common that are folded into one."""
+FOLD = "-fold"
+"""What the name of a run ends with that others are folded into; it begins with the first of them."""
 TRIALS = ("bisect",)
 """Causes of runs that only try something: no commit takes them."""
 OPERATION_ENDS = ("done", "failed", "unknown", "skipped")

@@ -17,14 +17,12 @@ from typing import Any
 from pico.diagnostics import Diagnostic, warning
 from pico.model.lab import Setup
 from pico.model.record import as_json, canonical, digest
-from pico.model.run import SHARED, Run, TraceEvent
+from pico.model.run import FOLD, SHARED, Run, TraceEvent
 from pico.runs.document import RecordedRun
 from pico.runs.files import FOLDED, MEASUREMENTS, TRACE, jsonl, numbered, references
 from pico.runs.reading import members
 from pico.runs.states import changes
 
-SUFFIX = "-fold"
-"""What the name of a run ends with that others are folded into; it begins with the first of them."""
 MOST = 256
 """So many runs are folded into one at most."""
 
@@ -89,7 +87,7 @@ def _folded(setup: Setup, runs: Sequence[RecordedRun]) -> RecordedRun:
         last,
         document=replace(
             last.document,
-            id=f"{first.document.id}{SUFFIX}",
+            id=f"{first.document.id}{FOLD}",
             number=first.document.number,
             state_before=first.document.state_before,
             plan=digest([d.plan for d in documents]),

@@ -12,7 +12,7 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.record import as_json
-from pico.model.run import FORMAT, SHARED, Run, TraceEvent
+from pico.model.run import FOLD, FORMAT, SHARED, Run, TraceEvent
 
 LARGEST = 1 << 20
 """Bytes above which no document of a run is read."""
@@ -83,6 +83,10 @@ def _wrong(document: Run, name: str) -> str:
         return f"it says that it is of the run {document.id[:60]!r}"
     if not _DAY.fullmatch(document.started_at) or (document.ended_at and not _DAY.fullmatch(document.ended_at)):
         return "it does not say when the run was"
+    if document.folded or name.endswith(FOLD):
+        ids = {one.id for one in members(document)} - {name}
+        if len(ids) < 2 or len(ids) != len(document.folded):
+            return "it does not tell each of the runs that are folded into it"
     named = [f.sha256 for f in document.files.values()] + [a.sha256 for a in document.artifacts]
     if not all(_HASH.fullmatch(sha256) for sha256 in named):
         return "it names a file by what is no SHA-256"

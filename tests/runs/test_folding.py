@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from run_documents import run_document
 
+from pico.diagnostics import Diagnostic
 from pico.history.lab.folder import LabFolder
 from pico.model.lab import Setup
 from pico.model.run import Cause, Run, Seen, TraceEvent
@@ -131,3 +134,16 @@ def test_a_run_in_a_fold_that_somebody_changed_is_named(setup: Setup) -> None:
         f"trace.jsonl of {whole.document.id} does not hold what {first.document.id} did"
     ]
     assert not any(run.diagnostics for run in others)
+
+
+@pytest.mark.parametrize(
+    "told", [lambda f: [], lambda f: [{}], lambda f: [f[0], f[0], f[2]], lambda f: [f[0] | {"seconds": "nan"}, *f[1:]]]
+)
+def test_a_fold_that_does_not_tell_each_of_its_runs_is_damaged(setup: Setup, told: Callable[[Any], Any]) -> None:
+    (whole,) = fold(setup, [ran(n, SET, {"p1": n}) for n in range(3)])
+    path = f"{run_folder(whole.document)}/run.json"
+    content = json.loads(written(whole)[path])
+    assert not isinstance(read_document(path, json.dumps(content).encode(), whole.document.id), Diagnostic)
+    content["folded"] = told(content["folded"])
+    found = read_document(path, json.dumps(content).encode(), whole.document.id)
+    assert isinstance(found, Diagnostic) and "each of the runs that are folded" in found.summary + found.detail

@@ -17,9 +17,9 @@ from pico.diagnostics import Diagnostic, warning
 from pico.history.git.cache import Cache
 from pico.history.git.commit import Commit
 from pico.history.repository.repository import Repository
-from pico.model.run import Run
+from pico.model.run import FOLD, Run
 from pico.runs.files import DOCUMENT
-from pico.runs.folding import SUFFIX, folded_ids
+from pico.runs.folding import folded_ids
 from pico.runs.reading import read_document
 
 _PLACE = re.compile(r"\d{4}/\d{2}/")
@@ -107,7 +107,7 @@ def places_folded(repository: Repository, places: Iterable[RunPlace]) -> dict[st
     found: dict[str, RunPlace] = {}
     with closing(Cache(repository.common / CACHE)) as cache:
         for place in places:
-            if place.id.endswith(SUFFIX):
+            if place.id.endswith(FOLD):
                 key = f"folded {place.tree}"
                 known = cache.get(key)
                 if known is None:

@@ -21,11 +21,11 @@ from pico.history.runs.proof import Standings
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.proof import Standing
-from pico.model.run import TRIALS, Run
+from pico.model.run import FOLD, TRIALS, Run
 from pico.model.state import LabState
 from pico.runs.document import RecordedRun, recorded
 from pico.runs.files import DOCUMENT, MEASUREMENTS, TRACE, Keep, run_files, run_folder
-from pico.runs.folding import SUFFIX, fold
+from pico.runs.folding import fold
 from pico.runs.journal import RunRecord
 from pico.runs.states import changes
 
@@ -160,7 +160,7 @@ def _clear(root: Path, runs: Iterable[RecordedRun], files: Mapping[str, bytes]) 
     """Take away what a commit that failed left of runs that no commit has; they may now have led to another state, or
     be folded otherwise."""
     for run in runs:
-        for suffix in ("", SUFFIX):
+        for suffix in ("", FOLD):
             for name in (DOCUMENT, TRACE, MEASUREMENTS):
                 path = f"{run_folder(run.document)}{suffix}/{name}"
                 left = root / path
