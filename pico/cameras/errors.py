@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Setup, SimErrors
 from pico.model.record import record
+from pico.twin.arms import direction
 from pico.vision.camera import CameraModel
 from pico.vision.nominal import camera_models
 
@@ -53,8 +54,8 @@ def _wrong(camera: CameraModel, errors: SimErrors, seed: int) -> CameraModel:
 
     random = np.random.default_rng((seed, zlib.crc32(camera.name.encode())))
     pose, matrix = camera.pose.copy(), camera.matrix.copy()
-    pose[:3, 3] += errors.camera_position * _direction(random)
-    pose[:3, :3] = turned(errors.camera_rotation * _direction(random)) @ pose[:3, :3]
+    pose[:3, 3] += errors.camera_position * direction(random)
+    pose[:3, :3] = turned(errors.camera_rotation * direction(random)) @ pose[:3, :3]
     matrix[:2, :2] *= 1 + errors.focal_length * random.choice((-1.0, 1.0))
     return replace(camera, pose=pose, matrix=matrix)
 
@@ -88,10 +89,3 @@ def turned(vector: Any) -> Array:
     if angle < 1e-12:
         return np.eye(3) + cross  # type: ignore[no-any-return]
     return np.eye(3) + math.sin(angle) / angle * cross + (1 - math.cos(angle)) / angle**2 * cross @ cross  # type: ignore[no-any-return]
-
-
-def _direction(random: Any) -> Array:
-    import numpy as np
-
-    way = random.normal(size=3)
-    return way / np.linalg.norm(way)  # type: ignore[no-any-return]

@@ -147,7 +147,7 @@ class EyeInHand:
         import numpy as np
 
         settings = self._setup.lab.robots[robot]
-        point, turn = fk(self._twin.joints(robot), settings.gripper.tool)
+        point, turn = fk(self._twin.read(robot), settings.gripper.tool)
         mount = upright(Pose(settings.mount.x, settings.mount.y, settings.mount.yaw), settings.mount.z)
         return mount @ motion(np.array(turn), np.array(point))
 

@@ -259,13 +259,31 @@ class Policy:
 
 
 @record
+class ArmErrors:
+    """What is wrong with the simulated arms, and not known to what plans with them.
+
+    The base of each is displaced by `mount_position` [mm] in a random direction and turned by `mount_rotation` [deg]
+    about a random axis; the zero of each joint is wrong by `joint_zero` [deg], up or down; the tool is displaced on its
+    flange by `tool_position` [mm] in a random direction. `encoder_noise`: sigma of a joint that is read [deg].
+    `backlash`: the play of each joint [deg]: it follows its motor only once that has turned so far.
+    """
+
+    mount_position: Length = 0.0
+    mount_rotation: Angle = 0.0
+    joint_zero: Angle = 0.0
+    tool_position: Length = 0.0
+    encoder_noise: Angle = 0.0
+    backlash: Angle = 0.0
+
+
+@record
 class SimErrors:
-    """What is wrong with the simulated cameras and markers, and not known to what looks through them.
+    """What is wrong with the simulated cameras, markers and arms, and not known to what looks through them.
 
     Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
     random axis, and its focal length is wrong by the share `focal_length`, up or down. `marker_height`: sigma by which
     a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
-    `noise`: factor on the sensors' noise.
+    `noise`: factor on the sensors' noise. `arm`: what is wrong with arms; nothing where it is left out.
     """
 
     camera_position: Length = 0.0
@@ -274,16 +292,17 @@ class SimErrors:
     marker_height: Length = 0.0
     lost_frames: float = 0.0
     noise: float = 1.0
+    arm: ArmErrors | None = None
 
 
 @record
 class SimSettings:
-    """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of
-    the finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
-    with the cameras. `sight`: by what the physical world corrects a part in the hand before it is put down: the truth,
-    the pictures of the eye in the hand, or nothing. `faults`: what goes wrong how often, as a share of the operations
-    that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, or `all` of them. `observe`: how
-    the table is looked at, exactly or through the cameras."""
+    """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of the
+    finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
+    with cameras and arms. `sight`: by what the physical world corrects a part in the hand before it is put down: the
+    truth, the pictures of the eye in the hand, or nothing. `faults`: what goes wrong how often, as a share of the
+    operations that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, or `all` of them.
+    `observe`: how the table is looked at, exactly or through the cameras."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1

@@ -17,6 +17,7 @@ from pico.model.lab import Fingers, Robot
 from pico.motion.engine import require_mujoco
 from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM_MASS, LinkShape, cup, finger, palm
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
+from pico.vision.arm import NOMINAL, ArmOffsets
 
 if TYPE_CHECKING:
     import mujoco
@@ -40,8 +41,10 @@ _ARMATURE = 0.1  # kg m2, the rotors seen through their gears
 _FINGER_DAMPING = 300.0  # N s/m: the gripper shuts at 90 mm/s at most
 
 
-def build_arm(robot: Robot) -> mujoco.MjSpec:
+def build_arm(robot: Robot, offsets: ArmOffsets = NOMINAL) -> mujoco.MjSpec:
     """Return a model of `robot` with its base at the origin, in metres and radians; joints at zero, gripper shut.
+
+    `offsets`: how joints and tool differ from the lab's; the joints are those that encoders read.
 
     Raises PicoError where MuJoCo can't be imported for want of OpenGL; see `require_mujoco`.
     """
@@ -54,9 +57,9 @@ def build_arm(robot: Robot) -> mujoco.MjSpec:
     parent = spec.worldbody.add_body(name="base", gravcomp=1)
     _add_shapes(parent, LINKS[0], LINK_MASSES[0])
     for index in range(7):
-        parent = _add_link(parent, index)
+        parent = _add_link(parent, index, offsets.zeros[index])
         _add_servo(spec, index)
-    _add_gripper(spec, parent, robot)
+    _add_gripper(spec, parent, robot, offsets.tool)
     for first, second in NEIGHBORS:
         if robot.gripper.fingers == "none" and "finger" in second:
             continue
@@ -79,25 +82,41 @@ NEIGHBORS = (
 """Bodies that touch by construction, besides parent and child, which never collide in MuJoCo."""
 
 
-def attach_arm(spec: mujoco.MjSpec, name: str, robot: Robot, arm: mujoco.MjSpec | None = None) -> None:
+def attach_arm(
+    spec: mujoco.MjSpec, name: str, robot: Robot, arm: mujoco.MjSpec | None = None, offsets: ArmOffsets = NOMINAL
+) -> None:
     """Add `robot` to `spec` at its mount, its names prefixed with `name/`; z = 0 is the top of the table.
 
-    `arm` is its model where the caller has built and changed one.
+    `arm` is its model where the caller has built and changed one; `offsets`: how it differs from the lab's.
     """
     mount = robot.mount
     half = math.radians(mount.yaw) / 2
-    frame = spec.worldbody.add_frame(
-        pos=[mount.x / 1000, mount.y / 1000, mount.z / 1000], quat=[math.cos(half), 0, 0, math.sin(half)]
-    )
-    frame.attach_body((arm or build_arm(robot)).body("base"), f"{name}/", "")
+    place = [(v + shift) / 1000 for v, shift in zip((mount.x, mount.y, mount.z), offsets.shift, strict=True)]
+    frame = spec.worldbody.add_frame(pos=place, quat=_turned(offsets.turn, (math.cos(half), 0, 0, math.sin(half))))
+    frame.attach_body((arm or build_arm(robot, offsets)).body("base"), f"{name}/", "")
 
 
-def _add_link(parent: Any, index: int) -> Any:
-    half = math.radians(ROLLS[index]) / 2
+def _turned(vector: tuple[float, float, float], quaternion: tuple[float, ...]) -> list[float]:
+    """The quaternion turned by the rotation vector [deg]."""
+    if not any(vector):
+        return list(quaternion)
+    import mujoco
+    import numpy as np
+
+    turn, found = np.zeros(4), np.zeros(4)
+    axis = np.radians(vector)
+    mujoco.mju_axisAngle2Quat(turn, axis / np.linalg.norm(axis), float(np.linalg.norm(axis)))
+    mujoco.mju_mulQuat(found, turn, np.array(quaternion))
+    return [float(v) for v in found]
+
+
+def _add_link(parent: Any, index: int, zero: float) -> Any:
+    half, own = math.radians(ROLLS[index]) / 2, math.radians(zero) / 2
+    (a, b), (c, d) = ((math.cos(angle), math.sin(angle)) for angle in (half, own))
     body = parent.add_body(
         name=f"link{index + 1}",
         pos=[v / 1000 for v in ORIGINS[index]],
-        quat=[math.cos(half), math.sin(half), 0, 0],
+        quat=[a * c, b * c, -b * d, a * d],
         gravcomp=1,
     )
     body.add_joint(name=f"joint{index + 1}", axis=[0, 0, 1], range=list(LIMITS[index]), armature=_ARMATURE)
@@ -125,11 +144,12 @@ def _actuator(spec: Any, name: str, joint: str, ctrlrange: tuple[float, float], 
     )
 
 
-def _add_gripper(spec: Any, flange: Any, robot: Robot) -> None:
+def _add_gripper(spec: Any, flange: Any, robot: Robot, off: tuple[float, float, float]) -> None:
     import mujoco
 
     gripper = robot.gripper
-    body = flange.add_body(name="gripper", quat=[0, 0, 0, 1], gravcomp=1)
+    place = [-off[0] / 1000, -off[1] / 1000, off[2] / 1000]  # half a turn about the flange's axis
+    body = flange.add_body(name="gripper", pos=place, quat=[0, 0, 0, 1], gravcomp=1)
     _add_shapes(body, palm(gripper), PALM_MASS)
     body.add_site(name="tcp", pos=[0, 0, gripper.tool / 1000], size=[0.003, 0, 0], group=SITE_GROUP)
     if gripper.fingers == "none":

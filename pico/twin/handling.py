@@ -145,7 +145,7 @@ class Handling:
         if seen is None:
             yield from self._return(legs, meant, "unseen", f"no camera sees {self.component} in the hand of {robot}")
         assert seen is not None  # `_lose` raises
-        joints = self.twin.joints(robot)
+        joints = self.twin.read(robot)
         held = _Held(self._tool(joints).inverse().compose(seen.pose), seen.height - tool_pose(self.robot, joints)[2])
         slid, turned = held.pose.distance(meant.pose), abs(angle_between(meant.pose.yaw, held.pose.yaw))
         if max(slid / SLID_MM, turned / SLID_DEG) > 1 and "grip" in legs:
@@ -155,7 +155,7 @@ class Handling:
 
     def _aim(self, held: _Held, goal: Pose) -> Generator[float, None, Column]:
         """Bring the part in the hand over `goal`; return the vertical on which the hand is then."""
-        joints = self.twin.joints(self.path.robot)
+        joints = self.twin.read(self.path.robot)
         z = tool_pose(self.robot, joints)[2]
         column = self._column(goal.compose(held.pose.inverse()), z, joints)
         yield from nudge(self.twin, self.path.robot, _required(column.at(z)))
@@ -165,7 +165,7 @@ class Handling:
     def _put_down(self, column: Column, held: _Held) -> Steps:
         """Lower the part the last little way, and wait until the arm rests."""
         goal = column.at(CLEARANCE - held.base)
-        yield from nudge(self.twin, self.path.robot, goal or self.twin.joints(self.path.robot))
+        yield from nudge(self.twin, self.path.robot, goal or self.twin.read(self.path.robot))
         yield from self._watch("lower")
 
     def _let_go(self, release: Segment) -> Steps:
@@ -208,7 +208,7 @@ class Handling:
         """The vertical `segment` on another column; its last height becomes `end` [mm] where that is given."""
         heights = [tool_pose(self.robot, joints)[2] for joints in segment.joints]
         if end is None:
-            start, end = tool_pose(self.robot, self.twin.joints(self.path.robot))[2], heights[-1]
+            start, end = tool_pose(self.robot, self.twin.read(self.path.robot))[2], heights[-1]
         else:
             start = heights[0]
         scale = (end - start) / (heights[-1] - heights[0])
@@ -235,7 +235,7 @@ class Handling:
 
     def _rise(self, top: float) -> Steps:
         """Bring the hand straight up to `top` [mm]."""
-        joints = self.twin.joints(self.path.robot)
+        joints = self.twin.read(self.path.robot)
         x, y, z, yaw = tool_pose(self.robot, joints)
         if z > top - 1.0:
             return

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Setup
 from pico.motion.engine import require_mujoco
 from pico.motion.types import Joints
+from pico.twin.arms import TwinArm, arms_of
 from pico.twin.placement import Placement, placement_of
 from pico.twin.scene import TIMESTEP, SceneBody, build_scene, lull
 
@@ -47,19 +48,23 @@ class _Arm:
 
 @dataclass(eq=False)
 class _Drive:
-    """What an arm's servos are told: joints over times from `begun`, plus `trim` (7,)."""
+    """What an arm's motors are told: angles (n, 7) over times from `begun`, plus `trim` (7,). `slack` (7,): by how much
+    they are ahead of the joints."""
 
     begun: float
     times: tuple[float, ...]
-    joints: tuple[Joints, ...]
+    motors: Array
     trim: Array
+    slack: Array
 
 
 class Twin:
     """A bench in motion, with `things` by name, arms at `joints` (parked where missing) and the pads of grippers
     `openings` apart (all the way where missing).
 
-    `holding`: what a gripper is closed on, by robot. `handles`: the component that a robot last was told to take.
+    Joints are those of the nominal arms; `arms`: as they really are, with the lab's errors and nothing known of these
+    where None. `holding`: what a gripper is closed on, by robot. `handles`: the component that a robot last was told to
+    take.
     `after_step` is called after every step where it is set.
     """
 
@@ -72,11 +77,13 @@ class Twin:
         *,
         holding: Mapping[str, str] | None = None,
         pad_friction: float | None = None,
+        arms: Mapping[str, TwinArm] | None = None,
     ) -> None:
         require_mujoco()
         import mujoco
 
-        self.model = build_scene(setup, things, pad_friction=pad_friction).compile()
+        self._real = arms_of(setup, setup.lab.sim.seed) if arms is None else arms
+        self.model = build_scene(setup, things, pad_friction=pad_friction, arms=self._real).compile()
         lull(self.model, things)
         self.data = mujoco.MjData(self.model)
         self._body = {name: self.model.body(name).id for name in things}
@@ -107,11 +114,11 @@ class Twin:
     def _start(self, name: str, joints: Joints, opening: float) -> None:
         import numpy as np
 
-        arm = self._arms[name]
-        self.data.qpos[arm.qpos] = joints
+        arm, motors = self._arms[name], self._real[name].told(np.array([joints]))
+        self.data.qpos[arm.qpos] = motors[0]
         self.data.qpos[arm.fingers] = opening / 2000
-        self._drives[name] = _Drive(0.0, (0.0,), (joints,), np.zeros(7))
-        self.data.ctrl[arm.servos] = joints
+        self._drives[name] = _Drive(0.0, (0.0,), motors, np.zeros(7), np.zeros(7))
+        self.data.ctrl[arm.servos] = motors[0]
         if arm.gripper is not None:
             self.data.ctrl[arm.gripper] = opening / 2000
 
@@ -166,32 +173,50 @@ class Twin:
 
         drive, arm = self._drives[name], self._arms[name]
         elapsed = self.data.time - drive.begun + TIMESTEP * np.arange(0, max(steps, 1), _CONTROL_STEPS)
-        way = np.array(drive.joints)
-        columns = [np.interp(elapsed + arm.lag[i], drive.times, way[:, i]) for i in range(7)]
-        return np.column_stack(columns) + drive.trim
+        columns = [np.interp(elapsed + arm.lag[i], drive.times, drive.motors[:, i]) for i in range(7)]
+        motors = np.column_stack(columns)
+        links = self._real[name].followed(motors, motors[0] - drive.slack)
+        drive.slack = motors[-1] - links[-1]
+        return links + drive.trim
 
     def drive(self, robot: str, times: tuple[float, ...], joints: tuple[Joints, ...]) -> None:
         """Start an arm along `joints` at `times` from now; it keeps to the last of them."""
-        self._drives[robot] = _Drive(self.data.time, times, joints, self._drives[robot].trim)
+        import numpy as np
+
+        self._go(robot, times, self._real[robot].told(np.array(joints)))
+
+    def _go(self, robot: str, times: tuple[float, ...], motors: Array) -> None:
+        drive = self._drives[robot]
+        self._drives[robot] = replace(drive, begun=self.data.time, times=times, motors=motors)
 
     def hold(self, robot: str) -> None:
         """Stop an arm where it is."""
-        joints = self.joints(robot)
         self._drives[robot].trim[:] = 0.0
-        self.drive(robot, (0.0,), (joints,))
+        self._go(robot, (0.0,), self._motors(robot)[None])
+
+    def _motors(self, robot: str) -> Array:
+        """The angles (7,) of an arm's motors [rad]."""
+        return self.data.qpos[self._arms[robot].qpos] + self._drives[robot].slack  # type: ignore[no-any-return]
 
     def trim(self, robot: str) -> float:
         """Correct the set-points by what the arm is off its last target; return the greatest of it [rad]."""
         import numpy as np
 
         drive = self._drives[robot]
-        off = drive.joints[-1] - self.data.qpos[self._arms[robot].qpos]
+        off = drive.motors[-1] - self._motors(robot)
         drive.trim += off
         return float(np.abs(off).max())
 
     def joints(self, robot: str) -> Joints:
         """Return the angles that an arm's joints have [rad]."""
-        return tuple(float(q) for q in self.data.qpos[self._arms[robot].qpos])
+        return self._real[robot].taken(self._motors(robot))
+
+    def read(self, robot: str) -> Joints:
+        """Return the angles of an arm's joints as its encoders read them now [rad]."""
+        real, joints = self._real[robot], self.joints(robot)
+        if not real.noise:
+            return joints
+        return tuple(q + float(e) for q, e in zip(joints, real.error(round(self.data.time / TIMESTEP)), strict=True))
 
     def grip(self, robot: str, opening: float | None = None) -> None:
         """Move the fingers to `opening` [mm] between the pads; None closes with the gripper's force."""

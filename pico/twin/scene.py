@@ -16,7 +16,9 @@ from pico.model.body import Body
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
 from pico.motion.engine import require_mujoco
+from pico.twin.arms import TwinArm
 from pico.twin.placement import Placement
+from pico.vision.arm import NOMINAL
 
 if TYPE_CHECKING:
     import mujoco
@@ -46,10 +48,17 @@ class SceneBody:
     free: bool = False
 
 
-def build_scene(setup: Setup, things: Mapping[str, SceneBody], *, pad_friction: float | None = None) -> mujoco.MjSpec:
+def build_scene(
+    setup: Setup,
+    things: Mapping[str, SceneBody],
+    *,
+    pad_friction: float | None = None,
+    arms: Mapping[str, TwinArm] | None = None,
+) -> mujoco.MjSpec:
     """Return the scene of a bench with `things` by name on its table and every arm at its mount, joints at zero.
 
-    `pad_friction`: sliding friction coefficient of the fingers' pads; the lab's where None.
+    `pad_friction`: sliding friction coefficient of the fingers' pads; the lab's where None. `arms`: as they are built;
+    as the lab says where they are left out.
     """
     require_mujoco()
     import mujoco
@@ -60,7 +69,7 @@ def build_scene(setup: Setup, things: Mapping[str, SceneBody], *, pad_friction: 
     _add_table(spec, setup)
     for name, thing in sorted(things.items()):
         _add_thing(spec, name, thing)
-    _add_arms(spec, setup, setup.lab.sim.pad_friction if pad_friction is None else pad_friction)
+    _add_arms(spec, setup, setup.lab.sim.pad_friction if pad_friction is None else pad_friction, arms or {})
     return spec
 
 
@@ -118,13 +127,13 @@ def _add_table(spec: Any, setup: Setup) -> None:
     )
 
 
-def _add_arms(spec: Any, setup: Setup, friction: float) -> None:
+def _add_arms(spec: Any, setup: Setup, friction: float, arms: Mapping[str, TwinArm]) -> None:
     from pico.motion.arm import FINGERS, attach_arm
 
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model != "xarm7":
             continue
-        attach_arm(spec, name, robot)
+        attach_arm(spec, name, robot, offsets=arms[name].built if name in arms else NOMINAL)
         for finger in FINGERS:
             pad = spec.geom(f"{name}/{finger}_pad")
             if pad is None:  # a vacuum gripper

@@ -1,4 +1,4 @@
-"""The calibration of a bench: its cameras as measured, and how well. mm, deg, pixels."""
+"""The calibration of a bench: its cameras and arms as measured, and how well. mm, deg, pixels."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.model.record import Format, as_json, digest, record
+from pico.vision.arm import ArmOffsets, FoundArm
 from pico.vision.camera import CameraModel
 from pico.vision.rigid import motion, rotation, rotation_vector
 
@@ -39,12 +40,14 @@ class Accuracy:
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """The cameras of a bench. `residuals`: root mean square of each step [pixels]; `made_at`: when it was made."""
+    """The cameras of a bench, and its arms where these were measured, too. `residuals`: root mean square of each step
+    [pixels]; `made_at`: when it was made."""
 
     cameras: Mapping[str, CameraModel]
     accuracy: Accuracy = field(default_factory=Accuracy)
     residuals: Mapping[str, float] = field(default_factory=dict)
     made_at: str = ""
+    arms: Mapping[str, FoundArm] = field(default_factory=dict)
 
     def placed(self, tools: Mapping[str, Array]) -> Calibration:
         """Return the calibration with the eyes of robots in the table's frame; `tools`: pose (4, 4) of each tool."""
@@ -60,13 +63,16 @@ class Calibration:
         return digest({key: value for key, value in self.as_json().items() if key != "made_at"})
 
     def as_json(self) -> dict[str, Any]:
-        """Return schema `pico.calibration/v1`: cameras with lens, position [mm] and rotation vector [deg]."""
+        """Return schema `pico.calibration/v1`: cameras with lens, position [mm] and rotation vector [deg]; arms where
+        there are any."""
+        arms = {"arms": as_json(dict(sorted(self.arms.items())), _six)} if self.arms else {}
         return {
             "schema": FORMAT.schema,
             "made_at": self.made_at,
             "accuracy": as_json(self.accuracy),
             "residuals": {name: round(value, 4) for name, value in sorted(self.residuals.items())},
             "cameras": {name: _camera_json(camera) for name, camera in sorted(self.cameras.items())},
+            **arms,
         }
 
 
@@ -102,7 +108,14 @@ def calibration_from_json(data: object) -> Calibration:
         accuracy=Accuracy(**document["accuracy"]),
         residuals=document["residuals"],
         made_at=document["made_at"],
+        arms={name: _arm(arm) for name, arm in document.get("arms", {}).items()},
     )
+
+
+def known_arms(folder: Path) -> dict[str, ArmOffsets]:
+    """Return how the arms are off by the calibration in the folder of a lab, none where there is no such file."""
+    found = read_calibration(folder)
+    return {name: arm.offsets for name, arm in found.arms.items()} if found else {}
 
 
 def calibration_digest(folder: Path) -> str | None:
@@ -130,8 +143,17 @@ def _camera_json(camera: CameraModel) -> dict[str, Any]:
     }
 
 
+def _six(number: float) -> float:
+    return round(number, 6)
+
+
 def _plain(numbers: Any) -> list[float]:
-    return [round(float(number), 6) for number in numbers]
+    return [_six(float(number)) for number in numbers]
+
+
+def _arm(data: Mapping[str, Any]) -> FoundArm:
+    offsets: Any = {key: tuple(float(v) for v in values) for key, values in data["offsets"].items()}
+    return FoundArm(offsets=ArmOffsets(**offsets), position=data["position"], turn=data["turn"])
 
 
 def _camera(name: str, data: Mapping[str, Any]) -> CameraModel:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pico.backends.sim.mover import InProgress, MoveFailed
 from pico.backends.sim.world import World
@@ -15,6 +16,14 @@ from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints, MovePath, Segment
+from pico.twin.arms import arms_of
+from pico.vision.arm import ArmOffsets
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 STEP = 0.5
 """Seconds of a path that are walked in one go where nobody watches."""
@@ -24,14 +33,17 @@ BRAKE = 0.2
 
 
 class KinematicWorld:
-    """Moves robots and components of `world` without dynamics: a component ends exactly at its goal.
+    """Moves robots and components of `world` without dynamics: what a perfect arm carries ends exactly at its goal,
+    what another one does where that takes it.
 
-    `step`: seconds of a path that are walked in one go.
+    `step`: seconds of a path that are walked in one go. `known`: how arms are off, as calibration found it.
     """
 
-    def __init__(self, setup: Setup, world: World) -> None:
+    def __init__(self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None) -> None:
         self._setup = setup
         self.step = STEP
+        self._arms = {n: arm for n, arm in arms_of(setup, world.seed, known).items() if not arm.perfect}
+        self._slack: dict[str, Array] = {}  # by how much motors are ahead of joints, of arms that are not perfect
         self._joints = {name: robot.joints for name, robot in world.robots.items()}
         self._held: dict[str, tuple[str, Pose]] = {}  # by robot: the component, and its pose seen from the tool
         for name, robot in world.robots.items():
@@ -53,8 +65,8 @@ class KinematicWorld:
             if segment.name == "grip":
                 self._held[robot] = (operation.component, self._tool(robot).inverse().compose(start))
             elif segment.name == "release":
+                self._placed[operation.component] = (robot in self._arms and self.carried(robot)) or goal
                 del self._held[robot]
-                self._placed[operation.component] = goal
                 self._fallen.pop(operation.component, None)
         return {"error_mm": 0.0, "error_deg": 0.0}
 
@@ -91,6 +103,8 @@ class KinematicWorld:
         return replace(world, components=components, robots=robots, openings={})
 
     def _tool(self, robot: str) -> Pose:
+        if robot in self._arms:
+            return self._arms[robot].tool(self._joints[robot], self._slack.get(robot))
         mounted, joints = self._setup.lab.robots[robot], self._joints[robot]
         if mounted.model == "gantry":
             x, y, _, turn = joints
@@ -103,7 +117,7 @@ class KinematicWorld:
         if segment.name in ("grip", "release"):
             return
         yield BRAKE
-        self._joints[robot] = joints_at(segment, min(segment.seconds, elapsed + BRAKE / 2))
+        self._turn(robot, joints_at(segment, min(segment.seconds, elapsed + BRAKE / 2)))
 
     def _walk(self, robot: str, segment: Segment) -> Generator[float, None, None]:
         elapsed = 0.0
@@ -115,8 +129,14 @@ class KinematicWorld:
                 yield from self._brake(robot, segment, elapsed)
                 raise
             elapsed += step
-            self._joints[robot] = joints_at(segment, elapsed)
-        self._joints[robot] = segment.joints[-1]
+            self._turn(robot, joints_at(segment, elapsed))
+        self._turn(robot, segment.joints[-1])
+
+    def _turn(self, robot: str, joints: Joints) -> None:
+        """Let an arm have these joints from now on."""
+        if robot in self._arms:
+            self._slack[robot] = self._arms[robot].slack(self._joints[robot], joints, self._slack.get(robot))
+        self._joints[robot] = joints
 
 
 def joints_at(segment: Segment, seconds: float) -> Joints:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.motion.types import MovePath
+from pico.twin.arms import arms_of
 from pico.twin.gestures import walk
 from pico.twin.handling import Handling
 from pico.twin.missing_parts import FALLEN, TOPPLED, Lost
@@ -26,6 +27,7 @@ from pico.twin.physics import Twin
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import SceneBody
 from pico.twin.sight import Exact, HandSight
+from pico.vision.arm import ArmOffsets
 
 OFF_PLANE = 3.0
 """A part whose base is farther from the table than this does not stand on it [mm]."""
@@ -39,7 +41,7 @@ class PhysicsWorld:
     """Moves robots and components of `world` in the twin; implements `Mover`.
 
     `friction`: sliding friction coefficient of the finger pads; the lab's where None. `sight` makes what sees a part
-    in the hand of the twin; None places blindly.
+    in the hand of the twin; None places blindly. `known`: how arms are off, as calibration found it.
     """
 
     def __init__(
@@ -49,6 +51,7 @@ class PhysicsWorld:
         *,
         friction: float | None = None,
         sight: Callable[[Twin], HandSight] | None = Exact,
+        known: Mapping[str, ArmOffsets] | None = None,
     ) -> None:
         self._setup = setup
         self._random = random.Random(f"{world.seed} {world.clock:.6f}")
@@ -60,7 +63,8 @@ class PhysicsWorld:
             things[name] = SceneBody(shape, upright(stranger.pose))
         joints = {name: robot.joints for name, robot in world.robots.items()}
         holding = {name: robot.holding for name, robot in world.robots.items() if robot.holding}
-        self.twin = Twin(setup, things, joints, world.openings, holding=holding, pad_friction=friction)
+        arms = arms_of(setup, world.seed, known)
+        self.twin = Twin(setup, things, joints, world.openings, holding=holding, pad_friction=friction, arms=arms)
         self._sight = sight(self.twin) if sight else None
 
     def advance(self, seconds: float) -> None:

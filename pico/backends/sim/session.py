@@ -36,6 +36,7 @@ from pico.model.setpoint import home_seconds, set_seconds
 from pico.motion.types import Blocked, Joints, Motion, MovePath
 from pico.motion.zones import enters, shared_zones
 from pico.twin.snapshot import Snapshot
+from pico.vision.calibration import known_arms
 
 PROGRESS = 0.25
 """Simulated seconds between two reports of an operation's progress, at least."""
@@ -362,8 +363,9 @@ class WorldSession:
 
 def new_mover(setup: Setup, root: Path, world: World, fidelity: str) -> WorldMover:
     """Return what moves the bodies of `world` of the lab in `root` at a fidelity: `kinematic` or `physics`."""
+    known = known_arms(root)
     if fidelity == "kinematic":
-        return KinematicWorld(setup, world)
+        return KinematicWorld(setup, world, known)
     from pico.backends.sim.physics import PhysicsWorld, seeing
 
-    return PhysicsWorld(setup, world, sight=seeing(setup, world, root))
+    return PhysicsWorld(setup, world, sight=seeing(setup, world, root), known=known)

@@ -13,7 +13,9 @@ from pico.backends.sim.cameras import eyes_of
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
-from pico.vision.calibration import read_calibration
+from pico.twin.arms import arms_of, motors
+from pico.vision.arm import ArmOffsets
+from pico.vision.calibration import known_arms, read_calibration
 
 if TYPE_CHECKING:
     import mujoco
@@ -33,14 +35,14 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
     names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
     if not names:
         raise no_cameras(setup)
-    eyes = eyes_of(setup, world, *scene_of(setup, world))
+    eyes = eyes_of(setup, world, *scene_of(setup, world, known_arms(root)))
     pictures = [_picture(eyes, name) for name in names]
     return look(setup, pictures, read_calibration(root), observe(world, backend, observed_at), last)
 
 
-def picture(setup: Setup, world: World, name: str) -> Frame:
+def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:
     """Return what one camera sees of `world`; black where it was asked often enough."""
-    return _picture(eyes_of(setup, world, *scene_of(setup, world)), name)
+    return _picture(eyes_of(setup, world, *scene_of(setup, world, known_arms(root))), name)
 
 
 def _picture(eyes: Eyes, name: str) -> Frame:
@@ -52,8 +54,11 @@ def _picture(eyes: Eyes, name: str) -> Frame:
     return frame
 
 
-def scene_of(setup: Setup, world: World) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return the scene of a world, strangers included, ready to be looked at."""
+def scene_of(
+    setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return the scene of a world, strangers included, ready to be looked at; `known`: how arms are off, as calibration
+    found it."""
     import mujoco
 
     from pico.drawing.picture import pose_model
@@ -65,8 +70,9 @@ def scene_of(setup: Setup, world: World) -> tuple[mujoco.MjModel, mujoco.MjData]
     for name, stranger in world.unknown.items():
         shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
         things[name] = SceneBody(shape, upright(stranger.pose))
-    model = build_scene(setup, things).compile()
+    arms = arms_of(setup, world.seed, known)
+    model = build_scene(setup, things, arms=arms).compile()
     model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
     data = mujoco.MjData(model)
-    pose_model(setup, model, data, places, {name: robot.joints for name, robot in world.robots.items()})
+    pose_model(setup, model, data, places, motors(arms, {name: robot.joints for name, robot in world.robots.items()}))
     return model, data

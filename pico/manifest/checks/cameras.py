@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import fields
 
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.text.places import where, where_key
@@ -142,12 +143,13 @@ def _errors(document: Document, lab: Lab) -> Iterator[Diagnostic]:
     rules += [(key, getattr(errors, key) >= 0, "zero or more") for key in ("marker_height", "noise")]
     rules += [(key, 0 <= getattr(errors, key) < 1, "a share, 0 to below 1") for key in ("focal_length",)]
     rules += [("lost_frames", 0 <= errors.lost_frames <= 1, "a share, 0 to 1")]
-    for key, right, hint in rules:
-        if not right:
-            source = where(document, "sim", "errors", key)
-            yield error(
-                "value", f"sim.errors.{key} is {getattr(errors, key):g}", hint=f"expected {hint}", source=source
-            )
+    wrong: list[tuple[tuple[str, ...], float, str]]
+    wrong = [(("errors", key), getattr(errors, key), hint) for key, right, hint in rules if not right]
+    arm = [(("errors", "arm", f.name), getattr(errors.arm, f.name)) for f in fields(errors.arm)] if errors.arm else []
+    wrong += [(path, value, "zero or more") for path, value in arm if value < 0]
+    for path, value, hint in wrong:
+        source = where(document, "sim", *path)
+        yield error("value", f"sim.{'.'.join(path)} is {value:g}", hint=f"expected {hint}", source=source)
 
 
 def _few(names: Sequence[str]) -> str:

@@ -20,7 +20,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the picture, with its brightest pixel (`peak`) and its `mean`."""
     from pico.backends.sim.sight import picture
 
-    frame = picture(table.setup, table.world, component)
+    frame = picture(table.setup, table.root, table.world, component)
     if frame.black:
         hint = "measure again; a camera that stays dark is told by `pico look`"
         raise Failed(error("dark", f"the frame of {component} is black", hint=hint, address=component))
