@@ -37,7 +37,7 @@ from pico.backends.sim.world import new_world  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.model.lab import Setup, SimErrors  # noqa: E402
 from pico.model.operation import Operation, Reason  # noqa: E402
-from pico.model.pose import Pose  # noqa: E402
+from pico.model.pose import Pose, angle_between  # noqa: E402
 from pico.model.record import as_json  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Blocked, MovePath, StandingObject  # noqa: E402
@@ -134,11 +134,18 @@ class Run:
                 self.physics.advance(seconds)
                 simulated += seconds
         except StopIteration as stop:
-            data = stop.value
+            data = {**stop.value, **self._off(operation)}
         except MoveFailed as exc:
             failure = exc.diagnostic.summary
         spent = time.perf_counter() - began, time.process_time() - cpu
         return Trial(data, failure, path.seconds, simulated, *spent, self.path_cpu)
+
+    def _off(self, operation: Operation) -> dict[str, float]:
+        """How far from its goal the part really stands."""
+        goal = Pose(**operation.arguments["to"]["pose"])
+        pose = self.physics.world(self.world).components[operation.component].pose
+        assert pose is not None  # else the move has failed
+        return {"error_mm": pose.distance(goal), "error_deg": abs(angle_between(goal.yaw, pose.yaw))}
 
 
 def pixels(setup: Setup, seed: int) -> Callable[[Twin], HandSight]:

@@ -12,6 +12,7 @@ from .garbage import wait_for_loading
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code (design: `pico.diagnostics.ExitCode`)."""
     words = list(sys.argv[1:] if argv is None else argv)
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices here are small: threads would only wait for another
     if argv is None:
         wait_for_loading()
     for name in ("stdout", "stderr"):

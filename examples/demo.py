@@ -62,6 +62,12 @@ def worst_error(folder: Path, revision: str) -> tuple[float, float]:
     return far, turned
 
 
+def sight(folder: Path) -> str:
+    """Return by what a physical run knows of the bench."""
+    by_sight = pico.open(folder).setup.lab.sim.runs_by_sight("physics")
+    return "sight: what cameras, joints and fingers tell is all that was known" if by_sight else "the simulator's truth"
+
+
 def set_friction(folder: Path, friction: float) -> None:
     """Write the friction of the finger pads into the lab, as a user would with an editor."""
     lab = folder / "lab.yaml"
@@ -93,6 +99,7 @@ def main() -> None:
         must(f"pico render --out {goal}.png", folder)
         far, turned = worst_error(folder, goal)
         say(f"\nThe bodies of the simulator stand within {far:.3f} mm and {turned:.3f} deg of commit {goal}.")
+        say(f"They were moved by {sight(folder)}.")
         if far > LIMIT_MM or turned > LIMIT_DEG:
             sys.exit(f"The demonstration failed: that is more than {LIMIT_MM} mm or {LIMIT_DEG} deg.")
     say(f"\nDone in {time.monotonic() - started:.0f} s. The bench is in {options.folder}/, its pictures beside it:")

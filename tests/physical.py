@@ -12,7 +12,7 @@ from pico.backends.sim.world import World, new_world
 from pico.manifest.load import load_folder
 from pico.model.lab import Setup
 from pico.model.operation import Operation, Reason
-from pico.model.pose import Pose
+from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
 from pico.motion.arms import ArmMotion
 from pico.motion.types import MovePath
@@ -42,14 +42,17 @@ def to(component: str, goal: Pose) -> Operation:
     return Operation(id="op1", primitive="move", component=component, robot="arm1", arguments=arguments, reason=reason)
 
 
-def finish(physics: PhysicsWorld, work: Any) -> dict[str, Any]:
-    """Let time pass until `work` is done, and return what it returns."""
+def finish(physics: PhysicsWorld, work: Any, part: str = "", goal: Pose | None = None) -> dict[str, Any]:
+    """Let time pass until `work` is done, and return what it returns; with how far off its goal the part really is."""
     try:
         while True:
             physics.advance(next(work))
     except StopIteration as stop:
         data: dict[str, Any] = stop.value
-        return data
+    if goal is not None:
+        pose = physics.twin.placement(part).pose
+        data |= {"error_mm": pose.distance(goal), "error_deg": abs(angle_between(goal.yaw, pose.yaw))}
+    return data
 
 
 def carry(physics: PhysicsWorld, work: Any, seconds: float) -> None:

@@ -18,6 +18,7 @@ SWAP = {"n": 2, "density": 0.3, "radius": 70.0, "start": [[300, 300], [700, 300]
 SMALLEST = {
     "bisecting": "--commits 8 --seeds 1 --pairs 1",
     "blame": "--commits 12 --components 10 --files 2 --merges --runs",
+    "by_sight": "--moves 1 --seeds 1",
     "calibration": "--only odd --scenes 1",
     "carrying": "--components 30 --commits 5 --repeat 1",
     "commits": "--processes 2 --each 1 --kills 2 --capture 30",

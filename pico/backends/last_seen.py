@@ -1,7 +1,8 @@
-"""Where the parts of a bench were last: what the cameras saw of them, or where an arm put them down since.
+"""Where the parts of a bench were last: what the cameras saw of them, where an arm put them down since, and which ones
+hands took.
 
-Kept as `.pico/seen.json` beside the lab, so that a part that something hides is not lost. It is no truth: whoever looks
-asks the cameras first.
+Kept as `.pico/seen.json` and `.pico/hands.json` beside the lab, so that a part that something hides is not lost. It is
+no truth: whoever looks asks the cameras first, and the pads say whether a hand holds anything.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import json
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from pico.attachment import bench_folder
 from pico.diagnostics import PicoError
@@ -19,6 +21,7 @@ from pico.model.pose import Pose
 from pico.model.record import Format, as_json, record
 
 FORMAT = Format("pico.seen")
+HANDS = Format("pico.hands")
 
 
 @record
@@ -35,6 +38,35 @@ class LastSeen:
     def kept(self) -> str:
         """How its pose is known while something hides it."""
         return "placed" if self.placed else "remembered"
+
+
+@record
+class Taken:
+    """The component that a hand was told to take, and where it then is, seen from the tool."""
+
+    component: str
+    pose: Pose
+
+
+def recall_hands(root: Path) -> dict[str, Taken]:
+    """Return what hands took last, by robot; nothing where that is not known."""
+    try:
+        data = HANDS.lifted(json.loads(_hands_path(root).read_text(encoding="utf-8")))
+        return {
+            robot: Taken(component=str(taken["component"]), pose=Pose(**taken["pose"]))
+            for robot, taken in data["hands"].items()
+        }
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {}
+
+
+def remember_hands(root: Path, hands: Mapping[str, Taken]) -> None:
+    """Keep what hands take, before they do; where that can't be written, the journal still knows the component."""
+    _write(_hands_path(root), {"schema": HANDS.schema, "hands": as_json(hands)})
+
+
+def _hands_path(root: Path) -> Path:
+    return bench_folder(root) / "hands.json"
 
 
 def memory_path(root: Path) -> Path:
@@ -71,7 +103,10 @@ def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen
 
 def remember(root: Path, parts: Mapping[str, LastSeen]) -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
-    document = {"schema": FORMAT.schema, "parts": as_json(parts)}
+    _write(memory_path(root), {"schema": FORMAT.schema, "parts": as_json(parts)})
+
+
+def _write(path: Path, document: Mapping[str, Any]) -> None:
     data = json.dumps(document, separators=(",", ":"), sort_keys=True).encode()
     with suppress(PicoError):
-        write_whole(memory_path(root), data, folders=True, durable=False)
+        write_whole(path, data, folders=True, durable=False)

@@ -162,7 +162,8 @@ def _component(
     part, plate = setup.lab.inventory[name], setup.type_of(name).geometry.marker
     holder = next((key for key, robot in known.robots.items() if robot.holding == name), None)
     if holder is not None:
-        return _held(setup, holder, known.robots[holder]), None
+        told = known.components.get(name)
+        return (told if told and told.how == "gripper" else _held(setup, holder, known.robots[holder])), None
     if name in sighting.components:
         seen = sighting.components[name]
         return ObservedComponent(pose=seen.pose, uncertainty=seen.uncertainty, how=seen.how), None
@@ -206,12 +207,9 @@ def _hidden(
 
 
 def _held(setup: Setup, name: str, robot: ObservedRobot) -> ObservedComponent:
-    from pico.motion.kinematics import tool_pose
+    from pico.motion.kinematics import tool_of
 
-    if setup.lab.robots[name].model != "xarm7":
-        return ObservedComponent(presence="held", pose=robot.picked, how="gripper")
-    x, y, _, yaw = tool_pose(setup.lab.robots[name], robot.joints)
-    return ObservedComponent(presence="held", pose=Pose(x, y, yaw), how="gripper")
+    return ObservedComponent(presence="held", pose=tool_of(setup.lab.robots[name], robot.joints), how="gripper")
 
 
 def _strangers(

@@ -5,28 +5,35 @@ over the table see the palm only. Its calibration to the hand is not perfect, an
 placement. So before the fingers close, the eye looks at the part while it still stands, where the overhead cameras,
 put right by the datum markers in their pictures, have seen it too. What the eye has wrong is the difference; it is the
 same for every part and every yaw, hence averaged over all picks. What remains comes from the overhead cameras, the
-same that judge later where the part stands. Millimetres, radians; matrices (4, 4) are poses.
+same that judge later where the part stands. A picture that was lost is taken again. Millimetres, radians; matrices
+(4, 4) are poses.
 """
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from pico.cameras.simulated import Eyes
 from pico.model.catalog import MarkerPlate
 from pico.model.lab import Setup
+from pico.model.observation import Uncertainty
 from pico.model.pose import Pose
 from pico.motion.kinematics import fk
 from pico.twin.physics import Twin
 from pico.twin.sight import InHand
-from pico.vision.anchor import anchored
+from pico.vision.anchor import Drifting
+from pico.vision.calibration import Accuracy
 from pico.vision.camera import CameraModel
-from pico.vision.frame import Frame
+from pico.vision.close import plate_pose, region_about
+from pico.vision.frame import Frame, exposed
+from pico.vision.judge import combined
 from pico.vision.markers import CELLS, Marker, detect
-from pico.vision.poses import Estimate, MarkerView, edge, free, from_rays, on_plane
+from pico.vision.poses import Estimate, MarkerView, edge, free
 from pico.vision.rigid import best_motion, motion, moved, planar, rotation, rotation_vector, square, upright
 
 if TYPE_CHECKING:
@@ -35,8 +42,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-_ROOM = 1.5
-"""The region of a picture in which a plate is looked for is as large as the plate and so many times it around."""
 _CELL = 10
 """Pixels that a cell of a marker is wide when its picture is read."""
 _MEMORY = 30
@@ -44,47 +49,25 @@ _MEMORY = 30
 
 
 class EyeInHand:
-    """Sees parts in hands through `eyes`; implements `Sight`.
+    """Sees parts in hands through `eyes`; implements `HandSight`. `cameras`: as they are calibrated, to `accuracy`,
+    which is not quite as they are."""
 
-    `cameras`: as they are calibrated, which is not quite as they are; those over the table are put right by datums.
-    """
-
-    def __init__(self, setup: Setup, twin: Twin, eyes: Eyes, cameras: Mapping[str, CameraModel]) -> None:
-        self._setup, self._twin, self._eyes = setup, twin, eyes
+    def __init__(
+        self, setup: Setup, twin: Twin, eyes: Eyes, cameras: Mapping[str, CameraModel], accuracy: Accuracy | None = None
+    ) -> None:
+        self._setup, self._twin, self._eyes, self._accuracy = setup, twin, eyes, accuracy or Accuracy()
         self._hands = {n: c for n, c in cameras.items() if c.robot is not None}
-        self._over = {n: c for n, c in cameras.items() if c.robot is None}
-        self._anchored = False
-        self._standing: dict[str, Estimate] = {}
         self._wrong: dict[str, deque[Array]] = {}
 
-    def survey(self, component: str, near: Pose) -> None:
-        """Look from above at a part that stands near a pose, before an arm comes in between."""
-        self._standing.pop(component, None)
-        marked = self._marked(component)
-        if marked is None:
-            return
-        number, plate = marked
-        self._anchor()
-        at = upright(near, 0.0) @ _plate_pose(plate)
-        views = [v for camera in self._over.values() if (v := self._view(camera, at, number, plate.size))]
-        if len(views) > 1:
-            self._standing[component] = from_rays(views, plate.size)
-        elif views:
-            self._standing[component] = on_plane(views, plate.size, plate.at[2], 0.2, 0.05)
-
-    def refer(self, robot: str, component: str) -> bool:
+    def refer(self, robot: str, component: str, stands: Pose | None) -> bool:
         """Look at a part that stands, the open hand around it: what the eye has wrong is learned from it."""
         import numpy as np
 
         seen, marked = self._in_tool(robot, component), self._marked(component)
         if seen is None or marked is None:
             return False
-        stands = self._standing.pop(component, None)
         if stands is not None:
-            plate = stands.pose.copy()
-            plate[:3, :3] = rotation(np.array((0.0, 0.0, np.arctan2(plate[1, 0], plate[0, 0]))))  # it stands upright
-            plate[2, 3] = marked[1].at[2]
-            there = np.linalg.inv(self._tool(robot)) @ plate
+            there = np.linalg.inv(self._tool(robot)) @ upright(stands, 0.0) @ plate_pose(marked[1])
             turn = rotation_vector(there[:3, :3] @ seen.pose[:3, :3].T)
             wrong = np.concatenate((there[:3, 3] - seen.pose[:3, 3], turn))
             self._wrong.setdefault(robot, deque(maxlen=_MEMORY)).append(wrong)
@@ -99,8 +82,16 @@ class EyeInHand:
             return None
         learned = self._wrong.get(robot)
         plate = moved(seen.pose, np.mean(learned, axis=0)) if learned else seen.pose
-        base = self._tool(robot) @ plate @ np.linalg.inv(_plate_pose(marked[1]))
-        return InHand(planar(base), float(base[2, 3]), seen.uncertainty)
+        base = self._tool(robot) @ plate @ np.linalg.inv(plate_pose(marked[1]))
+        return InHand(planar(base), float(base[2, 3]), self._known(seen, bool(learned)))
+
+    def _known(self, seen: Estimate, learned: bool) -> Uncertainty:
+        """How well a pose is known: what the cameras over the table leave, or what a mount may be off since then."""
+        sigma, mount = combined(seen, self._accuracy), Drifting()
+        if learned:
+            return sigma
+        yaw = math.hypot(sigma.yaw, mount.turn)
+        return Uncertainty(position=math.hypot(sigma.position, mount.position), yaw=yaw)
 
     def _in_tool(self, robot: str, component: str) -> Estimate | None:
         """The plate of the part in or around which a hand is, in the tool's frame, as an eye on that hand sees it."""
@@ -120,27 +111,13 @@ class EyeInHand:
     def _view(self, camera: CameraModel, at: Array, number: int, size: float) -> MarkerView | None:
         """The marker `number` as a camera sees it around where a plate at `at` (4, 4) should be, in its parent's
         frame."""
-        import numpy as np
-
-        corners = camera.project(square(size) @ at[:3, :3].T + at[:3, 3])
-        if not np.isfinite(corners).all():
+        region = region_about(camera, at, size)
+        if region is None:
             return None
-        low, high = corners.min(axis=0), corners.max(axis=0)
-        room = _ROOM * (high - low).max() / 2
-        first, last = np.floor(low - room).astype(int), np.ceil(high + room).astype(int)
-        width, height = camera.pixels
-        if last.min() < 8 or first[0] > width - 8 or first[1] > height - 8:
-            return None
-        frame = self._eyes.frame(camera.name, (*first.tolist(), *(last - first).tolist()))
-        found = [] if frame.black else [m for m in _markers(frame, edge(corners)) if m.number == number]
+        frame = exposed(partial(self._eyes.frame, camera.name, region))
+        wide = edge(camera.project(square(size) @ at[:3, :3].T + at[:3, 3]))
+        found = [] if frame.black else [m for m in _markers(frame, wide) if m.number == number]
         return MarkerView(replace(camera, robot=None), found[0]) if len(found) == 1 else None
-
-    def _anchor(self) -> None:
-        """Put the cameras over the table right by the datums in their pictures, once."""
-        if not self._anchored:
-            self._anchored = True
-            for name, camera in self._over.items():
-                self._over[name] = anchored(self._setup, camera, detect(self._eyes.frame(name)))
 
     def _tool(self, robot: str) -> Array:
         """The pose of the tool as the joints say it is."""
@@ -176,12 +153,6 @@ def _markers(frame: Frame, size: float) -> tuple[Marker, ...]:
     return tuple(
         replace(m, corners=(m.corners + 0.5) * share - 0.5 + first, covariance=m.covariance * share**2) for m in binned
     )
-
-
-def _plate_pose(plate: MarkerPlate) -> Array:
-    import numpy as np
-
-    return motion(np.eye(3), np.array(plate.at))
 
 
 def _facing(at: Array, view: MarkerView, size: float) -> Array:

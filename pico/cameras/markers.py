@@ -125,7 +125,6 @@ def _unhidden(view: CameraView, local: Array, body: Any) -> Any:
 def _draw(view: CameraView, picture: Gray, one: _Paper, *, partly: bool) -> None:
     """Draw a paper; where something hides part of it, ask for each pixel."""
     import cv2
-    import numpy as np
 
     left, top, right, bottom = one.box
     fine = _COARSE if max(right - left, bottom - top) > _LARGE else _FINE
@@ -134,10 +133,9 @@ def _draw(view: CameraView, picture: Gray, one: _Paper, *, partly: bool) -> None
     scale = texels * MODULES / one.sticker.size
     side = (MODULES + 2 * QUIET) * texels
     middle = (side - 1) / 2 + 1
-    maps = np.dstack((middle + where[..., 0] * scale, middle - where[..., 1] * scale)).astype(np.float32)
     ink: Any = paper(one.sticker.marker, texels)
-    no_map: Any = None
-    mean: Any = cv2.remap(ink, maps, no_map, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
+    across, down = middle + where[0] * scale, middle - where[1] * scale
+    mean: Any = cv2.remap(ink, across, down, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
     mean = cv2.resize(mean, (right - left, bottom - top), interpolation=cv2.INTER_AREA)
     if partly:
         mean = mean * _open(view, one)[..., None]
@@ -153,8 +151,9 @@ def _texels(view: CameraView, one: _Paper) -> int:
     return max(2, min(48, round(float(2 * pixels))))
 
 
-def _on_paper(view: CameraView, one: _Paper, fine: int) -> Array:
-    """Where on the paper (rows, columns, 2) [mm] the points of the pixels of the box lie, `fine` along each edge."""
+def _on_paper(view: CameraView, one: _Paper, fine: int) -> list[Gray]:
+    """Where on the paper [mm], x and y (rows, columns), the points of the pixels of the box lie, `fine` along each
+    edge."""
     import numpy as np
 
     left, top, right, bottom = one.box
@@ -164,11 +163,11 @@ def _on_paper(view: CameraView, one: _Paper, fine: int) -> Array:
     # a ray r meets the plane of the paper at r * s; in the paper's frame that is R^T (r s - t)
     turn, at = one.pose[:3, :3], one.pose[:3, 3]
     depth = (at @ turn[:, 2]) / (rays @ turn[:, 2])
-    place = ((rays * depth[:, None] - at) @ turn[:, :2]).reshape(*rows.shape, 2)
+    place = ((rays * depth[:, None] - at) @ turn[:, :2]).reshape(*rows.shape, 2).astype(np.float32)
     across, down = (
         _weights(k, low, high, fine) for k, (low, high) in zip(knots, ((left, right), (top, bottom)), strict=True)
     )
-    return np.stack([down @ place[..., i] @ across.T for i in (0, 1)], axis=-1)
+    return [np.asarray(down @ place[..., i] @ across.T, np.float32) for i in (0, 1)]
 
 
 def _knots(low: int, high: int) -> Array:
@@ -178,7 +177,7 @@ def _knots(low: int, high: int) -> Array:
     return np.linspace(low - 0.5, high - 0.5, count)
 
 
-def _weights(knots: Array, low: int, high: int, fine: int) -> Array:
+def _weights(knots: Array, low: int, high: int, fine: int) -> Gray:
     """The matrix that takes values at `knots` to the points within pixels, linear in between."""
     import numpy as np
 
@@ -186,7 +185,7 @@ def _weights(knots: Array, low: int, high: int, fine: int) -> Array:
     step = knots[1] - knots[0]
     position = (points - knots[0]) / step
     first = np.clip(position.astype(int), 0, len(knots) - 2)
-    weights = np.zeros((len(points), len(knots)))
+    weights = np.zeros((len(points), len(knots)), np.float32)
     index = np.arange(len(points))
     weights[index, first] = 1 - (position - first)
     weights[index, first + 1] = position - first

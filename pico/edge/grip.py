@@ -10,9 +10,6 @@ from pico.model.observation import Observation, ObservedRobot
 from pico.model.pose import Pose
 from pico.runs.journal import Journal
 
-SAME_WIDTH = 1.0
-"""Pads that are this much wider or narrower apart than a part is wide do not hold it [mm]."""
-
 
 def with_picks(setup: Setup, journal: Journal, seen: Observation) -> Observation:
     """Return the observation with, for each hand that holds something, where that stood before it was picked.
@@ -35,4 +32,4 @@ def _with_pick(setup: Setup, journal: Journal, name: str, robot: ObservedRobot) 
 
 def _fits(setup: Setup, component: str, opening: float | None) -> bool:
     grasp = setup.type_of(component).geometry.grasp if component in setup.lab.inventory else None
-    return grasp is not None and opening is not None and abs(grasp.width - opening) < SAME_WIDTH
+    return grasp is not None and opening is not None and grasp.fits(opening)

@@ -157,7 +157,7 @@ class LocalEdge:
 
     def _with_hands(self, seen: Observation) -> Observation:
         """Return the observation with what the journal knows of the parts in the hands: where they were picked."""
-        if not any(robot.holding for robot in seen.robots.values()):
+        if not any(robot.holding or robot.opening is not None for robot in seen.robots.values()):
             return seen
         from pico.edge.grip import with_picks
 

@@ -152,6 +152,13 @@ def _convex(corners: tuple[tuple[float, float], ...]) -> bool:
     return min(turns) > 0 and area > 0
 
 
+_SAME_WIDTH = 1.0
+"""Pads that are this much wider or narrower apart than a part is wide do not hold it [mm]."""
+
+_GROOVE = 4.0
+"""The same where the part has grooves and is off the middle of the hand [mm]."""
+
+
 @record
 class Grasp:
     """How the gripper holds a component.
@@ -166,6 +173,12 @@ class Grasp:
     width: Length
     yaws: tuple[Angle, ...] = (0.0, 90.0)
     fixture: Literal["flat", "v_groove"] = "flat"
+
+    def fits(self, opening: float) -> bool:
+        """Return whether pads that are `opening` apart [mm] can hold the component; they may not have slid to the
+        bottom of grooves yet."""
+        wider = _SAME_WIDTH if self.fixture == "flat" else _GROOVE
+        return -_SAME_WIDTH < opening - self.width < wider
 
 
 @record

@@ -300,8 +300,9 @@ class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of the
     finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
     with cameras and arms. `sight`: by what the physical world corrects a part in the hand before it is put down: the
-    truth, the pictures of the eye in the hand, or nothing. `faults`: what goes wrong how often, as a share of the
-    operations that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, or `all` of them.
+    truth (where nothing is said and the table is known exactly), the pictures of the eye in the hand, or nothing; with
+    `pixels` a physical run knows only what its cameras saw, of the table, too. `faults`: what goes wrong how often, as
+    a share of the operations that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, `all`.
     `observe`: how the table is looked at, exactly or through the cameras."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
@@ -309,13 +310,24 @@ class SimSettings:
     pad_friction: float = 1.0
     renderer: Literal["raycast", "egl"] = "raycast"
     errors: SimErrors = SimErrors()
-    sight: Literal["exact", "pixels", "none"] = "exact"
+    sight: Literal["exact", "pixels", "none"] | None = None
     observe: Literal["exact", "sight"] = "exact"
     faults: Mapping[Literal["drop", "slip", "jam", "camera", "timeout", "reading", "slow", "all"], float] = field(
         default_factory=dict
     )
 
+    @property
+    def hand_sight(self) -> Literal["exact", "pixels", "none"]:
+        """By what a part in the hand is seen in the physical world."""
+        return self.sight or ("pixels" if self.observe == "sight" else "exact")
+
+    def runs_by_sight(self, fidelity: str) -> bool:
+        """Return whether a run at a fidelity knows only what its cameras, joints and pads tell."""
+        return self.observe == "sight" or (fidelity == "physics" and self.hand_sight == "pixels")
+
     def __post_init__(self) -> None:
+        if self.observe == "sight" and self.sight == "exact":
+            raise ValueError("with `observe: sight` nothing is known exactly: `sight` is `pixels` or `none`")
         for name, rate in self.faults.items():
             if not 0 <= rate <= 1:
                 raise ValueError(f"the rate of `{name}` in `faults` is a share from 0 to 1, not {rate:g}")

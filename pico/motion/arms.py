@@ -101,7 +101,8 @@ class ArmMotion:
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:
         """See `Motion.set_down`."""
-        from pico.motion.setdown import SetDown, gantry_set_down, tool_of
+        from pico.motion.kinematics import tool_of
+        from pico.motion.setdown import SetDown, gantry_set_down
 
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
         found = check_grip(robot, arm, component, geometry) or self.reach(robot, component, goal, 0.0)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 
 from pico.model.lab import Robot
+from pico.model.pose import Pose
 from pico.motion.types import Joints
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 
@@ -75,6 +76,15 @@ def tool_pose(robot: Robot, joints: Joints) -> tuple[float, float, float, float]
     c, s = math.cos(math.radians(mount.yaw)), math.sin(math.radians(mount.yaw))
     yaw = mount.yaw + math.degrees(math.atan2(rotation[1][1], rotation[0][1]))
     return mount.x + c * x - s * y, mount.y + s * x + c * y, mount.z + z, math.remainder(yaw, 360.0)
+
+
+def tool_of(robot: Robot, joints: Joints) -> Pose:
+    """Return where the tool of an arm or a gantry is, seen from above [mm, deg]."""
+    if robot.model == "gantry":
+        x, y, _, turn = joints
+        return Pose(1000 * x, 1000 * y, math.degrees(turn))
+    x, y, _, yaw = tool_pose(robot, joints)
+    return Pose(x, y, yaw)
 
 
 @dataclass(frozen=True, slots=True)

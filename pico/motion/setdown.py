@@ -13,7 +13,7 @@ from pico.model.lab import Robot
 from pico.model.pose import Pose
 from pico.motion import gantry, timing
 from pico.motion.explain import blocked
-from pico.motion.kinematics import Column, tool_pose
+from pico.motion.kinematics import Column, tool_of
 from pico.motion.moves import Move, ascend, legs, turned
 from pico.motion.paths import Stand, distance, postures, stand
 from pico.motion.reach import grasp_height, opening
@@ -22,15 +22,6 @@ from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
 SWING = 3.0
 """What is held swings by no more than this between the jaws [mm]."""
-
-
-def tool_of(robot: Robot, joints: Joints) -> Pose:
-    """Return where the tool of a robot is, seen from above [mm, deg]."""
-    if robot.model == "gantry":
-        x, y, _, turn = joints
-        return Pose(1000 * x, 1000 * y, math.degrees(turn))
-    x, y, _, yaw = tool_pose(robot, joints)
-    return Pose(x, y, yaw)
 
 
 def tool_goal(robot: Robot, joints: Joints, held: Pose, goal: Pose) -> Pose:

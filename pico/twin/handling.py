@@ -3,6 +3,8 @@
 Above the goal a camera sees where the part is in the hand, and the goal is shifted so that the part, not the hand,
 comes to stand where it should. It is looked at once more just over the table: on the way down the part slides between
 the fingers by a few tenths of a millimetre. Where no camera sees it, it is not placed: it goes back where it stood.
+
+Nothing is known here but what a bench tells: joints, the distance between the pads, and what `sight` sees.
 """
 
 from __future__ import annotations
@@ -11,24 +13,32 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.diagnostics import error
+from pico.diagnostics import Diagnostic, error
+from pico.model.catalog import Grasp
 from pico.model.lab import Robot
 from pico.model.pose import Pose, angle_between
 from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.types import Joints, MovePath, Segment, SegmentName
 from pico.twin.gestures import CHUNK, Steps, backward, nudge, passing, settle, walk
-from pico.twin.missing_parts import Lost, lies, whereabouts
 from pico.twin.physics import Twin
-from pico.twin.sight import HandSight
+from pico.twin.sight import HandSight, InHand
 
 HOVER = 2.0
 """Height above the table at which a part is looked at for the last time [mm]."""
 CLEARANCE = 0.05
 """Height above the table at which a part is let go [mm]."""
-STILL = 0.2
-"""What is slower rests [mm/s]."""
+REST = 0.5
+"""Time in which a part that fell comes to rest [s]."""
 SLID_MM, SLID_DEG = 10.0, 10.0
 """A part that is farther than this from where the hand should have it has slipped: paths have no room for more."""
+
+
+class Lost(Exception):
+    """A part that is not where it should be: missed, dropped, slipped, unseen. Carries the diagnostic."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        self.diagnostic = diagnostic
+        super().__init__(diagnostic.summary)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,29 +53,31 @@ class _Held:
 class Handling:
     """One pick and place of `component` by an arm along `path`, to come to rest at `goal`.
 
-    `sight` sees the part in the hand; None places it blindly, as if it were in the hand where the path means it to be.
-    `seated` is told when the part has been let go, and lets its seat pull it.
+    `grasp`: how wide it is between the pads. `sight` sees the part in the hand; None places it blindly, as if it were
+    in the hand where the path means it to be. `stands`: where it was seen just now, if it was. `seated` is told when
+    the part has been let go, and lets its seat pull it.
     """
 
     twin: Twin
     robot: Robot
     component: str
+    grasp: Grasp
     path: MovePath
     goal: Pose
     sight: HandSight | None = None
+    stands: Pose | None = None
     seated: Callable[[str], None] | None = None
+    left: InHand | None = field(default=None, init=False)
+    """Where the part was seen when the fingers had opened."""
     _carrying: bool = field(default=False, init=False)
 
     def run(self) -> Generator[float, None, dict[str, Any]]:
         """Do it; raises Lost with the hand open and above the table.
 
-        Returns `error_mm` and `error_deg`, how far from the goal the part really came to rest, and `correction_mm` and
-        `correction_deg`, by how much the goal was shifted for the pose in the hand.
+        Returns `correction_mm` and `correction_deg`, by how much the goal was shifted for the pose in the hand.
         """
         legs = {segment.name: segment for segment in self.path.segments}
         self.twin.handles[self.path.robot] = self.component
-        if self.sight and "grip" in legs:
-            self.sight.survey(self.component, self._start(legs))
         yield from self._pick(legs)
         yield from self._follow(legs["lift"])
         yield from self._follow(legs["transit"])
@@ -81,17 +93,9 @@ class Handling:
         column = yield from self._aim(held, self.goal)
         yield from self._put_down(column, held)
         yield from self._let_go(legs["release"])
+        self.left = self.sight.pose_in_hand(self.path.robot, self.component) if self.sight else None
         yield from self._follow(self._shifted(legs["retreat"], column, None))
-        yield from self._rest()
-        if lies(self.twin.placement(self.component)):
-            yield from self._lose("toppled", f"{self.component} toppled when {self.path.robot} let go of it")
-        pose = self.twin.placement(self.component).pose
-        return {
-            "error_mm": pose.distance(self.goal),
-            "error_deg": abs(angle_between(self.goal.yaw, pose.yaw)),
-            "correction_mm": correction[0],
-            "correction_deg": correction[1],
-        }
+        return {"correction_mm": correction[0], "correction_deg": correction[1]}
 
     def _pick(self, legs: dict[SegmentName, Segment]) -> Steps:
         robot = self.path.robot
@@ -102,14 +106,17 @@ class Handling:
             self.twin.grip(robot, legs[leg].opening)
             yield from self._follow(legs[leg])
         yield from settle(self.twin, robot)
-        if self.sight and not self.sight.refer(robot, self.component):
+        if self.sight and not self.sight.refer(robot, self.component, self.stands):
             yield from self._lose(
                 "unseen", f"no camera sees {self.component} in the hand of {robot}: it was left there"
             )
         self.twin.grip(robot)
         yield from passing(legs["grip"].seconds + CHUNK)
-        if self.twin.gripped(robot) != self.component:
+        if not self._holds():
+            wide = self.twin.opening(robot)
             text = f"{robot} missed {self.component}: its fingers closed on nothing"
+            if wide > self.grasp.width / 2:
+                text = f"{robot} closed on something {wide:.0f} mm wide, {self.component} has {self.grasp.width:g} mm"
             yield from self._lose("missed-grasp", text)
         self._carrying = True
 
@@ -121,9 +128,13 @@ class Handling:
             yield from self._watch(segment.name)
 
     def _watch(self, phase: str = "transit") -> Steps:
-        if self._carrying and self.twin.gripped(self.path.robot) != self.component:
+        if self._carrying and not self._holds():
             text = f"{self.path.robot} dropped {self.component} on the {phase}: it slid out of the fingers"
             yield from self._lose("dropped", text)
+
+    def _holds(self) -> bool:
+        """Whether the pads are as far apart as the part is wide."""
+        return self.grasp.fits(self.twin.opening(self.path.robot))
 
     def _meant(self, legs: dict[SegmentName, Segment]) -> _Held:
         """The part in the hand as the path means it: over the goal where the path ends, on the table where it grips."""
@@ -216,22 +227,14 @@ class Handling:
         joints = tuple(new or old for new, old in zip(moved, segment.joints, strict=True))
         return Segment(segment.name, segment.times, joints, segment.opening)
 
-    def _rest(self) -> Steps:
-        """Wait until the part rests or has left the table, 3 s at most."""
-        for _ in range(round(3 / CHUNK)):
-            yield CHUNK
-            if self.twin.speed(self.component) < STILL or self.twin.placement(self.component).position[2] < -1.0:
-                return
-
     def _lose(self, code: str, text: str) -> Steps:
-        """Open the hand, bring it up, wait until the part rests, and say where it is."""
+        """Open the hand, bring it up, and raise Lost."""
         self._carrying = False
         self.twin.hold(self.path.robot)
         self.twin.grip(self.path.robot, self.path.segments[-1].opening)
-        yield from self._rest()
+        yield from passing(REST)
         yield from self._rise(self.robot.transit_height)
-        where, hint = whereabouts(self.component, self.twin.placement(self.component))
-        raise Lost(error(code, f"{text}; {where}", hint=hint, address=self.component))
+        raise Lost(error(code, text, address=self.component))
 
     def _rise(self, top: float) -> Steps:
         """Bring the hand straight up to `top` [mm]."""

@@ -28,6 +28,8 @@ _CONTROL_STEPS = 2
 """Steps of the simulation between two set-points of the servos."""
 _PRESSING_STEPS = 50
 """Steps of the simulation in which pads come to press on what they hold: some time constants of contact and finger."""
+_WAKES = 1e-6
+"""A speed that wakes what sleeps, and moves nothing [m/s]."""
 _BEARING = 20.0
 """What the trim of a servo grows by in each of these steps, as a multiple of what its joint gave way by in the step."""
 
@@ -258,16 +260,8 @@ class Twin:
         self.data.qpos[first : first + 2] += (dx / 1000, dy / 1000)
         turn = self.data.qpos[first + 3 : first + 7]
         mujoco.mju_mulQuat(turn, (math.cos(half), 0.0, 0.0, math.sin(half)), turn.copy())
-
-    def speed(self, name: str) -> float:
-        """Return how fast a component moves [mm/s]; turning counts as 50 mm/s a radian a second."""
-        import numpy as np
-
-        address = self.model.body(name).dofadr[0]
-        if address < 0:
-            return 0.0
-        velocity = self.data.qvel[address : address + 6]
-        return float(np.linalg.norm(velocity[:3]) * 1000 + np.linalg.norm(velocity[3:]) * 50)
+        self.data.qvel[int(self.model.jnt_dofadr[address])] += _WAKES  # what sleeps would be seen where it was
+        mujoco.mj_kinematics(self.model, self.data)
 
 
 def _arm(model: Any, name: str) -> _Arm:

@@ -25,14 +25,11 @@ class InHand:
 class HandSight(Protocol):
     """Sees parts in hands. An arm is at rest when it is asked."""
 
-    def survey(self, component: str, near: Pose) -> None:
-        """Look at a part that stands near a pose, before an arm reaches for it."""
-        ...
-
-    def refer(self, robot: str, component: str) -> bool:
+    def refer(self, robot: str, component: str, stands: Pose | None) -> bool:
         """Look at a part that still stands, the open hand around it; return whether it is seen.
 
         What is seen in the hand later can be compared with this: errors that are the same in both pictures cancel.
+        `stands`: where others saw it just now, if they did.
         """
         ...
 
@@ -47,10 +44,7 @@ class Exact:
     def __init__(self, twin: Twin) -> None:
         self._twin = twin
 
-    def survey(self, component: str, near: Pose) -> None:
-        """Learn nothing: there is nothing to put right."""
-
-    def refer(self, robot: str, component: str) -> bool:
+    def refer(self, robot: str, component: str, stands: Pose | None) -> bool:
         """See it, always."""
         return True
 

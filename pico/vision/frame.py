@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -30,6 +31,20 @@ class Frame:
     def black(self) -> bool:
         """Whether nothing was exposed: a lost frame, a closed shutter, a dark room."""
         return bool(self.gray.size == 0 or self.gray[::7, ::7].mean() < _BLACK)
+
+
+TRIES = 3
+"""Pictures that are asked of a camera before it counts as lost."""
+
+
+def exposed(take: Callable[[], Frame]) -> Frame:
+    """Return what `take` delivers, taken again while it is black; black where it was asked often enough."""
+    frame = take()
+    for _ in range(TRIES - 1):
+        if not frame.black:
+            break
+        frame = take()
+    return frame
 
 
 _BLACK = 12.0

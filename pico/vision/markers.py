@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any
 
 from pico.vision.refine import refine
@@ -23,6 +23,8 @@ CELLS = 6
 _CLEAR = 0.2  # a cell is black or white where it is off the middle by this share of the contrast
 _MISFIT = 0.15  # of the contrast, that a picture may differ from the marker it is said to show
 _CONTRAST = 24.0  # least difference of white and black [gray levels]
+_SMALLEST = 24.0  # pixels around a marker, less of which can't be read
+_SMALLEST_SHARE = 0.03  # of the longer edge of a picture
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +88,7 @@ def detect(frame: Frame) -> Markers:
 
     picture = np.ascontiguousarray(frame.gray)
     offset = np.array(frame.offset, np.float64)
-    quads, numbers, rejected = _detector().detectMarkers(picture)
+    quads, numbers, rejected = _detector(max(_SMALLEST / max(picture.shape), _SMALLEST_SHARE)).detectMarkers(picture)
     read: list[Marker] = []
     doubtful = [np.asarray(quad, np.float64).reshape(4, 2) for quad in rejected]
     for quad, number in zip(quads, () if numbers is None else np.ravel(numbers), strict=True):
@@ -108,11 +110,13 @@ def _near(refined: Array, found: Array) -> bool:
     return bool(np.max(np.abs(refined - found)) < max(1.5, side / CELLS))
 
 
-@cache
-def _detector() -> Any:
+@lru_cache(maxsize=64)
+def _detector(smallest: float) -> Any:
+    """The detector of squares whose outline is at least a share `smallest` of the longer edge of a picture."""
     import cv2
 
     parameters = cv2.aruco.DetectorParameters()
+    parameters.minMarkerPerimeterRate = smallest
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     parameters.errorCorrectionRate = 0.0
     parameters.maxErroneousBitsInBorderRate = 0.05

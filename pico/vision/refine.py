@@ -22,7 +22,10 @@ _FINE = 16  # samples across a cell of the drawn marker
 _CELLS, _AROUND = 6, 2  # cells across a marker, and of plate that are drawn around it
 _REACH = 0.45  # cells beyond the border that are fitted: less than the plate has
 _ROUNDS = 12
+_STILL = 4e-4  # cells: about what a drawn marker is sampled to, so that no further round tells more
 _MOST = 12_000  # pixels of one marker that are fitted
+_OVER = 0.12
+"""What of a picture differs by more than this share of the contrast is no part of the marker."""
 _FLOOR = 0.01  # pixels: what no fit of one picture is better than
 
 
@@ -63,27 +66,33 @@ def refine(picture: Picture, corners: Array, cells: Array, blur: float = 0.8) ->
     side = float(np.linalg.norm(corners[0] - corners[2])) / 2**0.5 / _CELLS
     parameters: Any = np.append(start.ravel()[:8], blur / side)
     drawn: Any = np.kron(np.pad(cells, 1, constant_values=1.0), np.ones((_FINE, _FINE)))
-    for _ in range(_ROUNDS):
+    for number in range(_ROUNDS):
         design, left, contrast = _linear(patch, drawn, parameters)
+        # once it fits, what lies over the plate or shines on it is left out: it would pull the edges beside it
+        counted = np.abs(left) < (_OVER * contrast if number > 1 else np.inf)
+        design = design[counted]
         normal = design.T @ design
         try:
-            change = np.linalg.solve(normal, design.T @ left)
+            change = np.linalg.solve(normal, design.T @ left[counted])
         except np.linalg.LinAlgError:
             return None
         parameters = parameters + change[:9]
         parameters[8] = min(max(parameters[8], 0.02), 0.6)
-        if np.max(np.abs(change[:8])) < 1e-5:
+        if number > 2 and np.max(np.abs(change[:8])) < _STILL:
             break
     if not np.all(np.isfinite(parameters)) or contrast < 1:
         return None
-    return _result(patch, parameters, np.asarray(np.linalg.pinv(normal), np.float64), left, contrast, side)
+    spread = np.asarray(np.linalg.pinv(normal), np.float64)
+    return _result(patch, parameters, spread, left, left[counted], contrast, side)
 
 
-def _result(patch: _Patch, parameters: Array, spread: Array, left: Array, contrast: float, side: float) -> Fit | None:
+def _result(
+    patch: _Patch, parameters: Array, spread: Array, left: Array, inner: Array, contrast: float, side: float
+) -> Fit | None:
     import numpy as np
 
     corners = _corners(parameters[:8])
-    noise = max(float(left @ left) / max(len(left) - 11, 1), 0.3)  # never less than rounding to gray levels
+    noise = max(float(inner @ inner) / max(len(inner) - 11, 1), 0.3)  # never less than rounding to gray levels
     steps = np.diag(np.full(8, 1e-6))
     jacobian = np.column_stack([(_corners(parameters[:8] + step) - corners).ravel() / 1e-6 for step in steps])
     covariance = jacobian @ spread[:8, :8] @ jacobian.T * noise * patch.scale**2 + np.eye(8) * _FLOOR**2

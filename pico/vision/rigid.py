@@ -31,7 +31,11 @@ def rotation_vector(matrix: Array) -> Array:
     import cv2
     import numpy as np
 
-    vector, _ = cv2.Rodrigues(np.asarray(matrix, np.float64))
+    turn = np.asarray(matrix, np.float64)
+    sine = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
+    if float(np.linalg.norm(sine)) < 1e-4 and np.trace(turn) > 0:
+        return sine  # OpenCV has no turn at all for the smallest ones
+    vector, _ = cv2.Rodrigues(turn)
     return np.asarray(vector, np.float64).ravel()
 
 

@@ -14,7 +14,7 @@ from benches import shel
 from pico.model.catalog import Footprint, Geometry
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
-from pico.motion.setdown import tool_of
+from pico.motion.kinematics import tool_of
 from pico.motion.types import Blocked, MovePath, StandingObject
 
 SETUP, STATE = shel()

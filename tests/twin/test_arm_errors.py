@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from physical import bench, finish, path_to, to
 
-from pico.backends.sim.cameras import eyes_of
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import WorldMover
 from pico.backends.sim.physics import PhysicsWorld
-from pico.backends.sim.sight import scene_of
+from pico.backends.sim.sight import Posed
 from pico.backends.sim.world import World, new_world
 from pico.model.lab import ArmErrors, Setup
 from pico.model.pose import Pose
@@ -103,14 +102,14 @@ def test_the_twin_and_its_cameras_have_the_arm_as_it_is_built() -> None:
     world = new_world(setup)
     world = replace(world, robots={"arm1": replace(world.robots["arm1"], joints=joints)})
     arm = built(setup, world.seed)
-    eyes = eyes_of(setup, world, *scene_of(setup, world))
+    eyes = Posed(setup, world).eyes(world)
     tool = reached(arm.robot, np.array([joints]), arm.built).tools[0]
     assert eyes.placed("hand").pose == pytest.approx(tool @ eyes.cameras["hand"].pose, abs=1e-6)
     twin = Twin(setup, {}, {"arm1": joints})
     site = twin.data.site("arm1/tcp")
     assert site.xpos * 1000 == pytest.approx(tool[:3, 3], abs=1e-6)
     assert site.xmat.reshape(3, 3) == pytest.approx(tool[:3, :3], abs=1e-9)
-    known = scene_of(setup, world, {"arm1": arm.built})[1].site("arm1/tcp")
+    known = Posed(setup, world, {"arm1": arm.built}).eyes(world).data.site("arm1/tcp")
     assert known.xpos * 1000 == pytest.approx(reached(arm.robot, np.array([joints])).tools[0][:3, 3], abs=1e-2)
 
 

@@ -44,7 +44,7 @@ def placed(setup: Setup, shift: float, sight: object = Exact) -> tuple[dict[str,
     assert pose is not None
     there = world.with_body(PART, pose=replace(pose, y=pose.y + shift))  # along the pads, which don't center it
     physics = PhysicsWorld(setup, there, sight=sight)  # type: ignore[arg-type]
-    data = finish(physics, physics.move(to(PART, GOAL), path))
+    data = finish(physics, physics.move(to(PART, GOAL), path), PART, GOAL)
     return data, physics.world(there).components[PART].pose
 
 
@@ -120,6 +120,15 @@ def test_a_seat_pulls_within_its_repeatability_and_the_same_way_for_a_seed(setup
     assert (first, pose) == (second, again)
 
 
+def test_a_part_that_its_seat_has_pulled_is_seen_where_it_is(setup: Setup) -> None:
+    _, physics = fresh(setup)
+    physics.advance(1.0)  # it sleeps
+    physics.twin.pull(PART, 0.4, -0.3, 0.0)
+    seen = physics.twin.data.body(PART).xpos[:2] * 1000
+    pose = physics.twin.placement(PART).pose
+    assert seen == pytest.approx((pose.x, pose.y), abs=1e-3)
+
+
 def test_v_grooves_bring_a_part_to_the_middle_of_the_hand(setup: Setup) -> None:
     kind = setup.lab.inventory[PART].type
     grooved = replace(packaged_type("plano_convex_100_v_groove"), name=kind, seating="free")
@@ -142,7 +151,7 @@ def test_a_part_that_is_in_the_hand_is_set_down(setup: Setup) -> None:
     work.close()
     physics.advance(0.5)
     now = physics.world(world)
-    data = finish(physics, physics.move(to(PART, GOAL), way_down(setup, now)))
+    data = finish(physics, physics.move(to(PART, GOAL), way_down(setup, now)), PART, GOAL)
     assert data["error_mm"] < 0.5
     assert physics.world(now).robots["arm1"].holding is None
 
@@ -178,5 +187,5 @@ def test_a_hand_that_stops_dead_in_mid_motion_holds_its_part_as_before_and_sets_
     assert in_hand(later)[0].distance(before[0]) < 0.2
     assert in_hand(later)[1] == pytest.approx(before[1], abs=0.05)
     at_once = PhysicsWorld(setup, left)
-    data = finish(at_once, at_once.move(to(PART, GOAL), way_down(setup, left)))
+    data = finish(at_once, at_once.move(to(PART, GOAL), way_down(setup, left)), PART, GOAL)
     assert data["error_mm"] < 0.5

@@ -90,7 +90,7 @@ def test_a_hand_that_closed_on_a_part_opens_before_it_moves_off(setup: Setup, wo
 class Blind(Exact):
     """Sees nothing between open fingers."""
 
-    def refer(self, robot: str, component: str) -> bool:
+    def refer(self, robot: str, component: str, stands: Pose | None) -> bool:
         return False
 
 

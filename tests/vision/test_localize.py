@@ -13,7 +13,8 @@ from painted import Painted, bumped, picture, plate_of, scattered, scene, setup,
 from pico.model.pose import Pose, angle_between
 from pico.vision.calibration import Accuracy, Calibration
 from pico.vision.frame import Frame
-from pico.vision.rigid import motion, rotation
+from pico.vision.markers import detect
+from pico.vision.rigid import motion, rotation, upright
 from pico.vision.sighting import Sighting
 
 BENCH = setup(8)
@@ -164,3 +165,13 @@ def test_a_part_of_the_sensor_gives_the_same_pose(poses: dict[str, Pose]) -> Non
         frames.append(Frame(whole.gray[top : v + 60, left : u + 60], (left, top), camera.name, 0.0))
     seen = localize(BENCH, frames, Calibration(CAMERAS))
     assert seen.components["part_1"].pose.distance(poses["part_1"]) < 0.03
+
+
+@pytest.mark.parametrize("covered", [-14.0, -13.0])
+def test_what_lies_over_the_rim_of_a_plate_does_not_pull_its_marker(covered: float) -> None:
+    camera, place = stereo()["left"], upright(Pose(480, 340, 25), 140)
+    rng = np.random.default_rng(4)
+    free, hidden = (
+        detect(picture(camera, [Painted(5, place, 24.0, hides)], rng)).markers[0] for hides in (-1e9, covered)
+    )
+    assert np.abs(hidden.corners - free.corners).max() < 0.1

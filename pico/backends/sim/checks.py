@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, cast
 
 from pico.backends.sim.mover import MoveFailed
-from pico.backends.sim.world import World, WorldBody
+from pico.backends.sim.world import World
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Geometry, Tunable
 from pico.model.diff import deviation
 from pico.model.lab import Setup
-from pico.model.observation import ObservedValue, Presence
+from pico.model.observation import Observation, ObservedComponent, ObservedValue, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -31,14 +32,14 @@ def places(operation: Operation) -> tuple[Pose, Pose, str | None]:
         raise MoveFailed(error("bad-plan", text, hint="plan again", address=operation.component)) from exc
 
 
-def require_ready(setup: Setup, world: World, operation: Operation, start: Pose) -> Pose:
+def require_ready(setup: Setup, seen: Observation, operation: Operation, start: Pose) -> Pose:
     """Return where the component of a move stands, within tolerance of `start`; raises MoveFailed where it doesn't,
     or where the robot is not free."""
     name, robot = operation.component, operation.robot or "(none)"
     if robot not in setup.lab.robots:
         raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}", address=name))
-    require_empty(world, robot)
-    pose = standing_pose(world, name)
+    require_empty(seen, robot)
+    pose = standing_pose(seen, name)
     tolerance = setup.type_of(name).pose.tolerance
     away, turned = pose.distance(start), abs(angle_between(start.yaw, pose.yaw))
     if away > tolerance.position or turned > tolerance.yaw:
@@ -53,44 +54,49 @@ def in_hand(operation: Operation) -> bool:
     return isinstance(start, dict) and bool(start.get("held"))
 
 
-def require_held(setup: Setup, world: World, operation: Operation) -> Pose:
+def require_held(setup: Setup, seen: Observation, operation: Operation) -> Pose:
     """Return where the part is that a robot holds, seen from above; raises MoveFailed where it holds another or none.
     A hand that holds something never opens for anything else."""
     name, robot = operation.component, operation.robot or "(none)"
     if robot not in setup.lab.robots:
         raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}", address=name))
-    holding, pose = world.robots[robot].holding, world.components[name].pose
+    holding, pose = seen.robots[robot].holding, seen.components[name].pose
     if holding != name or pose is None:
         text = f"{robot} holds {holding or 'nothing'}, not {name}"
         raise MoveFailed(error("not-held", text, hint=_AGAIN, address=name))
     return pose
 
 
-def require_empty(world: World, robot: str) -> None:
+def require_empty(seen: Observation, robot: str) -> None:
     """Raise MoveFailed where a robot has something in its gripper."""
-    holding = world.robots[robot].holding
+    holding = seen.robots[robot].holding
     if holding:
         hint = "`pico recover` sets it down; so does the next plan, before anything else"
         raise MoveFailed(error("hand-full", f"{robot} still holds {holding}", hint=hint, address=holding))
 
 
-def standing_pose(world: World, name: str) -> Pose:
+def standing_pose(seen: Observation, name: str) -> Pose:
     """Return where a component stands; raises MoveFailed where it doesn't."""
-    body = world.components.get(name, WorldBody(type="", presence="missing"))
+    body = seen.components.get(name, ObservedComponent(presence="missing"))
     if body.presence != "seen" or body.pose is None:
-        text = f"{name} {_PRESENCE.get(body.presence, 'is not on the table')}"
-        raise MoveFailed(error(body.presence, text, hint=_AGAIN, address=name))
+        raise not_standing(name, body.presence)
     return body.pose
 
 
-def standing(setup: Setup, world: World) -> dict[str, StandingObject]:
+def not_standing(name: str, presence: Presence) -> MoveFailed:
+    """Return the failure of a motion with a component that does not stand on the table."""
+    text = f"{name} {_PRESENCE.get(presence, 'is not on the table')}"
+    return MoveFailed(error(presence, text, hint=_AGAIN, address=name))
+
+
+def standing(setup: Setup, seen: Observation) -> dict[str, StandingObject]:
     """Return everything that stands on the table with its shape; a toppled part as if it stood there."""
     found = {
         name: StandingObject(body.pose, setup.type_of(name).geometry)
-        for name, body in world.components.items()
+        for name, body in seen.components.items()
         if body.pose is not None and body.presence in ("seen", "toppled")
     }
-    for name, thing in world.unknown.items():
+    for name, thing in seen.unknown.items():
         found[name] = StandingObject(thing.pose, Geometry(footprint=thing.footprint, height=thing.height, mass=0.0))
     return found
 
@@ -106,13 +112,14 @@ def meets(name: str, robot: str, zone: str) -> MoveFailed:
     return MoveFailed(error("blocked", text, hint=_AGAIN, address=name))
 
 
-def require_placed(setup: Setup, world: World, name: str, goal: Pose, slot: str | None) -> None:
-    """Raise MoveFailed where a component that was put down does not stand where it should, within its tolerance."""
-    pose = standing_pose(world, name)
-    if deviation(setup, name, pose, slot, goal) == "off":
-        away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
-        text = f"{name} stands {away:.3g} mm and {turned:.3g}° from its goal {slot or goal}"
-        raise MoveFailed(error("misplaced", text, hint=_AGAIN, address=name))
+def misplaced(setup: Setup, name: str, pose: Pose, goal: Pose, slot: str | None) -> Diagnostic | None:
+    """Return what is said of a component that was put down and does not stand where it should, within its tolerance;
+    None where it does."""
+    if deviation(setup, name, pose, slot, goal) != "off":
+        return None
+    away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
+    text = f"{name} stands {away:.3g} mm and {turned:.3g}° from its goal {slot or goal}"
+    return error("misplaced", text, hint=_AGAIN, address=name)
 
 
 def setpoint(setup: Setup, operation: Operation) -> tuple[str, Tunable]:
@@ -148,13 +155,13 @@ def not_simulated(component: str, what: str) -> Diagnostic:
     return error("not-simulated", text, hint=hint, address=component)
 
 
-def require_dark(setup: Setup, world: World, operation: Operation) -> None:
+def require_dark(setup: Setup, seen: Observation, operation: Operation) -> None:
     """Raise MoveFailed where an arm would work in the open beam of a laser whose shutter can be closed, unless the lab
     allows it. The shutter is read back here, whatever the plan closed before."""
     if setup.lab.policy.open_beam:
         return
-    for name, body in sorted(world.components.items()):
-        if not _has_shutter(setup, world, name) or body.presence == "missing":
+    for name, body in sorted(seen.components.items()):
+        if not _has_shutter(setup, seen, name) or body.presence == "missing":
             continue
         shutter = body.values["shutter"]
         if shutter.status != "known" or shutter.value != "closed":
@@ -163,21 +170,34 @@ def require_dark(setup: Setup, world: World, operation: Operation) -> None:
             raise MoveFailed(error("open-beam", text, hint=f"`pico set {name} shutter=closed`; {_AGAIN}", address=name))
 
 
-def _has_shutter(setup: Setup, world: World, name: str) -> bool:
+def _has_shutter(setup: Setup, seen: Observation | World, name: str) -> bool:
     if name not in setup.lab.inventory or setup.type_of(name).optics.element != "source":
         return False
     shutter = setup.type_of(name).tunables.get("shutter")
     closes = shutter is not None and shutter.mover in ("motor", "electronics") and "closed" in shutter.choices
-    return closes and "shutter" in world.components[name].values
+    return closes and "shutter" in seen.components[name].values
 
 
-def dropped(robot: str, name: str, pose: Pose, presence: Presence) -> Diagnostic:
+LOST = frozenset({"dropped", "missed-grasp", "slipped", "unseen"})
+"""The failures of a motion after which it must be said where the part is."""
+
+
+def dropped(robot: str, name: str) -> Diagnostic:
     """Return what is said of a part that fell out of the hand."""
-    where = {"seen": f"it stands at {pose}", "toppled": f"it lies on its side at {pose}"}.get(
-        presence, "it fell off the table"
-    )
-    hint = _AGAIN if presence == "seen" else f"put it upright by hand (here `pico sim nudge {name}`), then plan again"
-    return error("dropped", f"{robot} dropped {name}; {where}", hint=hint, address=name)
+    return error("dropped", f"{robot} dropped {name}", address=name)
+
+
+def found_again(said: Diagnostic, name: str, part: ObservedComponent) -> Diagnostic:
+    """Return what is said of a part that was lost, with where it is now and what to do about it."""
+    by_hand = f"put it upright by hand (here `pico sim nudge {name}`), then plan again"
+    pose = part.pose
+    if pose is None:
+        return replace(said, summary=f"{said.summary}; it is not on the table", hint=by_hand)
+    if part.presence == "toppled":
+        where = f"it lies on its side at x = {pose.x:.0f}, y = {pose.y:.0f}"
+        return replace(said, summary=f"{said.summary}; {where}", hint=by_hand)
+    tidy = Pose(round(pose.x, 1) + 0.0, round(pose.y, 1) + 0.0, round(pose.yaw, 1) + 0.0)
+    return replace(said, summary=f"{said.summary}; it stands at {tidy}", hint=_AGAIN)
 
 
 def jammed(robot: str, name: str) -> Diagnostic:

@@ -136,6 +136,7 @@ class SimDevice:
         self._session = WorldSession(
             self.setup, self.root, world, fidelity=self.fidelity, token=token, motion=self._motion, tell=tell,
             clock=self._clock, faults=faults_of(self.setup, self.root),
+            look=self._by_sight if self.setup.lab.sim.runs_by_sight(self.fidelity) else None,
         )  # fmt: skip
         if self._look is not None:
             self._session.watch(self._look)
@@ -145,17 +146,21 @@ class SimDevice:
         assert self._session is not None  # only who has taken the device executes
         result = await self._session.execute(operation, key, began)
         if result.outcome == "done" and operation.kind.carries:
-            self._note_placed(operation, result.ended)
+            self._note_placed(operation, result)
         return result
 
-    def _note_placed(self, operation: Operation, time: float) -> None:
+    def _note_placed(self, operation: Operation, result: OperationResult) -> None:
         """Remember where an arm put a part down, for it may hide it from the cameras."""
         from pico.backends.last_seen import LastSeen
 
-        repeatability = self.setup.type_of(operation.component).repeatability
+        after, name, time = result.after, operation.component, result.ended
+        if after and after.pose and after.how in ("stereo", "known height", "in hand"):
+            self._placed[name] = LastSeen(pose=after.pose, uncertainty=after.uncertainty, time=time)
+            return
+        repeatability = self.setup.type_of(name).repeatability
         sigma = Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
         pose = Pose(**operation.arguments["to"]["pose"])
-        self._placed[operation.component] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
+        self._placed[name] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
 
     async def halt(self) -> None:
         """Wait until what is under way has reached a safe end."""

@@ -8,7 +8,7 @@ from pico.backends.sim import checks
 from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import MoveFailed, WorldMover
-from pico.backends.sim.world import World
+from pico.backends.sim.world import World, observe
 from pico.model.lab import Setup
 from pico.model.observation import Presence
 from pico.model.operation import Operation
@@ -37,16 +37,15 @@ class Mishaps:
         if fault is None or fault.kind != "slip" or not isinstance(self._mover, KinematicWorld):
             return
         world = self._world()
-        where = beside(checks.standing_pose(world, name), fault.draw)
+        where = beside(checks.standing_pose(observe(world, "sim", ""), name), fault.draw)
         if room_at(self._setup, name, where, _standing(world)):
             self._mover.let_go(name, where, "seen")
 
-    def looked_at(self, name: str, fault: Fault | None) -> Generator[float, None, Pose]:
-        """Return where a part that was put down is seen: two looks that agree are believed.
+    def looked_at(self, name: str, pose: Pose, fault: Fault | None) -> Generator[float, None, Pose]:
+        """Return where a part that was put down at `pose` is seen: two looks that agree are believed.
 
         Raises MoveFailed, outcome unknown, where no look shows it.
         """
-        pose = checks.standing_pose(self._world(), name)
         if fault is None or fault.kind not in ("camera", "reading"):
             return pose
         believed: list[Pose] = []
@@ -79,7 +78,7 @@ class Mishaps:
         presence = self._fallen(name, pose, fault)
         assert isinstance(self._mover, KinematicWorld)  # else it has a twin
         self._mover.let_go(name, pose, presence)
-        raise MoveFailed(checks.dropped(robot, name, pose, presence))
+        raise MoveFailed(checks.dropped(robot, name))
 
     def _fallen(self, name: str, pose: Pose, fault: Fault) -> Presence:
         room = room_at(self._setup, name, pose, _standing(self._world()))

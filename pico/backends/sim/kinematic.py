@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_right
 from collections.abc import Generator, Mapping
 from dataclasses import replace
@@ -14,7 +13,7 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
-from pico.motion.kinematics import tool_pose
+from pico.motion.kinematics import tool_of
 from pico.motion.types import Joints, MovePath, Segment
 from pico.twin.arms import arms_of
 from pico.vision.arm import ArmOffsets
@@ -22,6 +21,9 @@ from pico.vision.arm import ArmOffsets
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from pico.backends.sim.sight import Posed
+    from pico.cameras.simulated import Eyes
 
     Array = NDArray[np.float64]
 
@@ -40,7 +42,7 @@ class KinematicWorld:
     """
 
     def __init__(self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None) -> None:
-        self._setup = setup
+        self._setup, self._known = setup, known
         self.step = STEP
         self._arms = {n: arm for n, arm in arms_of(setup, world.seed, known).items() if not arm.perfect}
         self._slack: dict[str, Array] = {}  # by how much motors are ahead of joints, of arms that are not perfect
@@ -52,11 +54,12 @@ class KinematicWorld:
                 self._held[name] = (robot.holding, self._tool(name).inverse().compose(body.pose))
         self._placed: dict[str, Pose] = {}  # what was put down since
         self._fallen: dict[str, Presence] = {}  # and what does not stand
+        self._scene: Posed | None = None
 
     def advance(self, seconds: float) -> None:
         """Nothing happens between the moments at which operations are resumed."""
 
-    def move(self, operation: Operation, path: MovePath) -> InProgress:
+    def move(self, operation: Operation, path: MovePath, stands: Pose | None = None) -> InProgress:
         """Walk `path`: the component goes with the tool from the end of `grip` to that of `release`."""
         robot, goal = path.robot, Pose(**operation.arguments["to"]["pose"])
         start = Pose(**operation.arguments["from"]["pose"])
@@ -68,7 +71,7 @@ class KinematicWorld:
                 self._placed[operation.component] = (robot in self._arms and self.carried(robot)) or goal
                 del self._held[robot]
                 self._fallen.pop(operation.component, None)
-        return {"error_mm": 0.0, "error_deg": 0.0}
+        return {}
 
     def park(self, path: MovePath) -> InProgress:
         """Walk `path`."""
@@ -80,6 +83,16 @@ class KinematicWorld:
         """Let a component be at `pose`, standing or not, and in no hand: what a hand does that loses it."""
         self._held = {robot: held for robot, held in self._held.items() if held[0] != name}
         self._placed[name], self._fallen[name] = pose, presence
+
+    def eyes(self, world: World) -> Eyes:
+        """Return the cameras, which look at `world` as it is now."""
+        from pico.backends.sim.sight import Posed
+
+        self._scene = self._scene or Posed(self._setup, world, self._known)
+        return self._scene.eyes(world)
+
+    def left(self, component: str) -> None:
+        """No hand has an eye here: its fingers would hide nothing from it."""
 
     def carried(self, robot: str) -> Pose | None:
         """Return where the component in the gripper is, or None."""
@@ -105,12 +118,7 @@ class KinematicWorld:
     def _tool(self, robot: str) -> Pose:
         if robot in self._arms:
             return self._arms[robot].tool(self._joints[robot], self._slack.get(robot))
-        mounted, joints = self._setup.lab.robots[robot], self._joints[robot]
-        if mounted.model == "gantry":
-            x, y, _, turn = joints
-            return Pose(1000 * x, 1000 * y, math.degrees(turn))
-        x, y, _, yaw = tool_pose(mounted, joints)
-        return Pose(x, y, yaw)
+        return tool_of(self._setup.lab.robots[robot], self._joints[robot])
 
     def _brake(self, robot: str, segment: Segment, elapsed: float) -> Generator[float, None, None]:
         """Come to rest evenly: on the way by half of what the arm would have gone on."""

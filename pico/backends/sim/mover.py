@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from pico.backends.attempt import Failed
 from pico.backends.sim.world import World
 from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.motion.types import MovePath
+
+if TYPE_CHECKING:
+    from pico.cameras.simulated import Eyes
+    from pico.twin.sight import InHand
 
 InProgress = Generator[float, None, dict[str, Any]]
 """An operation in progress: yields the seconds until it wants to be resumed, returns the data of its result."""
@@ -26,16 +30,24 @@ class WorldMover(Protocol):
         """Let `seconds` pass for all operations in progress."""
         ...
 
-    def move(self, operation: Operation, path: MovePath) -> InProgress:
-        """Pick and place `operation.component` along `path`.
+    def move(self, operation: Operation, path: MovePath, stands: Pose | None = None) -> InProgress:
+        """Pick and place `operation.component` along `path`; `stands`: where it was seen just now, if it was.
 
-        The generator returns `{"error_mm": ..., "error_deg": ...}`, how far from the goal the component ended, and
-        raises MoveFailed. Closed early, it leaves robot and component as they are at that moment.
+        The generator returns what it corrected, and raises MoveFailed. Closed early, it leaves robot and component as
+        they are at that moment.
         """
         ...
 
     def park(self, path: MovePath) -> InProgress:
         """Bring `path.robot` along `path`, its gripper as it is."""
+        ...
+
+    def eyes(self, world: World) -> Eyes:
+        """Return the cameras, which look at `world` as it is now."""
+        ...
+
+    def left(self, component: str) -> InHand | None:
+        """Return where the eye in a hand saw a component when the hand let go of it; None where none did."""
         ...
 
     def carried(self, robot: str) -> Pose | None:

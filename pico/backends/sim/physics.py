@@ -7,7 +7,7 @@ import random
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.mover import InProgress, MoveFailed
@@ -21,14 +21,20 @@ from pico.model.pose import Pose, angle_between
 from pico.motion.types import MovePath
 from pico.twin.arms import arms_of
 from pico.twin.gestures import walk
-from pico.twin.handling import Handling
-from pico.twin.missing_parts import FALLEN, TOPPLED, Lost
+from pico.twin.handling import Handling, Lost
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import SceneBody
-from pico.twin.sight import Exact, HandSight
+from pico.twin.sight import Exact, HandSight, InHand
 from pico.vision.arm import ArmOffsets
 
+if TYPE_CHECKING:
+    from pico.cameras.simulated import Eyes
+
+TOPPLED = 5.0
+"""A part that leans more than this does not stand [deg]."""
+FALLEN = -20.0
+"""A part whose base is lower than this has left the table [mm]."""
 OFF_PLANE = 3.0
 """A part whose base is farther from the table than this does not stand on it [mm]."""
 HELD_ABOVE = 0.2
@@ -66,22 +72,26 @@ class PhysicsWorld:
         arms = arms_of(setup, world.seed, known)
         self.twin = Twin(setup, things, joints, world.openings, holding=holding, pad_friction=friction, arms=arms)
         self._sight = sight(self.twin) if sight else None
+        self._eyes: Eyes | None = None
+        self._left: dict[str, InHand | None] = {}
 
     def advance(self, seconds: float) -> None:
         """Let `seconds` pass for all operations in progress."""
         self.twin.advance(seconds)
 
-    def move(self, operation: Operation, path: MovePath) -> InProgress:
+    def move(self, operation: Operation, path: MovePath, stands: Pose | None = None) -> InProgress:
         """Pick `operation.component`, carry and place it along `path`; see `Handling.run` for what is returned.
 
         Raises MoveFailed where the part was missed, dropped or toppled: then the hand is open and above the table.
         """
         self._require_fingers(path.robot)
-        goal = Pose(**operation.arguments["to"]["pose"])
-        handling = Handling(
-            self.twin, self._setup.lab.robots[path.robot], operation.component, path, goal, self._sight, self._seat
-        )
+        name, goal = operation.component, Pose(**operation.arguments["to"]["pose"])
+        grasp, robot = self._setup.type_of(name).geometry.grasp, self._setup.lab.robots[path.robot]
+        assert grasp is not None  # else it has no path
+        handling = Handling(self.twin, robot, name, grasp, path, goal, self._sight, stands, self._seat)
+        self._left.pop(name, None)
         found: dict[str, Any] = yield from self._guarded(path.robot, handling.run())
+        self._left[name] = handling.left
         return found
 
     def park(self, path: MovePath) -> InProgress:
@@ -91,6 +101,17 @@ class PhysicsWorld:
             self.twin.grip(path.robot, path.segments[0].opening)
         yield from self._guarded(path.robot, walk(self.twin, path.robot, path.segments))
         return {}
+
+    def eyes(self, world: World) -> Eyes:
+        """Return the cameras, which look at the twin as it is now."""
+        from pico.backends.sim.cameras import eyes_of
+
+        self._eyes = self._eyes or eyes_of(self._setup, world, self.twin.model, self.twin.data)
+        return self._eyes
+
+    def left(self, component: str) -> InHand | None:
+        """Return where the eye in a hand saw a component when the hand let go of it; None where none did."""
+        return self._left.get(component)
 
     def carried(self, robot: str) -> Pose | None:
         """Return where the component in the gripper of `robot` is, seen from above, or None where it holds none."""
@@ -146,8 +167,9 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight
 
     The eyes trust the calibration in the folder `root`, and what the lab says of its cameras where there is none.
     """
-    if setup.lab.sim.sight != "pixels":
-        return Exact if setup.lab.sim.sight == "exact" else None
+    sight = setup.lab.sim.hand_sight
+    if sight != "pixels":
+        return Exact if sight == "exact" else None
 
     def eyes(twin: Twin) -> HandSight:
         from pico.backends.sim.cameras import eyes_of
@@ -157,7 +179,8 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight
 
         found = read_calibration(root)
         trusted = camera_models(setup) | dict(found.cameras if found else {})
-        return EyeInHand(setup, twin, eyes_of(setup, world, twin.model, twin.data), trusted)
+        accuracy = found.accuracy if found else None
+        return EyeInHand(setup, twin, eyes_of(setup, world, twin.model, twin.data), trusted, accuracy)
 
     return eyes
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pico.backends.attempt import attempt
 from pico.backends.device import Began
@@ -18,18 +18,19 @@ from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
 from pico.backends.sim.faults import Fault, Faults
 from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
+from pico.backends.sim.known import BySight, Exactly, Known
 from pico.backends.sim.measuring import measured, require_simulated
 from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
-from pico.backends.sim.world import World, observe
+from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent, ObservedValue, slot_at
 from pico.model.operation import Operation, OperationResult
-from pico.model.pose import Pose
+from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
@@ -37,6 +38,9 @@ from pico.motion.types import Blocked, Joints, Motion, MovePath
 from pico.motion.zones import enters, shared_zones
 from pico.twin.snapshot import Snapshot
 from pico.vision.calibration import known_arms
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
 
 PROGRESS = 0.25
 """Simulated seconds between two reports of an operation's progress, at least."""
@@ -52,7 +56,8 @@ KEPT = 0.05
 
 
 class WorldSession:
-    """Executes operations on `world`. `motion` finds paths; `tell` hears of starts and progress."""
+    """Executes operations on `world`. `motion` finds paths; `tell` hears of starts and progress; `look` looks at the
+    table by sight: then nothing is known of it but what that tells. Without it, everything is."""
 
     def __init__(
         self,
@@ -66,12 +71,15 @@ class WorldSession:
         tell: Callable[[Event], None],
         clock: Callable[[], str],
         faults: Faults | None = None,
+        look: Callable[[], Look] | None = None,
     ) -> None:
         self._setup, self._root, self._world = setup, root, world
         self._motion, self._tell_all, self._clock = motion, tell, clock
         self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._told, self._halting, self._kept = 0, False, 0.0
+        here = self.world
+        self._known: Known = BySight(setup, root, here, self._mover, look) if look else Exactly(here)
         self._zones: dict[str, set[str]] = {}  # by the arm that may be there now
         self._mishaps = Mishaps(setup, faults or Faults(), token, self._mover, self.world)
 
@@ -136,7 +144,10 @@ class WorldSession:
         if component in self._mishaps.unseen:
             self._mishaps.unseen.remove(component)
             return None
-        return observe(self.world(), "sim", "").components.get(component)
+        try:
+            return self._known.seen().components.get(component)
+        except MoveFailed:
+            return None
 
     def store(self) -> None:
         """Store the world durably."""
@@ -167,31 +178,57 @@ class WorldSession:
         return {}
 
     def _move(self, operation: Operation, key: str) -> InProgress:
-        """Pick and place on the table as it is now: the path is found anew, from where arm and component really are."""
-        name = operation.component
+        """Pick and place on the table as it is now, and again where the part then does not stand as it should."""
+        name, fault = operation.component, self._mishaps.of(operation, key)
         planned, goal, slot = checks.places(operation)
-        start, path = self._way(operation, planned, goal)
+        for left in reversed(range(1 + self._known.corrections)):
+            data = yield from self._carried(operation, key, planned, fault)
+            self._mishaps.slipped(name, fault)
+            part = self._known.confirm(name, goal)
+            if part.presence != "seen" or part.pose is None:
+                break
+            there = yield from self._mishaps.looked_at(name, part.pose, fault)
+            wrong = checks.misplaced(self._setup, name, there, goal, slot)
+            if wrong is None:
+                off = {"error_mm": there.distance(goal), "error_deg": abs(angle_between(goal.yaw, there.yaw))}
+                return {**off, **data}
+            if not left:
+                raise MoveFailed(wrong)
+            planned, fault = there, None
+            operation = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(there)}})
+        raise checks.not_standing(name, part.presence)
+
+    def _carried(self, operation: Operation, key: str, planned: Pose, fault: Fault | None) -> InProgress:
+        """Pick and place once: the path is found anew, from where arm and component are."""
+        name = operation.component
+        stands = None if checks.in_hand(operation) else self._known.survey(name)
+        start, path = self._way(operation, planned, checks.places(operation)[1])
         if isinstance(path, Blocked):
             raise checks.blocked(name, path)
-        checks.require_dark(self._setup, self.world(), operation)
+        checks.require_dark(self._setup, self._known.seen(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
-        fault = self._mishaps.of(operation, key)
-        with self._in_zones(operation, path):
-            data = yield from self._reported(actual, key, path, self._mover.move(actual, path), fault)
-        self._mishaps.slipped(name, fault)
-        seen = yield from self._mishaps.looked_at(name, fault)
-        checks.require_placed(self._setup, self.world().with_body(name, pose=seen), name, goal, slot)
-        return data
+        self._known.takes(name, path)
+        try:
+            with self._in_zones(operation, path):
+                return (yield from self._reported(actual, key, path, self._mover.move(actual, path, stands), fault))
+        except MoveFailed as exc:
+            try:
+                part = self._known.confirm(name, start)
+            except MoveFailed:  # nothing can be seen, which is not what went wrong first
+                raise exc from None
+            if exc.diagnostic.code not in checks.LOST:
+                raise
+            raise MoveFailed(checks.found_again(exc.diagnostic, name, part), exc.outcome) from exc
 
     def _way(self, operation: Operation, planned: Pose, goal: Pose) -> tuple[Pose, MovePath | Blocked]:
         """Return where a part stands, or is in the hand, and the path that takes it from there to its goal."""
-        world, name, robot = self.world(), operation.component, operation.robot or ""
-        standing, joints = checks.standing(self._setup, world), world.robots
+        seen, name, robot = self._known.seen(), operation.component, operation.robot or ""
+        standing, joints = checks.standing(self._setup, seen), seen.robots
         if checks.in_hand(operation):
-            held = checks.require_held(self._setup, world, operation)
+            held = checks.require_held(self._setup, seen, operation)
             now = joints[robot].joints
             return held, self._motion.set_down(robot, name, held, goal, standing, now, self._elsewhere(robot))
-        start = checks.require_ready(self._setup, world, operation, planned)
+        start = checks.require_ready(self._setup, seen, operation, planned)
         path = self._motion.move(
             robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)), standing, joints[robot].joints,
             self._elsewhere(robot),
@@ -202,9 +239,10 @@ class WorldSession:
         robot = operation.robot or operation.component
         if robot not in self._setup.lab.robots:
             raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
-        checks.require_empty(self.world(), robot)
-        joints = self.world().robots[robot].joints
-        path = self._motion.park(robot, joints, checks.standing(self._setup, self.world()), self._elsewhere(robot))
+        seen = self._known.seen()
+        checks.require_empty(seen, robot)
+        joints = seen.robots[robot].joints
+        path = self._motion.park(robot, joints, checks.standing(self._setup, seen), self._elsewhere(robot))
         if isinstance(path, Blocked):
             raise checks.blocked(robot, path)
         with self._in_zones(operation, path):
@@ -234,7 +272,7 @@ class WorldSession:
     def _set(self, operation: Operation, key: str) -> InProgress:
         """Drive a tunable to a value, or its axis to its home; while it moves nobody knows its value."""
         name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
-        checks.standing_pose(self.world(), name)
+        checks.standing_pose(self._known.seen(), name)
         live, fault = self._world.components[name].values[tunable], self._mishaps.of(operation, key)
         before = None if live.status == "unknown" else live.value
         if operation.primitive == "home":
@@ -314,12 +352,13 @@ class WorldSession:
 
     def _back(self, operation: Operation, start: Pose) -> MovePath | None:
         """Return the way back to where a part was picked, or None where there is none or the hand holds nothing."""
-        robot, world = operation.robot or "", self.world()
-        held, joints = self._mover.carried(robot), world.robots[robot].joints
-        if held is None:
+        robot, seen = operation.robot or "", self._known.seen()
+        part, joints = seen.components[operation.component], seen.robots[robot].joints
+        if part.presence != "held" or part.pose is None:
             return None
+        standing = checks.standing(self._setup, seen)
         back = self._motion.set_down(
-            robot, operation.component, held, start, checks.standing(self._setup, world), joints, self._elsewhere(robot)
+            robot, operation.component, part.pose, start, standing, joints, self._elsewhere(robot)
         )
         return None if isinstance(back, Blocked) else back
 
@@ -333,10 +372,9 @@ class WorldSession:
 
     def _withdraw(self, robot: str) -> Generator[float, None, None]:
         """Bring an arm with an empty hand to its park pose, where there is a way."""
-        world = self.world()
-        path = self._motion.park(
-            robot, world.robots[robot].joints, checks.standing(self._setup, world), self._elsewhere(robot)
-        )
+        seen = self._known.seen()
+        standing = checks.standing(self._setup, seen)
+        path = self._motion.park(robot, seen.robots[robot].joints, standing, self._elsewhere(robot))
         if not isinstance(path, Blocked):
             yield from self._mover.park(path)
 
@@ -347,8 +385,9 @@ class WorldSession:
             save_world(self._root, self.world(), durable=False)
 
     def _progress(self, path: MovePath, elapsed: float) -> dict[str, Any]:
-        phase = phase_at(path, elapsed)
-        pose = self._mover.carried(path.robot)
+        phase, seen = phase_at(path, elapsed), self._known.seen()
+        held = seen.robots[path.robot].holding
+        pose = seen.components[held].pose if held else None
         found = {"phase": phase, "fraction": min(1.0, elapsed / path.seconds) if path.seconds else 1.0}
         return found | ({"pose": as_json(pose)} if pose else {})
 

@@ -3,28 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.backends.last_seen import LastSeen
+from pico.backends.last_seen import LastSeen, recall_hands
 from pico.backends.sight import Look, look, no_cameras
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.cameras import eyes_of
+from pico.backends.sim.senses import sensed
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
 from pico.twin.arms import arms_of, motors
+from pico.twin.placement import Placement
 from pico.vision.arm import ArmOffsets
 from pico.vision.calibration import known_arms, read_calibration
+from pico.vision.frame import exposed
 
 if TYPE_CHECKING:
-    import mujoco
-
     from pico.cameras.simulated import Eyes
     from pico.vision.frame import Frame
-
-TRIES = 3
-"""Pictures that are asked of a camera before it counts as lost."""
 
 
 def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, last: Mapping[str, LastSeen]) -> Look:
@@ -35,44 +34,57 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
     names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
     if not names:
         raise no_cameras(setup)
-    eyes = eyes_of(setup, world, *scene_of(setup, world, known_arms(root)))
-    pictures = [_picture(eyes, name) for name in names]
-    return look(setup, pictures, read_calibration(root), observe(world, backend, observed_at), last)
+    eyes = Posed(setup, world, known_arms(root)).eyes(world)
+    pictures = [exposed(partial(eyes.frame, name)) for name in names]
+    if setup.lab.sim.observe == "sight":
+        told = sensed(setup, world, recall_hands(root), backend, observed_at)
+    else:
+        told = observe(world, backend, observed_at)
+    return look(setup, pictures, read_calibration(root), told, last)
 
 
 def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:
     """Return what one camera sees of `world`; black where it was asked often enough."""
-    return _picture(eyes_of(setup, world, *scene_of(setup, world, known_arms(root))), name)
+    eyes = Posed(setup, world, known_arms(root)).eyes(world)
+    return exposed(partial(eyes.frame, name))
 
 
-def _picture(eyes: Eyes, name: str) -> Frame:
-    frame = eyes.frame(name)
-    for _ in range(TRIES - 1):
-        if not frame.black:
-            break
-        frame = eyes.frame(name)
-    return frame
+_GONE = Placement((0.0, 0.0, -10.0), (1.0, 0.0, 0.0, 0.0))
+"""Where no camera sees a part that has left the table since."""
 
 
-def scene_of(
-    setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None
-) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return the scene of a world, strangers included, ready to be looked at; `known`: how arms are off, as calibration
-    found it."""
-    import mujoco
+class Posed:
+    """The scene of a world, strangers included, that is posed as the world goes on; `known`: how arms are off, as
+    calibration found it."""
 
-    from pico.drawing.picture import pose_model
-    from pico.twin.placement import upright
-    from pico.twin.scene import SceneBody, build_scene
+    def __init__(self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None) -> None:
+        import mujoco
 
-    places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
-    things = {name: SceneBody(setup.type_of(name).geometry, place) for name, place in places.items()}
-    for name, stranger in world.unknown.items():
-        shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
-        things[name] = SceneBody(shape, upright(stranger.pose))
-    arms = arms_of(setup, world.seed, known)
-    model = build_scene(setup, things, arms=arms).compile()
-    model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    data = mujoco.MjData(model)
-    pose_model(setup, model, data, places, motors(arms, {name: robot.joints for name, robot in world.robots.items()}))
-    return model, data
+        from pico.twin.placement import upright
+        from pico.twin.scene import SceneBody, build_scene
+
+        self._setup, places = setup, _places(setup, world)
+        things = {name: SceneBody(setup.type_of(name).geometry, place) for name, place in places.items()}
+        self._parts = tuple(things)
+        for name, stranger in world.unknown.items():
+            shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
+            things[name] = SceneBody(shape, upright(stranger.pose))
+        self._arms = arms_of(setup, world.seed, known)
+        self._model = build_scene(setup, things, arms=self._arms).compile()
+        self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        self._eyes = eyes_of(setup, world, self._model, mujoco.MjData(self._model))
+
+    def eyes(self, world: World) -> Eyes:
+        """Return the cameras, which look at `world`."""
+        from pico.drawing.picture import pose_model
+
+        places = dict.fromkeys(self._parts, _GONE) | {
+            name: place for name, place in _places(self._setup, world).items() if name in self._parts
+        }
+        joints = {name: robot.joints for name, robot in world.robots.items()}
+        pose_model(self._setup, self._model, self._eyes.data, places, motors(self._arms, joints))
+        return self._eyes
+
+
+def _places(setup: Setup, world: World) -> dict[str, Placement]:
+    return {name: place for name in world.components if (place := body_placement(setup, world, name))}
