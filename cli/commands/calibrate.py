@@ -15,7 +15,7 @@ from ..views import calibration as view
 from ..views import markers as sheets
 
 app = group(
-    help="Find out where the cameras are; print the markers.",
+    help="Find out where cameras and arms are; print the markers.",
     examples=("pico calibrate", "pico calibrate markers --paper letter"),
     alone=True,
 )
@@ -29,10 +29,11 @@ def main(context: typer.Context) -> None:
 
 @app.command()
 def cameras(context: typer.Context) -> None:
-    """Find out where the cameras are and how their lenses draw.
+    """Find out where the cameras are, how their lenses draw and how the arms are built.
 
-    From pictures of the calibration board and of the datums; takes about half a minute. Writes calibration.json into
-    the lab's folder. Nothing on the table moves. `pico calibrate` alone is the same.
+    From pictures of the datums and of the calibration board, held up by a person and by the arms, and from the arms'
+    encoders; takes about half a minute. Writes calibration.json into the lab's folder. Nothing on the table moves.
+    `pico calibrate` alone is the same.
     """
     from pico.vision.calibration import FILE
 

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from pico.model.observation import Observation
     from pico.model.pose import Pose
     from pico.twin.placement import Placement
+    from pico.vision.arm import ArmOffsets
     from pico.vision.camera import CameraModel
 
 Held = Callable[[str], AbstractContextManager[Any]]
@@ -44,6 +45,10 @@ class World(Protocol):
 
     def true_cameras(self) -> Mapping[str, CameraModel]:
         """Return the cameras as they really are: what pictures are taken with, and what calibration has to find."""
+        ...
+
+    def true_arms(self) -> Mapping[str, ArmOffsets]:
+        """Return how the arms are really built: what calibration has to find."""
         ...
 
     def remove(self, name: str) -> None:

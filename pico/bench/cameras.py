@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.request import require_component
 
 if TYPE_CHECKING:
@@ -44,15 +44,27 @@ class Cameras:
         return image
 
     def calibrate(self) -> Calibration:
-        """Find out where the cameras are, from pictures of the board and the datums, and write that into the lab's
-        folder. Moves nothing, and takes about half a minute. Raises PicoError."""
+        """Find out where the cameras are and how the arms are built, from pictures of the board and the datums and from
+        encoders, and write that into the lab's folder. Takes about half a minute. Raises PicoError."""
         from pico.cameras.calibrating import calibrate
         from pico.vision.calibration import write_calibration
 
-        setup = self.opened.setup
-        found = calibrate(setup, self.opened.sim.true_cameras(), setup.lab.sim.seed)
+        setup, sim = self.opened.setup, self.opened.sim
+        self._require_empty_hands()
+        found = calibrate(setup, sim.true_cameras(), setup.lab.sim.seed, sim.true_arms())
         write_calibration(self.opened.root, found)
         return found
+
+    def _require_empty_hands(self) -> None:
+        exact = self.opened.setup.lab.sim.observe == "exact"
+        seen = self.opened.observe() if exact else self.scan().observation  # which cameras that moved do not end
+        for name, robot in sorted(seen.robots.items()):
+            if robot.holding:
+                text, hint = (
+                    f"{name} holds {robot.holding}: a calibration needs its hand",
+                    "`pico recover` sets it down",
+                )
+                raise PicoError(error("hand-full", text, hint=hint, address=name))
 
 
 def problems_of(look: Look, component: str) -> list[Diagnostic]:

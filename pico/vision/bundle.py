@@ -42,11 +42,13 @@ Shot = Mapping[str, BoardView]
 @dataclass(frozen=True, eq=False)
 class Bundle:
     """Calibrated cameras; what is left of board and datum corners, by camera [pixels, root mean square]; what a camera
-    being off by one standard deviation does to a position on the table [mm]."""
+    being off by one standard deviation does to a position on the table [mm]; the board's pose (4, 4) on the table, by
+    the number of the shot."""
 
     cameras: Mapping[str, CameraModel]
     residuals: Mapping[str, float]
     position: float
+    boards: Mapping[int, Array]
 
 
 def lens(camera: CameraModel) -> Array:
@@ -107,10 +109,10 @@ def bundle(
     found = solve(problem.residuals, np.zeros(len(steps)), np.array(steps), rounds=30)
     problem = problem.without_outliers(found)
     found = solve(problem.residuals, found.parameters, np.array(steps), rounds=30)
-    fitted, _ = problem.at(found.parameters)
+    fitted, held = problem.at(found.parameters)
     residuals = problem.left(found)
     _refuse_misfit(residuals)
-    return Bundle(fitted, residuals, _position(fitted, seen, found))
+    return Bundle(fitted, residuals, _position(fitted, seen, found), held)
 
 
 def _refuse_misfit(residuals: Mapping[str, float]) -> None:

@@ -63,11 +63,15 @@ def park_martin(tools: Sequence[Array], boards: Sequence[Array]) -> Array:
     return motion(turn, np.linalg.lstsq(left, right, rcond=None)[0])
 
 
-def hand_eye(views: Sequence[BoardView], tools: Sequence[Array], start: CameraModel) -> HandEye:
+def hand_eye(
+    views: Sequence[BoardView], tools: Sequence[Array], start: CameraModel, lies: Array | None = None
+) -> HandEye:
     """Return the camera in the hand as pictures of a board that lies still have it.
 
-    `tools`: pose (4, 4) of the tool in the table's frame [mm] for each picture; `start`: the camera as the lab says.
-    Raises PicoError where there are too few pictures, or the hand turned too little.
+    `tools`: pose (4, 4) of the tool in the table's frame [mm] for each picture; `start`: the camera as the lab says;
+    `lies`: where the board lies, as cameras over the table see it. Without that it is found, too, much less surely: it
+    is told from where the camera sits only by how the hand turns. Raises PicoError where there are too few pictures, or
+    the hand turned too little.
     """
     import numpy as np
 
@@ -76,11 +80,11 @@ def hand_eye(views: Sequence[BoardView], tools: Sequence[Array], start: CameraMo
         raise PicoError(error("calibration-board", summary, hint="look at it from more poses", address=start.name))
     ready, boards = intrinsics(views, start)
     mount = park_martin(tools, boards)
-    there = tools[0] @ mount @ boards[0]
+    there = tools[0] @ mount @ boards[0] if lies is None else lies
 
     def parts(change: Array) -> tuple[CameraModel, Array]:
         camera = replace(with_lens(ready, lens(ready) + change[:LENS]), pose=moved(mount, change[LENS : LENS + 6]))
-        return camera, moved(there, change[LENS + 6 :])
+        return camera, moved(there, change[LENS + 6 :]) if lies is None else there
 
     def residuals(change: Array) -> Array:
         camera, board = parts(change)
@@ -91,7 +95,7 @@ def hand_eye(views: Sequence[BoardView], tools: Sequence[Array], start: CameraMo
         ]
         return np.nan_to_num(np.concatenate(off), nan=1e3).ravel() / CORNER_NOISE
 
-    steps = np.array(LENS_STEPS + POSE_STEPS + POSE_STEPS)
+    steps = np.array(LENS_STEPS + POSE_STEPS + (POSE_STEPS if lies is None else ()))
     found = solve(residuals, np.zeros(len(steps)), steps)
     camera, board = parts(found.parameters)
     return HandEye(camera, board, found.rms * CORNER_NOISE * 2**0.5)

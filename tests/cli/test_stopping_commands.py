@@ -98,6 +98,8 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert held in moved and f"  {9 - len(moved)} components of 9 stay as is\n" in pico("plan").out
     drifted = pico("drift").out
     assert f"`pico recover` sets down what a gripper holds: {held}." in drifted and "only you" not in drifted
+    full = pico("calibrate")
+    assert full.code == 1 and f"arm1 holds {held}: a calibration needs its hand" in full.err
     with Bench.open(shel) as bench:
         at_home = bench.plans.single("ly_200", "move", {"slot": "storage/a4"})
     assert at_home.operations and at_home.asked, "what sets the held part down does not lead to the manifest"

@@ -34,6 +34,7 @@ from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
 from pico.model.record import as_json
 from pico.twin.snapshot import Recording
+from pico.vision.arm import NOMINAL
 
 
 @pytest.fixture(scope="session")
@@ -248,6 +249,7 @@ def test_the_simulated_world_is_changed_as_by_a_hand(bench: Bench) -> None:
     bench.sim.reset()
     assert bench.observe().components["p1"].presence == "seen"
     assert set(bench.sim.true_cameras())
+    assert bench.sim.true_arms() == {"arm1": NOMINAL}
 
 
 @pytest.mark.slow

@@ -12,8 +12,9 @@ from painted import bumped, looking, setup, stereo
 
 from pico.diagnostics import PicoError
 from pico.model.pose import Pose
+from pico.vision.arm import ArmOffsets, FoundArm
 from pico.vision.bundle import bundle
-from pico.vision.calibration import Calibration, calibration_digest, read_calibration, write_calibration
+from pico.vision.calibration import Calibration, calibration_digest, known_arms, read_calibration, write_calibration
 from pico.vision.charuco import BOARD, BoardView, board_image, charuco, find_board
 from pico.vision.datums import datum_corners
 from pico.vision.frame import Frame
@@ -143,6 +144,10 @@ def test_the_file_gives_the_calibration_back(tmp_path: Path) -> None:
     assert again is not None and again.digest == made.digest
     assert apart(again.cameras["left"].pose, made.cameras["left"].pose) == pytest.approx((0, 0), abs=1e-4)
     assert replace(made, made_at="later").digest == made.digest == calibration_digest(tmp_path)
+    assert "arms" not in made.as_json() and known_arms(tmp_path) == {}
+    offsets = ArmOffsets(shift=(1.0, -2.0, 0.5), zeros=(0.1, -0.1, 0.0, 0.0, 0.0, 0.0, 0.2))
+    write_calibration(tmp_path, replace(made, arms={"arm1": FoundArm(offsets=offsets, position=0.04, turn=0.02)}))
+    assert known_arms(tmp_path) == {"arm1": offsets} and calibration_digest(tmp_path) != made.digest
 
 
 def test_a_file_that_is_no_calibration_is_refused(tmp_path: Path) -> None:

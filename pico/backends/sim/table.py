@@ -20,7 +20,9 @@ from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.request import require_component
+from pico.twin.arms import arms_of
 from pico.twin.placement import Placement
+from pico.vision.arm import ArmOffsets
 from pico.vision.camera import CameraModel
 
 
@@ -74,6 +76,10 @@ class SimulatedTable:
         """Return the cameras as they really are: what pictures are taken with, and what calibration has to find."""
         world = self._world()
         return true_cameras(self._setup, self._setup.lab.sim.errors, world.seed, world.cameras)
+
+    def true_arms(self) -> dict[str, ArmOffsets]:
+        """Return how the arms are really built: what calibration has to find."""
+        return {name: arm.built for name, arm in arms_of(self._setup, self._world().seed).items()}
 
     def remove(self, name: str) -> None:
         """Take a component off the table: it is then missing."""

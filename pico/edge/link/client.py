@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.twin.placement import Placement
     from pico.twin.snapshot import Snapshot
+    from pico.vision.arm import ArmOffsets
     from pico.vision.camera import CameraModel
 
 
@@ -154,6 +155,11 @@ class RemoteWorld:
     def true_cameras(self) -> Mapping[str, CameraModel]:
         """Return the cameras as they really are."""
         return calibration_from_json(self._line.call("world.true_cameras")).cameras
+
+    def true_arms(self) -> Mapping[str, ArmOffsets]:
+        """Return how the arms are really built."""
+        found: Mapping[str, ArmOffsets] = self._line.call("world.true_arms")
+        return found
 
     def remove(self, name: str) -> None:
         """Take a component off the table."""

@@ -23,6 +23,7 @@ from pico.model.report import RunReport
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.twin.placement import Placement
 from pico.twin.snapshot import Snapshot
+from pico.vision.arm import ArmOffsets
 
 About = tuple[tuple[dict[str, Any], ...], dict[str, Any] | None]
 Triple = tuple[float, float, float]
@@ -62,6 +63,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "world.nudge": ((str, float, float, float), Pose),
     "world.bump": ((str | None, Triple, Triple), None),
     "world.true_cameras": ((), dict[str, Any]),
+    "world.true_arms": ((), dict[str, ArmOffsets]),
     "world.remove": ((str,), None),
     "world.power_cycle": ((), None),
     "world.person": ((bool,), None),
@@ -70,7 +72,8 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
 """Every call that there is: the types of its arguments, and of its value or of each `next` one."""
 STREAMS = frozenset({"events"})
 TAKES = frozenset({"acquire", "adopt", "start", "resolve"}) | (
-    {call for call in CALLS if call.startswith("world.")} - {"world.placements", "world.true_cameras"}
+    {call for call in CALLS if call.startswith("world.")}
+    - {"world.placements", "world.true_cameras", "world.true_arms"}
 )
 """Calls that take the bench, as only the worktree may that it is attached to."""
 LONGEST = 1 << 28
