@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-READS = 64
-"""How often the encoders of an arm that rests are read."""
 _LEAN = 0.35  # rad that each joint is turned away from where the tool is vertical, at most
 _SPARE = 0.05  # rad that joints stay away from their limits
 _INSIDE = 40.0  # pixels from a picture's edge
@@ -41,11 +38,9 @@ class Rests:
 
 def rests(arm: TwinArm, joints: Array, random: Any) -> Rests:
     """Drive an arm of which nothing is known yet through `joints` (n, 7), and let it rest at each."""
-    import numpy as np
 
     links = arm.followed(joints, joints[0])
-    noise = arm.noise / math.sqrt(READS) * random.standard_normal(joints.shape)
-    return Rests(joints + noise, np.asarray(reached(arm.robot, links, arm.built).tools))
+    return Rests(joints + arm.misread(random, len(joints)), reached(arm.robot, links, arm.built).tools)
 
 
 def postures(setup: Setup, robot: str, count: int, seen: Callable[[Array], bool], random: Any) -> Array:

@@ -264,7 +264,7 @@ class ArmErrors:
 
     The base of each is displaced by `mount_position` [mm] in a random direction and turned by `mount_rotation` [deg]
     about a random axis; the zero of each joint is wrong by `joint_zero` [deg], up or down; the tool is displaced on its
-    flange by `tool_position` [mm] in a random direction. `encoder_noise`: sigma of a joint that is read [deg].
+    flange by `tool_position` [mm] in a random direction. `encoder_noise`: sigma of a joint that is read once [deg].
     `backlash`: the play of each joint [deg]: it follows its motor only once that has turned so far.
     """
 

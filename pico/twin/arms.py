@@ -23,11 +23,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+READS = 16
+"""How often encoders are read for one angle, the mean of that: as often as an arm that comes to rest has time for."""
+
 
 @dataclass(frozen=True)
 class TwinArm:
     """One arm: as it is `built`, and as calibration says that it is (`known`). `play`: backlash of each joint [rad];
-    `noise`: one sigma of a joint that is read [rad], by `seed`."""
+    `noise`: one sigma of a joint that is read once [rad], by `seed`."""
 
     robot: Robot
     built: ArmOffsets = NOMINAL
@@ -87,7 +90,11 @@ class TwinArm:
         """Return what encoders read too much (7,) at an instant, the same whenever it is asked for."""
         import numpy as np
 
-        return self.noise * np.random.default_rng((*self.seed, instant)).standard_normal(7)
+        return self.misread(np.random.default_rng((*self.seed, instant)), 1)[0]  # type: ignore[no-any-return]
+
+    def misread(self, random: Any, count: int) -> Array:
+        """Return what encoders read too much (count, 7) on average over READS, by a numpy generator."""
+        return self.noise / math.sqrt(READS) * random.standard_normal((count, 7))  # type: ignore[no-any-return]
 
 
 def arms_of(setup: Setup, seed: int, known: Mapping[str, ArmOffsets] | None = None) -> dict[str, TwinArm]:

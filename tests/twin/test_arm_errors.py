@@ -21,7 +21,7 @@ from pico.motion.built.poses import reached
 from pico.motion.kinematics import columns, fk
 from pico.motion.types import Joints
 from pico.motion.xarm7 import LIMITS
-from pico.twin.arms import TwinArm, arms_of
+from pico.twin.arms import READS, TwinArm, arms_of
 from pico.twin.physics import Twin
 from pico.vision.arm import NOMINAL, ArmOffsets
 from pico.vision.rigid import apart
@@ -158,7 +158,7 @@ def test_encoders_read_with_noise_and_the_same_at_the_same_instant() -> None:
     for _ in range(60):
         twin.advance(0.002)
         off.append(np.subtract(twin.read("arm1"), twin.joints("arm1")))
-    assert math.degrees(np.std(off)) == pytest.approx(0.01, rel=0.15)
+    assert math.degrees(np.std(off)) == pytest.approx(0.01 / math.sqrt(READS), rel=0.15)
 
 
 def test_a_joint_with_play_follows_its_motor_late_and_nobody_reads_it() -> None:
