@@ -27,6 +27,7 @@ from pico.motion.kinematics import fk
 from pico.twin.physics import Twin
 from pico.twin.sight import InHand
 from pico.vision.anchor import Drifting
+from pico.vision.arm import UNKNOWN, FoundArm
 from pico.vision.calibration import Accuracy
 from pico.vision.camera import CameraModel
 from pico.vision.close import plate_pose, region_about
@@ -50,12 +51,19 @@ _MEMORY = 30
 
 class EyeInHand:
     """Sees parts in hands through `eyes`; implements `HandSight`. `cameras`: as they are calibrated, to `accuracy`,
-    which is not quite as they are."""
+    which is not quite as they are; `arms`: as they were found, those that were."""
 
     def __init__(
-        self, setup: Setup, twin: Twin, eyes: Eyes, cameras: Mapping[str, CameraModel], accuracy: Accuracy | None = None
+        self,
+        setup: Setup,
+        twin: Twin,
+        eyes: Eyes,
+        cameras: Mapping[str, CameraModel],
+        accuracy: Accuracy | None = None,
+        arms: Mapping[str, FoundArm] | None = None,
     ) -> None:
         self._setup, self._twin, self._eyes, self._accuracy = setup, twin, eyes, accuracy or Accuracy()
+        self._arms = arms or {}
         self._hands = {n: c for n, c in cameras.items() if c.robot is not None}
         self._wrong: dict[str, deque[Array]] = {}
 
@@ -83,15 +91,16 @@ class EyeInHand:
         learned = self._wrong.get(robot)
         plate = moved(seen.pose, np.mean(learned, axis=0)) if learned else seen.pose
         base = self._tool(robot) @ plate @ np.linalg.inv(plate_pose(marked[1]))
-        return InHand(planar(base), float(base[2, 3]), self._known(seen, bool(learned)))
+        return InHand(planar(base), float(base[2, 3]), self._known(robot, seen, bool(learned)))
 
-    def _known(self, seen: Estimate, learned: bool) -> Uncertainty:
-        """How well a pose is known: what the cameras over the table leave, or what a mount may be off since then."""
-        sigma, mount = combined(seen, self._accuracy), Drifting()
-        if learned:
-            return sigma
-        yaw = math.hypot(sigma.yaw, mount.turn)
-        return Uncertainty(position=math.hypot(sigma.position, mount.position), yaw=yaw)
+    def _known(self, robot: str, seen: Estimate, learned: bool) -> Uncertainty:
+        """How well a pose is known: what the arm leaves, and the cameras over the table, or what the eye's mount may be
+        off since it was calibrated."""
+        sigma, mount, arm = combined(seen, self._accuracy), Drifting(), self._arms.get(robot, UNKNOWN)
+        position, yaw = (0.0, 0.0) if learned else (mount.position, mount.turn)
+        return Uncertainty(
+            position=math.hypot(sigma.position, arm.position, position), yaw=math.hypot(sigma.yaw, arm.turn, yaw)
+        )
 
     def _in_tool(self, robot: str, component: str) -> Estimate | None:
         """The plate of the part in or around which a hand is, in the tool's frame, as an eye on that hand sees it."""

@@ -29,3 +29,7 @@ class FoundArm:
     offsets: ArmOffsets
     position: float
     turn: float
+
+
+UNKNOWN = FoundArm(offsets=NOMINAL, position=1.5, turn=0.2)
+"""An arm of which nothing was found: what mount, joint zeros and tool of arms are usually off."""

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from physical import bench, finish, path_to, to
+from physical import bench, carry, finish, path_to, to
 
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import WorldMover
-from pico.backends.sim.physics import PhysicsWorld
+from pico.backends.sim.physics import PhysicsWorld, seeing
 from pico.backends.sim.sight import Posed
 from pico.backends.sim.world import World, new_world
 from pico.model.lab import ArmErrors, Setup
@@ -23,7 +24,9 @@ from pico.motion.types import Joints
 from pico.motion.xarm7 import LIMITS
 from pico.twin.arms import READS, TwinArm, arms_of
 from pico.twin.physics import Twin
-from pico.vision.arm import NOMINAL, ArmOffsets
+from pico.vision.arm import NOMINAL, UNKNOWN, ArmOffsets, FoundArm
+from pico.vision.calibration import Calibration, write_calibration
+from pico.vision.nominal import camera_models
 from pico.vision.rigid import apart
 
 BAR = ArmErrors(mount_position=2.0, mount_rotation=0.3, joint_zero=0.1, tool_position=0.5)
@@ -172,3 +175,23 @@ def test_a_joint_with_play_follows_its_motor_late_and_nobody_reads_it() -> None:
         assert twin.joints("arm1") == pytest.approx(goal, abs=2e-4)
         address = twin.model.joint("arm1/joint1").qposadr[0]
         assert goal[0] - twin.data.qpos[address] == pytest.approx(late * math.radians(0.1), abs=2e-4)
+
+
+def test_a_part_in_a_hand_is_known_no_better_than_the_arm(tmp_path: Path) -> None:
+    setup = wrong(None, sight="pixels")
+    world = new_world(setup)
+
+    def sigma() -> float:
+        sees, eyes = seeing(setup, world, tmp_path), []
+        assert sees is not None
+        physics = PhysicsWorld(setup, world, sight=lambda twin: eyes.append(sees(twin)) or eyes[0])
+        path = path_to(setup, world, PART, GOAL)
+        carry(physics, physics.move(to_from(world), path), path.seconds / 2)
+        seen = eyes[0].pose_in_hand("arm1", PART)
+        assert seen is not None
+        return float(seen.uncertainty.position)
+
+    assert sigma() > UNKNOWN.position
+    arms = {"arm1": FoundArm(offsets=NOMINAL, position=0.04, turn=0.02)}
+    write_calibration(tmp_path, Calibration(camera_models(setup), arms=arms))
+    assert 0.04 < sigma() < 0.3

@@ -179,8 +179,8 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight
 
         found = read_calibration(root)
         trusted = camera_models(setup) | dict(found.cameras if found else {})
-        accuracy = found.accuracy if found else None
-        return EyeInHand(setup, twin, eyes_of(setup, world, twin.model, twin.data), trusted, accuracy)
+        seen = eyes_of(setup, world, twin.model, twin.data)
+        return EyeInHand(setup, twin, seen, trusted, found.accuracy if found else None, found.arms if found else None)
 
     return eyes
 
