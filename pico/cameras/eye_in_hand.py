@@ -47,6 +47,8 @@ _CELL = 10
 """Pixels that a cell of a marker is wide when its picture is read."""
 _MEMORY = 30
 """Picks over which what an eye has wrong is averaged."""
+_SAME = 0.5
+"""What an eye has wrong at two picks is one thing where it differs by less [mm]."""
 
 
 class EyeInHand:
@@ -88,19 +90,34 @@ class EyeInHand:
         seen, marked = self._in_tool(robot, component), self._marked(component)
         if seen is None or marked is None:
             return None
-        learned = self._wrong.get(robot)
+        learned = self._learned(robot)
         plate = moved(seen.pose, np.mean(learned, axis=0)) if learned else seen.pose
         base = self._tool(robot) @ plate @ np.linalg.inv(plate_pose(marked[1]))
-        return InHand(planar(base), float(base[2, 3]), self._known(robot, seen, bool(learned)))
+        return InHand(planar(base), float(base[2, 3]), self._known(robot, seen))
 
-    def _known(self, robot: str, seen: Estimate, learned: bool) -> Uncertainty:
-        """How well a pose is known: what the arm leaves, and the cameras over the table, or what the eye's mount may be
-        off since it was calibrated."""
-        sigma, mount, arm = combined(seen, self._accuracy), Drifting(), self._arms.get(robot, UNKNOWN)
-        position, yaw = (0.0, 0.0) if learned else (mount.position, mount.turn)
-        return Uncertainty(
-            position=math.hypot(sigma.position, arm.position, position), yaw=math.hypot(sigma.yaw, arm.turn, yaw)
-        )
+    def _learned(self, robot: str) -> list[Array]:
+        """What the eye had wrong at the last pick, and at those before that agree with it: an arm that is off by more
+        than the eye is off by another way elsewhere."""
+        import numpy as np
+
+        wrong = self._wrong.get(robot, deque())
+        return [w for w in wrong if np.linalg.norm(w[:3] - wrong[-1][:3]) < _SAME]
+
+    def _known(self, robot: str, seen: Estimate) -> Uncertainty:
+        """How well a pose is known: what the cameras over the table leave, and the arm. One that nobody calibrated is
+        off elsewhere by as much as at its picks."""
+        import numpy as np
+
+        sigma, mount, wrong = combined(seen, self._accuracy), Drifting(), self._wrong.get(robot)
+        position, yaw = mount.position, mount.turn
+        if wrong:
+            off = np.sqrt(np.mean(np.array(wrong) ** 2, axis=0))
+            position, yaw = math.hypot(off[0], off[1]), math.degrees(off[5])
+        known = self._arms.get(robot)
+        if known is not None or not wrong:
+            arm = known or UNKNOWN
+            position, yaw = math.hypot(position, arm.position), math.hypot(yaw, arm.turn)
+        return Uncertainty(position=math.hypot(sigma.position, position), yaw=math.hypot(sigma.yaw, yaw))
 
     def _in_tool(self, robot: str, component: str) -> Estimate | None:
         """The plate of the part in or around which a hand is, in the tool's frame, as an eye on that hand sees it."""

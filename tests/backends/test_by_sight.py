@@ -17,7 +17,7 @@ from pico.backends.sim.device import SimDevice
 from pico.backends.sim.hand import nudge
 from pico.backends.sim.session import WorldSession
 from pico.cameras.simulated import Eyes
-from pico.model.lab import Setup
+from pico.model.lab import ArmErrors, Setup, SimErrors
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
@@ -158,6 +158,17 @@ def test_a_part_that_lands_beside_its_goal_is_set_right_or_told(tmp_path: Path, 
     bench.session._mover.move = beside  # type: ignore[method-assign]
     result = bench.move(goal=SEEN)
     assert tries == 3 and (result.error.code if result.error else None) == code
+
+
+def test_an_arm_that_is_off_sets_right_what_it_put_down_beside_its_goal(tmp_path: Path) -> None:
+    arm = ArmErrors(mount_position=2.0, mount_rotation=0.3, joint_zero=0.1, tool_position=0.5, encoder_noise=0.01)
+    with poisoned():
+        off = seeing(SimErrors(arm=arm))
+        bench = Bench(tmp_path, setup=replace(off, lab=replace(off.lab, sim=replace(off.lab.sim, seed=7))))
+        result = bench.move(goal=SEEN)
+    assert result.outcome == "done", result.error
+    assert bench.true().distance(SEEN) < 0.5
+    assert result.after is not None and result.after.how != "in hand", "its arm is in doubt"
 
 
 def test_the_lab_of_the_case_study_sees_its_hand_by_pixels_in_physics() -> None:

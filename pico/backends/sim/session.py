@@ -28,7 +28,7 @@ from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.model.event import Event, EventKind
 from pico.model.lab import Setup
-from pico.model.observation import ObservedComponent, ObservedValue, slot_at
+from pico.model.observation import ObservedComponent, ObservedValue, doubtful, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -185,6 +185,9 @@ class WorldSession:
             data = yield from self._carried(operation, key, planned, fault)
             self._mishaps.slipped(name, fault)
             part = self._known.confirm(name, goal)
+            if part.how == "in hand" and doubtful(self._setup, name, part):  # the arm itself is in doubt
+                yield from self._withdraw(operation.robot or "")
+                part = self._known.confirm(name, goal)
             if part.presence != "seen" or part.pose is None:
                 break
             there = yield from self._mishaps.looked_at(name, part.pose, fault)
