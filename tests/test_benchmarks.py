@@ -43,6 +43,7 @@ SMALLEST = {
     "scan": "--looks 1 --lab labs/minimal",
     "size": "",
     "staging": "INSTANCES --tables 1",
+    "strangers": "--things 1 --swaps 1",
     "startup": "--sizes 10 --repeat 1",
     "taken_up": "--moves 3",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",

@@ -22,6 +22,8 @@ from pico.model.record import Format, as_json, record
 
 FORMAT = Format("pico.seen")
 HANDS = Format("pico.hands")
+SWAPPED = "marker-swapped"
+"""The code of a problem: a part may be another one than its marker says."""
 
 
 @record
@@ -92,11 +94,16 @@ def recall(root: Path) -> dict[str, LastSeen]:
 
 
 def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen]:
-    """Return the memory after an observation: what was seen just now replaces what was known of it."""
+    """Return the memory after an observation: what was seen just now replaces what was known of it, but for parts of
+    which nobody can tell whether they are the ones that their markers say."""
+    doubtful = {problem.address for problem in seen.problems if problem.code == SWAPPED}
     fresh = {
         name: LastSeen(pose=part.pose, uncertainty=part.uncertainty, time=seen.time)
         for name, part in seen.components.items()
-        if part.pose is not None and part.presence == "seen" and part.how not in ("fixed", "remembered", "placed")
+        if part.pose is not None
+        and part.presence == "seen"
+        and part.how not in ("fixed", "remembered", "placed")
+        and name not in doubtful
     }
     return {**last, **fresh}
 

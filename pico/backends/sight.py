@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from pico.backends.last_seen import LastSeen
 from pico.backends.occlusion import Occluders
+from pico.backends.unidentified import swapped, with_unidentified
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
@@ -66,6 +67,8 @@ def look(
     held = {robot.holding for robot in known.robots.values() if robot.holding}
     sighting, cameras = seen_by(setup, frames, calibration, held)
     seen = _observation(setup, sighting, cameras, known, last, calibration is not None)
+    if not any(problem.code in BLIND for problem in seen.problems):
+        seen = with_unidentified(setup, seen, frames, cameras.cameras)
     return Look(seen, sighting, tuple(frames), cameras)
 
 
@@ -141,6 +144,7 @@ def _observation(
         values = known.components[name].values if name in known.components else {}
         components[name] = replace(part, values=values)
         problems += [problem] if problem else []
+    problems += swapped(components, last)
     unknown = _strangers(setup, sighting, components)
     return replace(known, components=components, unknown=unknown, problems=tuple(problems))
 

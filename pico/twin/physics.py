@@ -7,7 +7,7 @@ Joints in radians, openings of a gripper in mm, times in seconds.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +28,8 @@ _CONTROL_STEPS = 2
 """Steps of the simulation between two set-points of the servos."""
 _PRESSING_STEPS = 50
 """Steps of the simulation in which pads come to press on what they hold: some time constants of contact and finger."""
+_MAGNET_FORCE, _MAGNET_REACH = 10.0, 1e-3
+"""What a magnet in the base of a part keeps it down with, and how near the table [N, m]."""
 _WAKES = 1e-6
 """A speed that wakes what sleeps, and moves nothing [m/s]."""
 _BEARING = 20.0
@@ -66,7 +68,7 @@ class Twin:
 
     Joints are those of the nominal arms; `arms`: as they really are, with the lab's errors and nothing known of these
     where None. `holding`: what a gripper is closed on, by robot. `handles`: the component that a robot last was told to
-    take.
+    take. `magnets`: the components that a magnet keeps on the table until they are lifted.
     `after_step` is called after every step where it is set.
     """
 
@@ -80,6 +82,7 @@ class Twin:
         holding: Mapping[str, str] | None = None,
         pad_friction: float | None = None,
         arms: Mapping[str, TwinArm] | None = None,
+        magnets: Collection[str] = (),
     ) -> None:
         require_mujoco()
         import mujoco
@@ -94,6 +97,7 @@ class Twin:
         self._drives: dict[str, _Drive] = {}
         self._time = 0.0
         self.handles = dict(holding or {})
+        self._stuck = set(magnets)
         self.after_step: Callable[[], None] | None = None
         closed = []
         for name in self._arms:
@@ -161,6 +165,11 @@ class Twin:
         for number in range(0, steps, _CONTROL_STEPS):
             for servos, plan in plans:
                 self.data.ctrl[servos] = plan[number // _CONTROL_STEPS]
+            for name in self._stuck.intersection(self.handles.values()):
+                lifted = self._height(name) > _MAGNET_REACH
+                self.data.xfrc_applied[self._body[name], 2] = 0.0 if lifted else -_MAGNET_FORCE
+                if lifted:
+                    self._stuck.remove(name)
             count = min(_CONTROL_STEPS, steps - number)
             if self.after_step is None:
                 mujoco.mj_step(self.model, self.data, count)
@@ -247,6 +256,11 @@ class Twin:
             return placement_of(self.data.xpos[self._body[name]], self.data.xquat[self._body[name]])
         first = int(self.model.jnt_qposadr[address])
         return placement_of(self.data.qpos[first : first + 3], self.data.qpos[first + 3 : first + 7])
+
+    def _height(self, name: str) -> float:
+        """How high the base of a component is above the table [m]."""
+        address = int(self.model.body(name).jntadr[0])
+        return float(self.data.qpos[int(self.model.jnt_qposadr[address]) + 2]) if address >= 0 else 0.0
 
     def pull(self, name: str, dx: float, dy: float, dyaw: float) -> None:
         """Shift a free component by (dx, dy) [mm] and turn it about the vertical by dyaw [deg], as its seat does when

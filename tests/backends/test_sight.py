@@ -230,3 +230,25 @@ def test_only_what_is_sure_is_captured(tmp_path: Path) -> None:
     seen = observe(tmp_path)
     assert "p2" in live_state(SETUP, seen).components
     assert live_state(SETUP, seen, sure=True).components.keys() == {"laser", "cam"}
+
+
+def test_a_thing_without_a_marker_is_an_obstacle_that_holds_all_of_it(tmp_path: Path) -> None:
+    cup = UnknownObject(pose=Pose(640, 250), footprint=Footprint(disc=35.0), height=95.0)
+    change(tmp_path, lambda w: replace(w, unknown={"unknown/cup": cup}))
+    seen = observe(tmp_path)
+    ((name, thing),) = seen.unknown.items()
+    assert cup.pose.distance(thing.pose) + 35 <= (thing.footprint.disc or 0) + 2 < 80
+    (text,) = said(seen, "unidentified")
+    assert text.startswith("something without a marker stands or lies at (6") and name == "unknown/thing_1"
+    assert any(p.code == "unidentified" for p in planned(tmp_path).diagnostics)
+
+
+def test_markers_that_were_swapped_are_told_until_something_is_moved(tmp_path: Path) -> None:
+    observe(tmp_path)
+    stuck = {"p2": SETUP.lab.inventory["lx_100"].marker, "lx_100": SETUP.lab.inventory["p2"].marker}
+    change(tmp_path, lambda w: replace(w, stickers=stuck))
+    for _ in range(2):  # that it was told once does not make it right
+        texts = said(observe(tmp_path), "marker-swapped")
+        assert len(texts) == 2 and texts[0].startswith("lx_100 stands where p2 stood at the last look")
+    change(tmp_path, lambda w: nudge(SETUP, w, "p2", dx=8))
+    assert said(observe(tmp_path), "marker-swapped") == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -111,6 +112,29 @@ def test_a_part_that_lies_on_its_side_still_does_in_the_next_session(setup: Setu
     assert body.presence == "toppled"
     assert body.free is not None
     assert body.free.position[2] < 40.0
+
+
+def test_a_part_that_leans_a_little_still_does_in_the_next_session(setup: Setup) -> None:
+    half = math.radians(2) / 2
+    free = FreePose(position=(700.0, 300.0, 2.0), quaternion=(math.cos(half), math.sin(half), 0.0, 0.0))
+    world = new_world(setup).with_body("p1", pose=Pose(700, 300, 0), free=free)
+    body = PhysicsWorld(setup, world).world(world).components["p1"]
+    assert body.presence == "seen" and body.free is not None
+    assert body.free.position == pytest.approx(free.position) and body.free.quaternion == pytest.approx(free.quaternion)
+
+
+def test_a_magnet_holds_a_part_until_it_is_lifted(setup: Setup) -> None:
+    world, physics = fresh(setup)
+    work, pulls = (
+        physics.move(to("lx_125", GOAL), path_to(setup, world, "lx_125", GOAL)),
+        physics.twin.data.body("lx_125"),
+    )
+    assert setup.seating_of("lx_125") == "magnet"
+    while physics.carried("arm1") is None:
+        physics.advance(next(work))
+        assert physics.twin.placement("lx_125").position[2] > 1e-3 or pulls.xfrc_applied[2] < -5
+    physics.advance(next(work))
+    assert pulls.xfrc_applied[2] == 0
 
 
 @pytest.mark.filterwarnings("error")

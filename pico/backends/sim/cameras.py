@@ -21,7 +21,7 @@ def eyes_of(setup: Setup, world: World, model: mujoco.MjModel, data: mujoco.MjDa
     from pico.cameras.simulated import Eyes
 
     cameras = true_cameras(setup, setup.lab.sim.errors, world.seed, world.cameras)
-    markers = {name: body.marker for name, body in world.components.items()}
+    markers = {name: body.marker for name, body in world.components.items()} | dict(world.stickers)
     return Eyes(setup, model, data, cameras, seed=world.seed, markers=markers)
 
 

@@ -35,6 +35,8 @@ TOPPLED = 5.0
 """A part that leans more than this does not stand [deg]."""
 FALLEN = -20.0
 """A part whose base is lower than this has left the table [mm]."""
+LEANS, RAISED = 0.3, 0.3
+"""A part that stands is stored upright and on the table where it leans or is raised by less [deg, mm]."""
 OFF_PLANE = 3.0
 """A part whose base is farther from the table than this does not stand on it [mm]."""
 HELD_ABOVE = 0.2
@@ -70,7 +72,10 @@ class PhysicsWorld:
         joints = {name: robot.joints for name, robot in world.robots.items()}
         holding = {name: robot.holding for name, robot in world.robots.items() if robot.holding}
         arms = arms_of(setup, world.seed, known)
-        self.twin = Twin(setup, things, joints, world.openings, holding=holding, pad_friction=friction, arms=arms)
+        magnets = {n for n in things if n in setup.lab.inventory and setup.seating_of(n) in ("magnet", "kinematic")}
+        self.twin = Twin(
+            setup, things, joints, world.openings, holding=holding, pad_friction=friction, arms=arms, magnets=magnets
+        )
         self._sight = sight(self.twin) if sight else None
         self._eyes: Eyes | None = None
         self._left: dict[str, InHand | None] = {}
@@ -191,10 +196,11 @@ def _seen(body: WorldBody, placement: Placement, held: bool) -> WorldBody:
     if z < FALLEN:
         return replace(body, presence="missing", pose=None, free=None)
     pose = placement.pose
-    if not held and placement.tilt <= TOPPLED and abs(z) <= OFF_PLANE:
-        return replace(body, presence="seen", pose=_kept(body, pose), free=None)
-    presence: Presence = "held" if held else "toppled"
     free = FreePose(position=(x, y, z), quaternion=placement.quaternion)
+    if not held and placement.tilt <= TOPPLED and abs(z) <= OFF_PLANE:
+        flat = placement.tilt < LEANS and abs(z) < RAISED
+        return replace(body, presence="seen", pose=_kept(body, pose), free=None if flat else free)
+    presence: Presence = "held" if held else "toppled"
     return replace(body, presence=presence, pose=pose, free=free)
 
 

@@ -91,6 +91,7 @@ def world_from_json(data: Any) -> World:
         unknown={k: _unknown(v) for k, v in data["unknown"].items()},
         shapes=shapes,
         cameras={k: _shift(v) for k, v in data.get("cameras", {}).items()},
+        stickers={str(k): None if v is None else int(v) for k, v in data.get("stickers", {}).items()},
         person=data.get("person") is True,
     )
 

@@ -73,6 +73,7 @@ class World:
     unknown: Mapping[str, UnknownObject] = field(default_factory=dict)
     shapes: Mapping[str, RememberedShape] = field(default_factory=dict)
     cameras: Mapping[str, CameraShift] = field(default_factory=dict)
+    stickers: Mapping[str, int | None] = field(default_factory=dict)
     person: bool = False
 
     def with_body(self, name: str, **changes: Any) -> World:
