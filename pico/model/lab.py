@@ -114,17 +114,21 @@ PARKED = 0.02
 """How far a joint may be from where it parks [rad]; of a gantry [m]."""
 XARM7_RANGES = ((-360, 360), (-117.97, 120), (-360, 360), (-11, 225), (-360, 360), (-97, 180), (-360, 360))
 """How far the joints of an xArm7 turn, from the base outward [deg]; the vendor's published URDF."""
+TOOL_SPEED = 1000.0
+"""Greatest speed of the tool center point [mm/s]; the vendor's manual."""
 
 
 @record
 class Robot:
-    """An arm. Heights are of the tool centre point above the table [mm]; `speed` is a share of the joint limits."""
+    """An arm. Heights are of the tool centre point above the table [mm]; `speed` is a share of the joint limits, and
+    the tool centre point is never faster than `tool_speed` [mm/s], the vendor's limit unless less is asked for."""
 
     model: Literal["xarm7", "gantry"] = "xarm7"
     mount: Mount
     gripper: Gripper = Gripper()
     transit_height: Length = 250.0
     speed: float = 0.5
+    tool_speed: float = TOOL_SPEED
     park: tuple[Angle, ...] = (0.0, -60.0, 0.0, 30.0, 0.0, 90.0, 0.0)
 
     def __post_init__(self) -> None:

@@ -32,6 +32,8 @@ _UPPER_LENGTH, _FORE_LENGTH = math.hypot(*_UPPER), math.hypot(*_FORE)
 _UPPER_ANGLE, _FORE_ANGLE = math.atan2(*_UPPER), math.atan2(*_FORE)  # from the vertical, towards r
 _TURN = 2 * math.pi
 _ROUNDING = 1e-9
+_PIECES = 8
+"""Into how many pieces a straight line is cut to bound the tool's speed on it: that is then within about 1 %."""
 
 
 def fk(joints: Joints, tool: float = 172.0) -> tuple[Vector, Matrix]:
@@ -66,6 +68,46 @@ def _frame(joints: Joints) -> tuple[Vector, Vector, Vector, Vector]:
         c, s = math.cos(q), math.sin(q)
         x, y = _sum((0.0, 0.0, 0.0), c, x, s, y, 0.0, z), _sum((0.0, 0.0, 0.0), -s, x, c, y, 0.0, z)
     return p, x, y, z
+
+
+def pace(start: Joints, end: Joints, tool: float, enough: float = 0.0) -> float:
+    """Return a bound of the way that the tool center point goes per share of the straight line between two postures
+    [mm], at its fastest place; where it is no more than `enough`, a coarser one.
+
+    Close where the arm stays in its plane; what joints 3 and 5 turn or stand askew counts with the arm's length.
+    """
+    turns = [abs(b - a) for a, b in zip(start, end, strict=True)]
+    hand = math.hypot(_WRIST[0], tool - _WRIST[1])
+    long, fore = _UPPER_LENGTH + _FORE_LENGTH + hand, _FORE_LENGTH + hand
+    all_out = sum(turns[:3]) * long + turns[3] * fore + (turns[4] + turns[5]) * hand
+    askew = sum(max(abs(start[joint]), abs(end[joint])) for joint in (2, 4))
+    out = (askew * sum(turns[:6]) + turns[2] + turns[4]) * long
+    for pieces in (1, _PIECES):
+        way = min(all_out, out + _planar_pace(start, end, tool, pieces))
+        if way <= enough:
+            break
+    return way
+
+
+def _planar_pace(start: Joints, end: Joints, tool: float, pieces: int) -> float:
+    """The bound in the arm's plane: upper arm, forearm and hand turn by u, f, w. On each piece of the way the tool's
+    distance from joint 1's axis, and the angle at the elbow, are those at its ends and what they bend in between."""
+    q1, u, _, q4, _, q6, _ = (b - a for a, b in zip(start, end, strict=True))
+    f, w = u - q4, u - q4 + q6
+    hand, tilt = math.hypot(_WRIST[0], tool - _WRIST[1]), math.atan2(_WRIST[0], _WRIST[1] - tool)
+    first = start[1] + _UPPER_ANGLE, start[1] - start[3] + _FORE_ANGLE, start[1] - start[3] + start[5] + tilt
+    upper, fore, bend = _UPPER_LENGTH * abs(u), _FORE_LENGTH * abs(f), 8 * pieces**2
+    same, bulge = math.copysign(1.0, u * f), (upper * abs(u) + fore * abs(f) + hand * w * w) / bend
+    most, before = 0.0, (0.0, -1.0)
+    for i in range(pieces + 1):
+        share = i / pieces
+        a, b, c = first[0] + share * u, first[1] + share * f, first[2] + share * w
+        radius = abs(_UPPER_LENGTH * math.sin(a) + _FORE_LENGTH * math.sin(b) + hand * math.sin(c))
+        here = radius, same * math.cos(a - b)
+        cosine = min(1.0, max(here[1], before[1]) + (u - f) ** 2 / bend)
+        plane = math.sqrt(max(0.0, upper * upper + fore * fore + 2 * upper * fore * cosine)) + hand * abs(w)
+        most, before = max(most, math.hypot((max(here[0], before[0]) + bulge) * q1, plane)), here
+    return most
 
 
 def tool_pose(robot: Robot, joints: Joints) -> tuple[float, float, float, float]:

@@ -5,23 +5,24 @@ z -> joints. Ruckig finds the time-optimal s(t) for the limits that the joints l
 in between: the free version would ask a server on the internet for them.
 
 Robot.speed scales velocity; acceleration goes with its square and jerk with its cube, so that half the speed takes
-twice the time along the same profile.
+twice the time along the same profile. The tool center point is never faster than Robot.tool_speed, whatever the joints
+may do.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 from typing import Any
 
 from pico.model.catalog import Geometry
-from pico.model.lab import Robot
-from pico.motion.kinematics import Column
+from pico.model.lab import TOOL_SPEED, Robot
+from pico.motion.kinematics import Column, pace
 from pico.motion.reach import opening
 from pico.motion.types import Joints
-from pico.motion.xarm7 import JOINT_ACCELERATION, JOINT_JERK, JOINT_SPEED, TOOL_SPEED
+from pico.motion.xarm7 import JOINT_ACCELERATION, JOINT_JERK, JOINT_SPEED
 
 Timed = tuple[tuple[float, ...], tuple[Joints, ...]]
 """Times [s] from 0, and the joints [rad] at each."""
@@ -53,12 +54,13 @@ def joint_limits(robot: Robot) -> Limits:
 
 
 def straight(robot: Robot, start: Joints, end: Joints) -> Timed:
-    """Return the fastest motion along the straight line in joint space, all joints in phase."""
+    """Return the fastest motion along the straight line in joint space, all joints in phase, that keeps the limits of
+    the joints and of the tool."""
     delta = tuple(b - a for a, b in zip(start, end, strict=True))
     longest = max(abs(d) for d in delta)
     if longest < 1e-9:
         return (0.0,), (start,)
-    limits = joint_limits(robot)
+    limits = _swing_limits(robot, start, end, longest)
     times, shares = profile(
         1.0, Limits(limits.velocity / longest, limits.acceleration / longest, limits.jerk / longest)
     )
@@ -120,9 +122,10 @@ def duration(length: float, limits: Limits) -> float:
     return 4 * math.cbrt(length / (2 * j))
 
 
-def swing_seconds(robot: Robot, longest: float) -> float:
-    """Return how long `straight` takes where the joint that goes farthest goes `longest` [rad]."""
-    return duration(longest, joint_limits(robot)) if longest >= 1e-9 else 0.0
+def swing_seconds(robot: Robot, start: Joints, end: Joints, longest: float) -> float:
+    """Return how long `straight` takes where the joint that goes farthest goes `longest` [rad]: joint 7 may go
+    another way than from `start` to `end`, which moves no tool."""
+    return duration(longest, _swing_limits(robot, start, end, longest)) if longest >= 1e-9 else 0.0
 
 
 def vertical_seconds(robot: Robot, column: Column, start: float, end: float) -> float:
@@ -138,6 +141,14 @@ def _ruckig() -> tuple[Any, Any, Any]:
     return ruckig.Ruckig(1), ruckig.InputParameter(1), ruckig.Trajectory(1)
 
 
+def _swing_limits(robot: Robot, start: Joints, end: Joints, longest: float) -> Limits:
+    """What the joint that goes `longest` may do, so that the tool is not too fast either."""
+    limits = joint_limits(robot)
+    enough = robot.tool_speed * longest / limits.velocity
+    way = pace(start, end, robot.gripper.tool, enough)
+    return limits if way <= enough else replace(limits, velocity=robot.tool_speed * longest / way)
+
+
 def _vertical_limits(robot: Robot, column: Column, start: float, end: float) -> Limits:
     """What the joints leave to the height [mm]: with q(z), q'' and q''' from differences over 24 steps,
 
@@ -145,9 +156,8 @@ def _vertical_limits(robot: Robot, column: Column, start: float, end: float) -> 
     """
     first, second, third = _derivatives(column, start, end)
     joint = joint_limits(robot)
-    limits = Limits(
-        min(joint.velocity / first, TOOL_SPEED * robot.speed), joint.acceleration / first, joint.jerk / first
-    )
+    velocity = min(joint.velocity / first, TOOL_SPEED * robot.speed, robot.tool_speed)
+    limits = Limits(velocity, joint.acceleration / first, joint.jerk / first)
     v, a, j = limits.velocity, limits.acceleration, limits.jerk
     acceleration = first * a + second * v * v
     jerk = first * j + 3 * second * v * a + third * v**3

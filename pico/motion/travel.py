@@ -79,8 +79,10 @@ class Travel:
             froms = [top]
         tos = [o.joints for o in self._postures(goal, goal_yaw, USUAL_GRASP)] if goal else [self.parked]
         known = froms[0][6] if not isinstance(start, Pose) and goal is not None else None
-        ways = [max(_bend(a, b), _twist(a[6], b[6], math.pi, known)) for a in froms for b in tos]
-        return rise + timing.swing_seconds(self.robot, min(ways)) if ways else math.inf
+        ways = [(max(_bend(a, b), _twist(a[6], b[6], math.pi, known)), a, b) for a in froms for b in tos]
+        least = min((way for way, _, _ in ways), default=math.inf) + 1e-9
+        swings = (timing.swing_seconds(self.robot, a, b, way) for way, a, b in ways if way <= least)
+        return rise + min(swings, default=math.inf)
 
     def _loaded_seconds(self, component: str, start: Pose, goal: Pose, grasp_yaw: float) -> float:
         robot, geometry = self.robot, self.setup.type_of(component).geometry
@@ -103,7 +105,11 @@ class Travel:
             return math.inf
         way, _, pick, place = min(ways)
         verticals = sum(self._vertical(over.column, low) for over in (pick, place))
-        return timing.swing_seconds(robot, way) + 2 * verticals + 2 * timing.grip_seconds(robot, geometry)
+        return (
+            timing.swing_seconds(robot, pick.joints, place.joints, way)
+            + 2 * verticals
+            + 2 * timing.grip_seconds(robot, geometry)
+        )
 
     def _postures(self, pose: Pose, yaw: float, low: float) -> tuple[PostureOver, ...]:
         """The postures over a place, one for all turns of joint 7."""

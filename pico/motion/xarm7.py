@@ -1,6 +1,7 @@
 """The UFACTORY xArm7 as numbers: where its joints sit and how far and fast they turn.
 
-Joint origins and ranges: the vendor's published URDF. Greatest speed: the vendor's manual (180 deg/s, tool 1 m/s).
+Joint origins and ranges: the vendor's published URDF. Greatest speed: the vendor's manual (180 deg/s; of the
+tool 1 m/s, see `pico.model.lab.Robot`).
 Greatest acceleration: the vendor's SDK (20 rad/s2). The jerk is not published: 500 rad/s3 is an assumption.
 """
 
@@ -33,5 +34,3 @@ JOINT_ACCELERATION = 20.0
 """Greatest acceleration of a joint [rad/s2]."""
 JOINT_JERK = 500.0
 """Greatest jerk of a joint [rad/s3]; an assumption."""
-TOOL_SPEED = 1000.0
-"""Greatest speed of the tool center point [mm/s]."""

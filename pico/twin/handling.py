@@ -225,7 +225,8 @@ class Handling:
         scale = (end - start) / (heights[-1] - heights[0])
         moved = [column.at(start + scale * (z - heights[0])) for z in heights]
         joints = tuple(new or old for new, old in zip(moved, segment.joints, strict=True))
-        return Segment(segment.name, segment.times, joints, segment.opening)
+        times = tuple(t * max(1.0, scale) for t in segment.times)
+        return Segment(segment.name, times, joints, segment.opening)
 
     def _lose(self, code: str, text: str) -> Steps:
         """Open the hand, bring it up, and raise Lost."""

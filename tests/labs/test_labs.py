@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,8 @@ from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
 from pico.model.state import LabState, home_state, place_of
 from pico.motion.arms import ArmMotion
+from pico.motion.kinematics import tool_pose
+from pico.motion.types import MovePath
 from pico.planning import plan
 from pico.resources import labs_dir
 
@@ -139,3 +142,17 @@ def test_crowded_can_be_planned_along_its_history_and_needs_staging(tmp_path: Pa
     plans = {(a, b): planned(setup, motion, states[a], states[b]) for a, b in steps}
     assert not any(found.errored for found in plans.values())
     assert plans["packed", "swapped"].staging.count >= 3  # rings of two, three and four cost a stop each
+
+
+def test_no_tool_is_faster_than_its_lab_allows_at_full_speed(example: Example) -> None:
+    setup, states = example
+    robots = {name: replace(robot, speed=1.0) for name, robot in setup.lab.robots.items()}
+    motion, speeds = ArmMotion(replace(setup, lab=replace(setup.lab, robots=robots)), second_check=False), []
+    for state, name in itertools.product(states.values(), setup.lab.inventory):
+        start, goal = (place_of(setup, s, name)[1] for s in (states["home"], state))
+        for robot in robots if start != goal else ():
+            path = motion.move(robot, name, start, goal, 0.0, {})
+            for leg in path.segments if isinstance(path, MovePath) else ():
+                points = [tool_pose(robots[robot], joints)[:3] for joints in leg.joints]
+                speeds += [math.dist(*pair) / leg.times[1] for pair in itertools.pairwise(points)]
+    assert 300 < max(speeds) <= 1000

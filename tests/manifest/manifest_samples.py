@@ -296,6 +296,8 @@ LAB_EDITS: tuple[tuple[str, str], ...] = (
     ("speed: 0.5", "speed: 5"),
     ("speed: 0.5", "speed: 0"),
     ("speed: 0.5", "speed: fast"),
+    ("speed: 0.5", "tool_speed: 1001"),
+    ("speed: 0.5", "tool_speed: 0"),
     ("speed: 0.5", "park: [0, 1, two]"),
     ("speed: 0.5", "park: 7"),
     ("z: [300, 500]", "z: [500, 300]"),

@@ -167,7 +167,10 @@ def test_legs_rest_at_corners_and_go_straight_up_first() -> None:
 def test_nothing_to_go_takes_no_time_and_what_is_out_of_reach_is_no_motion() -> None:
     joints = ik(ARM, 400, 300, 120, 0)[0]
     column = column_of(ARM, joints)
-    assert timing.straight(ARM, joints, joints) == ((0.0,), (joints,)) and timing.swing_seconds(ARM, 0.0) == 0.0
+    assert (
+        timing.straight(ARM, joints, joints) == ((0.0,), (joints,))
+        and timing.swing_seconds(ARM, joints, joints, 0.0) == 0.0
+    )
     assert timing.vertical(ARM, column, 120.0, 120.0)[0] == (0.0,)
     assert timing.vertical(ARM, column, 120.0, 120.0)[1][0] == pytest.approx(joints)
     assert timing.vertical_seconds(ARM, column, 120.0, 120.0) == 0.0
@@ -175,14 +178,15 @@ def test_nothing_to_go_takes_no_time_and_what_is_out_of_reach_is_no_motion() -> 
         timing.vertical(ARM, ASKEW, 100.0, 200.0)
 
 
-@pytest.mark.parametrize("speed", [1.0, 0.3])
-def test_what_is_said_of_a_way_is_how_long_it_takes(speed: float) -> None:
-    robot = replace(ARM, speed=speed)
+@pytest.mark.parametrize(("speed", "tool_speed"), [(1.0, 1000.0), (0.3, 1000.0), (1.0, 250.0)])
+def test_what_is_said_of_a_way_is_how_long_it_takes(speed: float, tool_speed: float) -> None:
+    robot = replace(ARM, speed=speed, tool_speed=tool_speed)
     start, end = ik(robot, 400, 300, 120, 0)[0], ik(robot, 620, 420, 120, 30)[0]
     for share in (1.0, 0.2, 0.02):
         goal = tuple(a + share * (b - a) for a, b in zip(start, end, strict=True))
         longest = max(abs(a - b) for a, b in zip(start, goal, strict=True))
-        assert timing.swing_seconds(robot, longest) == pytest.approx(timing.straight(robot, start, goal)[0][-1])
+        said = timing.swing_seconds(robot, start, goal, longest)
+        assert said == pytest.approx(timing.straight(robot, start, goal)[0][-1])
     column = column_of(robot, start)
     for low, high in ((120.0, 250.0), (250.0, 240.0), (120.0, 122.0)):
         assert timing.vertical_seconds(robot, column, low, high) == pytest.approx(

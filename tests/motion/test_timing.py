@@ -11,7 +11,7 @@ from pico.model.lab import Mount, Robot
 from pico.motion.kinematics import columns, fk
 from pico.motion.paths import usable
 from pico.motion.timing import Limits, jaw_seconds, profile, straight, vertical
-from pico.motion.xarm7 import JOINT_ACCELERATION, JOINT_JERK, JOINT_SPEED, TOOL_SPEED
+from pico.motion.xarm7 import JOINT_ACCELERATION, JOINT_JERK, JOINT_SPEED, LIMITS
 
 MOUNT = Mount(x=0, y=0)
 places = st.tuples(st.floats(150, 660), st.floats(-3, 3), st.floats(-180, 180))
@@ -23,6 +23,12 @@ def derivatives(timed):
     step = times[1] - times[0]
     assert np.diff(times) == pytest.approx(step)
     return [float(np.abs(np.diff(joints, n, axis=0)).max(initial=0.0)) / step**n for n in (1, 2, 3)]
+
+
+def tool_speed(timed):
+    """Greatest speed of the tool center point between two waypoints [mm/s]."""
+    points = np.array([fk(joints)[0] for joints in timed[1]])
+    return float((np.linalg.norm(np.diff(points, axis=0), axis=1) / np.diff(timed[0])).max(initial=0.0))
 
 
 def at(robot, place, z=250.0):
@@ -66,11 +72,33 @@ def test_verticals_are_straight_and_keep_the_joints_limits(place, low, speed, do
         points = np.array([fk(joints)[0] for joints in timed[1]])
         assert points[:, :2] == pytest.approx(np.tile(points[0, :2], (len(points), 1)), abs=1e-6)
         assert points[0, 2] == pytest.approx(start) and points[-1, 2] == pytest.approx(end)
-        assert np.abs(np.diff(points[:, 2])).max() / timed[0][1] <= TOOL_SPEED * speed * 1.001
+
+
+@given(places, places, st.floats(0.1, 1.0), st.sampled_from([1000.0, 250.0, 60.0]))
+@settings(max_examples=examples(100), deadline=None)
+def test_the_tool_is_never_faster_than_the_lab_allows(one, other, speed, allowed):
+    robot = Robot(mount=MOUNT, speed=speed, tool_speed=allowed)
+    for start in at(robot, one)[:2]:
+        assert tool_speed(straight(robot, start, at(robot, other)[0])) <= allowed * 1.0001
+    for column in columns(robot, one[0], 0, one[2]):
+        if usable(column, 60, 250.0):
+            assert tool_speed(vertical(robot, column, 60, 250)) <= allowed * 1.0001
+
+
+@given(*[st.tuples(*(st.floats(low, high) for low, high in LIMITS))] * 2)
+@settings(max_examples=examples(60), deadline=None)
+def test_nor_where_it_goes_from_anyhow_to_anyhow(start, end):
+    assert tool_speed(straight(Robot(mount=MOUNT, speed=1.0), start, end)) <= 1000.0
+
+
+def test_a_long_swing_is_as_fast_as_the_tool_may_be():
+    robot = Robot(mount=MOUNT, tool_speed=250.0)
+    swing = straight(robot, at(robot, (400, -1, 0))[0], at(robot, (600, 1, 90))[0])
+    assert 245 < tool_speed(swing) <= 250
 
 
 def test_half_the_speed_takes_twice_as_long():
-    fast, slow = Robot(mount=MOUNT, speed=1.0), Robot(mount=MOUNT, speed=0.5)
+    fast, slow = Robot(mount=MOUNT, speed=1.0), Robot(mount=MOUNT, speed=0.5, tool_speed=500.0)
     start, end = at(fast, (400, 0, 0))[0], at(fast, (500, 1, 90))[0]
     assert straight(slow, start, end)[0][-1] == pytest.approx(2 * straight(fast, start, end)[0][-1])
     column = columns(fast, 450, 0, 0)[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from physical import bench, carry, finish, fresh, path_to, to
 
@@ -19,6 +20,7 @@ from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import MovePath
+from pico.twin.scene import TIMESTEP
 from pico.twin.sight import Exact, InHand
 
 GOAL = Pose(395.0, 420.0, 30.0)
@@ -38,13 +40,22 @@ def changed(setup: Setup, seating: str = "free", **sim: object) -> Setup:
 
 
 def placed(setup: Setup, shift: float, sight: object = Exact) -> tuple[dict[str, float], Pose | None]:
-    """Place a part that stands `shift` mm beside where the path has it; return what was said and where it stands."""
+    """Place a part that stands `shift` mm beside where the path has it; return what was said and where it stands.
+
+    On the way the tool is never faster than the lab allows, and nearly as fast.
+    """
+    robots = {name: replace(robot, tool_speed=250.0) for name, robot in setup.lab.robots.items()}
+    setup = replace(setup, lab=replace(setup.lab, robots=robots))
     world = new_world(setup)
     path, pose = path_to(setup, world, PART, GOAL), world.components[PART].pose
     assert pose is not None
     there = world.with_body(PART, pose=replace(pose, y=pose.y + shift))  # along the pads, which don't center it
     physics = PhysicsWorld(setup, there, sight=sight)  # type: ignore[arg-type]
+    tool, ways = physics.twin.data.site("arm1/tcp").xpos, []
+    physics.twin.after_step = lambda: ways.append(tool * 1000)
     data = finish(physics, physics.move(to(PART, GOAL), path), PART, GOAL)
+    fastest = np.linalg.norm(np.diff(ways, axis=0), axis=1).max() / TIMESTEP
+    assert 0.9 * 250 < fastest < 250
     return data, physics.world(there).components[PART].pose
 
 

@@ -11,7 +11,7 @@ from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType
-from pico.model.lab import Fingers, Lab, Robot, Setup
+from pico.model.lab import TOOL_SPEED, Fingers, Lab, Robot, Setup
 
 BEAM_HEIGHT_MISMATCH = 0.5
 """How far a type's optical frame may lie from the lab's beam height [mm]."""
@@ -138,6 +138,11 @@ def _ranges(document: Document, lab: Lab) -> Iterator[Diagnostic]:
             yield error(
                 "value", f"the speed of {name} is {robot.speed:g}", hint="expected a share, above 0 to 1", source=source
             )
+        if not 0 < robot.tool_speed <= TOOL_SPEED:
+            source = where(document, "robots", name, "tool_speed")
+            text = f"the tool speed of {name} is {robot.tool_speed:g} mm/s"
+            hint = f"expected above 0 to {TOOL_SPEED:g} mm/s, the vendor's limit; 250 where a person may be near"
+            yield error("value", text, hint=hint, source=source)
 
 
 def _type(document: Document, setup: Setup, kind: ComponentType, part: str) -> Iterator[Diagnostic]:
