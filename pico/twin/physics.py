@@ -95,6 +95,7 @@ class Twin:
         self._name = {number: name for name, number in self._body.items()}
         self._arms = {n: _arm(self.model, n) for n, robot in setup.lab.robots.items() if robot.model == "xarm7"}
         self._drives: dict[str, _Drive] = {}
+        self._taken: dict[str, tuple[Array, Joints]] = {}  # joints for the angles that motors had last
         self._time = 0.0
         self.handles = dict(holding or {})
         self._stuck = set(magnets)
@@ -220,7 +221,12 @@ class Twin:
 
     def joints(self, robot: str) -> Joints:
         """Return the angles that an arm's joints have [rad]."""
-        return self._real[robot].taken(self._motors(robot))
+        motors = self._motors(robot)
+        before, joints = self._taken.get(robot, (None, ()))
+        if before is None or (motors != before).any():
+            joints = self._real[robot].taken(motors)
+            self._taken[robot] = motors, joints
+        return joints
 
     def read(self, robot: str) -> Joints:
         """Return the angles of an arm's joints as its encoders read them now [rad]."""

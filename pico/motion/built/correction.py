@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-_ROUNDS = 4
+_ROUNDS = 5
+_CLOSE = 1e-7  # rad, and shares of _ARM, to which a tool is brought
 _ARM = 300.0  # mm that count as much as a radian
 _DAMPING = 0.01
 
@@ -38,6 +39,8 @@ def told(robot: Robot, offsets: ArmOffsets, joints: Array) -> Array:
         spin = goal[:, :3, :3] @ here.tools[:, :3, :3].swapaxes(1, 2)
         turn = np.stack((spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]))
         off = np.concatenate((shift, turn.T / 2), axis=1)[:, :, None]
+        if np.abs(off).max() < _CLOSE:
+            break
         jacobians = here.jacobians() / np.array((_ARM, _ARM, _ARM, 1.0, 1.0, 1.0))[:, None]
         across = jacobians.swapaxes(1, 2)
         found += (across @ np.linalg.solve(jacobians @ across + _DAMPING**2 * np.eye(6), off))[:, :, 0]
@@ -52,5 +55,8 @@ def taken(robot: Robot, offsets: ArmOffsets, joints: Array) -> Array:
 
     found = np.array(joints, np.float64)
     for _ in range(_ROUNDS):
-        found += joints - told(robot, offsets, found)
+        off = joints - told(robot, offsets, found)
+        found += off
+        if np.abs(off).max() < _CLOSE:
+            break
     return found
