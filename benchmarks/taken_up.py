@@ -20,7 +20,6 @@ from pathlib import Path
 from pick_and_place import ROOT, Run
 
 from pico.backends.sim.checks import standing
-from pico.backends.sim.halting import phase_at
 from pico.backends.sim.mover import InProgress, MoveFailed
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.store import world_from_json
@@ -41,8 +40,8 @@ SLIP = (0.5, 0.2, 0.1)
 give way to a heavy one, across them, and down [mm]."""
 
 
-def passed(physics: PhysicsWorld, work: InProgress, seconds: float = float("inf")) -> tuple[float, str]:
-    """Let `work` go on for so long or to its end; return how long it took, and why it failed where it did."""
+def passed(physics: PhysicsWorld, work: InProgress, seconds: float = float("inf")) -> str:
+    """Let `work` go on for so long or to its end; return why it failed where it did."""
     spent = 0.0
     try:
         while spent < seconds:
@@ -52,8 +51,8 @@ def passed(physics: PhysicsWorld, work: InProgress, seconds: float = float("inf"
     except StopIteration:
         pass
     except MoveFailed as exc:
-        return spent, exc.diagnostic.summary
-    return spent, ""
+        return exc.diagnostic.summary
+    return ""
 
 
 def back(run: Run, world: World, name: str, yaw: float, start: Pose) -> MovePath | Blocked:
@@ -77,10 +76,10 @@ def cut(run: Run, draw: random.Random, count: Counter[str]) -> Iterator[str]:
     operation = Operation(id="op", primitive="move", robot=run.robot, **arguments)
     name, start = operation.component, Pose(**operation.arguments["from"]["pose"])
     work = run.physics.move(operation, path)
-    spent, why = passed(run.physics, work, draw.uniform(0.0, LATE * path.seconds))
+    why = passed(run.physics, work, draw.uniform(0.0, LATE * path.seconds))
     left = world_from_json(json.loads(json.dumps(as_json(run.physics.world(before)))))
     held = left.robots[run.robot].holding
-    where = f"{phase_at(path, spent)}{', held' if held else ''}"
+    where = f"{run.physics.stage(run.robot).segment}{', held' if held else ''}"
     count[where] += 1
     if why:
         yield f"{where}: {why}"
@@ -89,7 +88,7 @@ def cut(run: Run, draw: random.Random, count: Counter[str]) -> Iterator[str]:
         yield from (f"{where}: {text}" for text in loosened(run, left, name))
     again = replace(operation, arguments={**operation.arguments, "to": {"pose": as_json(start)}})
     way = back(run, left, name, float(operation.arguments["grasp_yaw"]), start)
-    why = way.text if isinstance(way, Blocked) else passed(run.physics, run.physics.move(again, way))[1]
+    why = way.text if isinstance(way, Blocked) else passed(run.physics, run.physics.move(again, way))
     run.world = run.physics.world(left)
     wrong = [why] if why else list(elsewhere(run, before, name, start))
     if wrong:

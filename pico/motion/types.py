@@ -41,6 +41,14 @@ class Segment:
 
 
 @dataclass(frozen=True, slots=True)
+class Stage:
+    """How far an arm is on a path: the segment that it executes, and which share of it is done (0 to 1)."""
+
+    segment: SegmentName
+    share: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class MovePath:
     """A collision-free motion of one robot, picking and placing one component (or none, for a park)."""
 
@@ -51,6 +59,14 @@ class MovePath:
     @property
     def seconds(self) -> float:
         return sum(s.seconds for s in self.segments)
+
+    def gone(self, stage: Stage) -> float:
+        """Return how many of its seconds are over where an arm is at `stage` of it."""
+        names = [segment.name for segment in self.segments]
+        if stage.segment not in names:  # the hand only rises, after the part was lost
+            return self.seconds
+        now = names.index(stage.segment)
+        return sum(s.seconds for s in self.segments[:now]) + stage.share * self.segments[now].seconds
 
     @property
     def end(self) -> Joints:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Generator
 
-from pico.motion.types import Joints, Segment
+from pico.motion.types import Joints, Segment, SegmentName, Stage
 from pico.twin.physics import Twin
 
 Steps = Generator[float, None, None]
@@ -25,8 +25,17 @@ def walk(twin: Twin, robot: str, segments: tuple[Segment, ...]) -> Steps:
     """Drive an arm along `segments` and bring it to rest, its fingers as they are."""
     for segment in segments:
         twin.drive(robot, segment.times, segment.joints)
-        yield from passing(segment.seconds)
+        yield from executing(twin, robot, segment.name, segment.seconds)
     yield from settle(twin, robot)
+
+
+def executing(twin: Twin, robot: str, segment: SegmentName, seconds: float) -> Steps:
+    """Let the time of a segment pass, in chunks, and let the twin know how much of it is over."""
+    gone, twin.stages[robot] = 0.0, Stage(segment)
+    for wait in passing(seconds):
+        yield wait
+        gone += wait
+        twin.stages[robot] = Stage(segment, min(1.0, gone / seconds) if seconds else 1.0)
 
 
 def settle(twin: Twin, robot: str) -> Steps:

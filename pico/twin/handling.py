@@ -19,7 +19,7 @@ from pico.model.lab import Robot
 from pico.model.pose import Pose, angle_between
 from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.types import Joints, MovePath, Segment, SegmentName
-from pico.twin.gestures import CHUNK, Steps, backward, nudge, passing, settle, walk
+from pico.twin.gestures import CHUNK, Steps, backward, executing, nudge, passing, settle, walk
 from pico.twin.physics import Twin
 from pico.twin.sight import HandSight, InHand
 
@@ -111,7 +111,7 @@ class Handling:
                 "unseen", f"no camera sees {self.component} in the hand of {robot}: it was left there"
             )
         self.twin.grip(robot)
-        yield from passing(legs["grip"].seconds + CHUNK)
+        yield from executing(self.twin, robot, "grip", legs["grip"].seconds + CHUNK)
         if not self._holds():
             wide = self.twin.opening(robot)
             text = f"{robot} missed {self.component}: its fingers closed on nothing"
@@ -123,7 +123,7 @@ class Handling:
     def _follow(self, segment: Segment) -> Steps:
         """Drive the arm along a segment, and see all the time whether the part still is in the hand."""
         self.twin.drive(self.path.robot, segment.times, segment.joints)
-        for wait in passing(segment.seconds):
+        for wait in executing(self.twin, self.path.robot, segment.name, segment.seconds):
             yield wait
             yield from self._watch(segment.name)
 
@@ -182,7 +182,7 @@ class Handling:
     def _let_go(self, release: Segment) -> Steps:
         self._carrying = False
         self.twin.grip(self.path.robot, release.opening)
-        yield from passing(release.seconds)
+        yield from executing(self.twin, self.path.robot, "release", release.seconds)
         if self.seated:
             self.seated(self.component)
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Setup
 from pico.motion.engine import require_mujoco
-from pico.motion.types import Joints
+from pico.motion.types import Joints, Stage
 from pico.twin.arms import TwinArm, arms_of
 from pico.twin.placement import Placement, placement_of
 from pico.twin.scene import TIMESTEP, SceneBody, build_scene, lull
@@ -68,8 +68,8 @@ class Twin:
 
     Joints are those of the nominal arms; `arms`: as they really are, with the lab's errors and nothing known of these
     where None. `holding`: what a gripper is closed on, by robot. `handles`: the component that a robot last was told to
-    take. `magnets`: the components that a magnet keeps on the table until they are lifted.
-    `after_step` is called after every step where it is set.
+    take. `magnets`: the components that a magnet keeps on the table until they are lifted. `stages`: how far a robot is
+    on the path that it was last told to take. `after_step` is called after every step where it is set.
     """
 
     def __init__(
@@ -98,6 +98,7 @@ class Twin:
         self._taken: dict[str, tuple[Array, Joints]] = {}  # joints for the angles that motors had last
         self._time = 0.0
         self.handles = dict(holding or {})
+        self.stages: dict[str, Stage] = {}
         self._stuck = set(magnets)
         self.after_step: Callable[[], None] | None = None
         closed = []

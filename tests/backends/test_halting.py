@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import random
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,12 @@ from benches import execute, plan_to, run, shel, sim
 from oracles.unfinished import unfinished
 from results import RunResult
 
-from pico.backends.sim.halting import phase_at, way_out
+from pico.backends.sim.faults import Fault
+from pico.backends.sim.halting import sooner, strikes, way_out
 from pico.backends.sim.store import load_world
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
-from pico.motion.types import MovePath, Segment
+from pico.motion.types import MovePath, Segment, Stage
 
 SETUP, C3 = shel("gantry")
 START = Pose(110, 220, 0)
@@ -27,11 +29,21 @@ def path(*names: Any) -> MovePath:
 
 def test_what_a_halted_arm_may_do_depends_on_whether_it_holds_the_part() -> None:
     whole = path("approach", "descend", "grip", "lift", "transit", "lower", "release", "retreat")
-    ways = [way_out(whole, n + 0.5) for n in range(8)]
+    ways = [way_out(whole, Stage(segment.name, 0.5)) for segment in whole.segments]
     assert ways == ["leaves_it", "leaves_it", "undecided", "may_turn_back", "may_turn_back", *["goes_on"] * 3]
-    assert phase_at(whole, 4.2) == "transit" and phase_at(whole, 99.0) == "retreat"
-    assert way_out(path("park"), 0.5) == "goes_on"
-    assert way_out(path("lift", "transit", "lower", "release", "retreat"), 0.5) == "goes_on"
+    assert way_out(path("park"), Stage("park")) == "goes_on"
+    assert way_out(path("lift", "transit", "lower", "release", "retreat"), Stage("lift")) == "goes_on"
+
+
+def test_what_is_left_of_a_way_and_when_a_part_drops_is_told_by_what_the_arm_executes() -> None:
+    whole = path("approach", "descend", "grip", "lift", "transit", "lower", "release", "retreat")
+    assert whole.gone(Stage("transit", 0.25)) == 4.25 and whole.gone(Stage("park", 0.5)) == 8.0
+    assert sooner(whole, Stage("lift", 0.5), path("lower", "retreat"))
+    assert not sooner(whole, Stage("retreat", 0.1), path("lower"))
+    drop = Fault("drop", random.Random(1))
+    assert not strikes(drop, Stage("lift", 1.0)) and not strikes(drop, Stage("transit", drop.at - 0.01))
+    assert strikes(drop, Stage("transit", drop.at)) and strikes(drop, Stage("lower"))
+    assert not strikes(Fault("camera", random.Random(1)), Stage("lower"))
 
 
 def cut_short(root: Path, phase: str, how: str, share: float = 0.0) -> RunResult:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from benches import apply, changed, plan_to, shel, sim
 
 from pico.model.diff import diff_observed
+from pico.model.event import Event
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 
@@ -32,6 +34,21 @@ def test_parts_carried_by_friction_end_within_tolerance_the_same_each_time(tmp_p
         assert slot_at(SETUP, lens) == "storage/a1"
         told.append((events, seen))
     assert told[0] == told[1]
+    assert all_phases(told[0][0], {"p2": Pose(520, 420), "lx_100": lens}) == {"lift", "transit", "lower"}
+
+
+def all_phases(events: Sequence[Event], goals: dict[str, Pose]) -> set[str]:
+    """The phases that were told while a part was held; each is what the arm did at that moment."""
+    phases = set()
+    for event in events:
+        phase = event.data.get("phase")
+        if phase in ("approach", "descend", "retreat", "park"):
+            assert "pose" not in event.data
+        elif phase in ("lift", "transit", "lower"):
+            phases.add(phase)
+            part = Pose(**event.data["pose"])
+            assert phase != "lower" or event.component not in goals or part.distance(goals[event.component]) < 5
+    return phases
 
 
 def test_without_friction_every_part_is_dropped_and_the_table_is_told_as_it_is(tmp_path: Path) -> None:

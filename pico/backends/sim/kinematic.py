@@ -14,7 +14,7 @@ from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.motion.kinematics import tool_of
-from pico.motion.types import Joints, MovePath, Segment
+from pico.motion.types import Joints, MovePath, Segment, Stage
 from pico.twin.arms import arms_of
 from pico.vision.arm import ArmOffsets
 
@@ -52,6 +52,7 @@ class KinematicWorld:
             body = world.components.get(robot.holding or "")
             if robot.holding and body and body.pose:
                 self._held[name] = (robot.holding, self._tool(name).inverse().compose(body.pose))
+        self._stages: dict[str, Stage] = {}
         self._placed: dict[str, Pose] = {}  # what was put down since
         self._fallen: dict[str, Presence] = {}  # and what does not stand
         self._scene: Posed | None = None
@@ -83,6 +84,10 @@ class KinematicWorld:
         """Let a component be at `pose`, standing or not, and in no hand: what a hand does that loses it."""
         self._held = {robot: held for robot, held in self._held.items() if held[0] != name}
         self._placed[name], self._fallen[name] = pose, presence
+
+    def stage(self, robot: str) -> Stage:
+        """Return how far an arm is on its path."""
+        return self._stages[robot]
 
     def eyes(self, world: World) -> Eyes:
         """Return the cameras, which look at `world` as it is now."""
@@ -128,7 +133,7 @@ class KinematicWorld:
         self._turn(robot, joints_at(segment, min(segment.seconds, elapsed + BRAKE / 2)))
 
     def _walk(self, robot: str, segment: Segment) -> Generator[float, None, None]:
-        elapsed = 0.0
+        elapsed, self._stages[robot] = 0.0, Stage(segment.name)
         while elapsed < segment.seconds:
             step = min(self.step, segment.seconds - elapsed)
             try:
@@ -137,6 +142,7 @@ class KinematicWorld:
                 yield from self._brake(robot, segment, elapsed)
                 raise
             elapsed += step
+            self._stages[robot] = Stage(segment.name, elapsed / segment.seconds)
             self._turn(robot, joints_at(segment, elapsed))
         self._turn(robot, segment.joints[-1])
 

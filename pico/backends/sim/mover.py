@@ -9,7 +9,7 @@ from pico.backends.attempt import Failed
 from pico.backends.sim.world import World
 from pico.model.operation import Operation
 from pico.model.pose import Pose
-from pico.motion.types import MovePath
+from pico.motion.types import MovePath, Stage
 
 if TYPE_CHECKING:
     from pico.cameras.simulated import Eyes
@@ -40,6 +40,10 @@ class WorldMover(Protocol):
 
     def park(self, path: MovePath) -> InProgress:
         """Bring `path.robot` along `path`, its gripper as it is."""
+        ...
+
+    def stage(self, robot: str) -> Stage:
+        """Return how far an arm really is on the path that it executes, or executed last."""
         ...
 
     def eyes(self, world: World) -> Eyes:

@@ -18,7 +18,7 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
-from pico.motion.types import MovePath
+from pico.motion.types import MovePath, Stage
 from pico.twin.arms import arms_of
 from pico.twin.gestures import walk
 from pico.twin.handling import Handling, Lost
@@ -106,6 +106,10 @@ class PhysicsWorld:
             self.twin.grip(path.robot, path.segments[0].opening)
         yield from self._guarded(path.robot, walk(self.twin, path.robot, path.segments))
         return {}
+
+    def stage(self, robot: str) -> Stage:
+        """Return how far an arm is on its path."""
+        return self.twin.stages[robot]
 
     def eyes(self, world: World) -> Eyes:
         """Return the cameras, which look at the twin as it is now."""

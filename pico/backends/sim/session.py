@@ -16,7 +16,7 @@ from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
 from pico.backends.sim.faults import Fault, Faults
-from pico.backends.sim.halting import phase_at, sooner, strikes, way_out
+from pico.backends.sim.halting import sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.known import BySight, Exactly, Known
 from pico.backends.sim.measuring import measured, require_simulated
@@ -34,7 +34,7 @@ from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
-from pico.motion.types import Blocked, Joints, Motion, MovePath
+from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
 from pico.motion.zones import enters, shared_zones
 from pico.twin.snapshot import Snapshot
 from pico.vision.calibration import known_arms
@@ -297,22 +297,22 @@ class WorldSession:
         self, operation: Operation, key: str, path: MovePath, work: InProgress, fault: Fault | None = None
     ) -> InProgress:
         """Pass an operation on, and say how far it is at most every PROGRESS seconds."""
-        begun, told, decided, phase = self._time.now, self._time.now, False, ""
+        told, decided, phase = self._time.now, False, ""
         try:
             wait = next(work)
             while True:
-                elapsed = self._time.now - begun
+                stage = self._mover.stage(path.robot)
                 if self._time.now - told >= PROGRESS:
                     told = self._time.now
-                    self._tell("operation_progress", operation, key, self._progress(path, elapsed))
-                if fault is not None and strikes(fault, path, elapsed):
+                    self._tell("operation_progress", operation, key, self._progress(path, stage))
+                if fault is not None and strikes(fault, stage):
                     struck, fault = fault, None
                     yield from self._mishaps.strike(
                         struck, path.robot, operation.component, lambda: self._drop_work(work)
                     )
                 if self._halting and not decided:
-                    decided = yield from self._way_out(operation, path, elapsed, work)
-                phase, before = phase_at(path, elapsed), phase
+                    decided = yield from self._way_out(operation, path, stage, work)
+                phase, before = stage.segment, phase
                 if (before in ("grip", "release") and phase != before) or time.monotonic() - self._kept > KEPT:
                     self._keep()
                 try:
@@ -327,13 +327,13 @@ class WorldSession:
             return data
 
     def _way_out(
-        self, operation: Operation, path: MovePath, elapsed: float, work: InProgress
+        self, operation: Operation, path: MovePath, stage: Stage, work: InProgress
     ) -> Generator[float, None, bool]:
         """End a move that is halted sooner than at its goal where that can be; return whether it is decided.
 
         Raises MoveFailed once the part is back, or left where it stands, and the arm at a safe waypoint.
         """
-        way = way_out(path, elapsed)
+        way = way_out(path, stage)
         if way in ("goes_on", "undecided"):
             return way == "goes_on"
         if way == "leaves_it":
@@ -343,7 +343,7 @@ class WorldSession:
             raise MoveFailed(checks.left(operation.component))
         start, _, _ = checks.places(operation)
         back = self._back(operation, start)
-        if back is None or not sooner(path, elapsed, back):
+        if back is None or not sooner(path, stage, back):
             return True
         self._drop_work(work)
         yield REST
@@ -387,11 +387,11 @@ class WorldSession:
         with suppress(PicoError):  # the end of the operation will say so
             save_world(self._root, self.world(), durable=False)
 
-    def _progress(self, path: MovePath, elapsed: float) -> dict[str, Any]:
-        phase, seen = phase_at(path, elapsed), self._known.seen()
+    def _progress(self, path: MovePath, stage: Stage) -> dict[str, Any]:
+        seen = self._known.seen()
         held = seen.robots[path.robot].holding
         pose = seen.components[held].pose if held else None
-        found = {"phase": phase, "fraction": min(1.0, elapsed / path.seconds) if path.seconds else 1.0}
+        found = {"phase": stage.segment, "fraction": path.gone(stage) / path.seconds if path.seconds else 1.0}
         return found | ({"pose": as_json(pose)} if pose else {})
 
     def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:
