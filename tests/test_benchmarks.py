@@ -38,6 +38,7 @@ SMALLEST = {
     "pick_and_place": "--moves 1 --sight exact",
     "planning_fuzz": "--cases 5 --most 8",
     "planted_bugs": "--seeds 500 --only start",
+    "predicted": "--transitions 1 --labs labs/minimal",
     "runs": "--faults 2 --interrupts 2 --pairs 1 --journal 20 --scheduler 1",
     "scale": "--components 40 --moves 6 --check",
     "scan": "--looks 1 --lab labs/minimal",

@@ -163,11 +163,11 @@ class Move:
         up, down = timing.vertical(robot, choice.place, low, high), timing.vertical(robot, choice.place, high, low)
         segments = (
             Segment("approach", *legs(self.scene, [*rise, *approach[1:]], len(rise) - 1), self.opening),
-            Segment("descend", *timing.vertical(robot, choice.pick, high, low), self.opening),
+            Segment("descend", *timing.steady(timing.vertical(robot, choice.pick, high, low)), self.opening),
             Segment("grip", (0.0, jaws), (bottom, bottom), self.width),
             Segment("lift", *timing.vertical(robot, choice.pick, low, high), self.width),
-            Segment("transit", *legs(self.scene, transit, 0), self.width),
-            Segment("lower", *down, self.width),
+            Segment("transit", *timing.steady(legs(self.scene, transit, 0)), self.width),
+            Segment("lower", *timing.steady(down, timing.CORRECTING), self.width),
             Segment("release", (0.0, jaws), (ground, ground), self.opening),
             Segment("retreat", *up, self.opening),
         )
@@ -195,7 +195,8 @@ def find_park(scene: Scene, joints: Joints, standing: Mapping[str, StandingObjec
     found = route(scene, stand(scene, rise[-1]), stand(scene, parked(scene)))
     if isinstance(found, Hit):
         return blocked(errand, "park", found)
-    segment = Segment("park", *legs(scene, [*rise, *found[1:]], len(rise) - 1), opened)
+    way = legs(scene, [*rise, *found[1:]], len(rise) - 1)
+    segment = Segment("park", *(timing.steady(way) if way[0][-1] else way), opened)
     return MovePath(scene.name, None, (segment,))
 
 

@@ -83,8 +83,9 @@ class SetDown(Move):
         assert ground is not None  # `postures` looked
         return _segments(
             self.scene.name, self.component,
-            legs(self.scene, rise, len(rise) - 1), legs(self.scene, transit, 0),
-            timing.vertical(robot, column, high, low), ((0.0, jaws), (ground, ground)),
+            legs(self.scene, rise, len(rise) - 1), timing.steady(legs(self.scene, transit, 0)),
+            timing.steady(timing.vertical(robot, column, high, low), timing.CORRECTING),
+            ((0.0, jaws), (ground, ground)),
             timing.vertical(robot, column, low, high), (self.width, self.opening),
         )  # fmt: skip
 

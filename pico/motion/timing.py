@@ -31,6 +31,10 @@ PERIOD = 0.02
 """Greatest time between two waypoints of a timed path [s]."""
 JAW_SPEED = 100.0
 """How fast the opening of the gripper changes [mm/s]."""
+STEADY = 0.2
+"""How long an arm stands still until it is where it should be, and something was looked at [s]."""
+CORRECTING = 0.5
+"""How long it takes just over the table to come to rest, to be looked at, and to be let down where it belongs [s]."""
 JAW_SETTLE = 0.2
 """How long a grip takes to set, or a part to stand [s]."""
 
@@ -78,6 +82,12 @@ def vertical(robot: Robot, column: Column, start: float, end: float) -> Timed:
         return (0.0,), (_at(column, start),)
     times, ways = profile(length, _vertical_limits(robot, column, start, end))
     return times, tuple(_at(column, start + sign * way) for way in ways)
+
+
+def steady(way: Timed, seconds: float = STEADY) -> Timed:
+    """Return a motion after which the arm stands still for a time [s]."""
+    times, joints = way
+    return (*times, times[-1] + seconds), (*joints, joints[-1])
 
 
 def jaw_seconds(opening: float, width: float) -> float:

@@ -82,7 +82,8 @@ class Travel:
         ways = [(max(_bend(a, b), _twist(a[6], b[6], math.pi, known)), a, b) for a in froms for b in tos]
         least = min((way for way, _, _ in ways), default=math.inf) + 1e-9
         swings = (timing.swing_seconds(self.robot, a, b, way) for way, a, b in ways if way <= least)
-        return rise + min(swings, default=math.inf)
+        seconds = rise + min(swings, default=math.inf)
+        return seconds + timing.STEADY if goal is None and seconds else seconds
 
     def _loaded_seconds(self, component: str, start: Pose, goal: Pose, grasp_yaw: float) -> float:
         robot, geometry = self.robot, self.setup.type_of(component).geometry
@@ -109,6 +110,8 @@ class Travel:
             timing.swing_seconds(robot, pick.joints, place.joints, way)
             + 2 * verticals
             + 2 * timing.grip_seconds(robot, geometry)
+            + 2 * timing.STEADY
+            + timing.CORRECTING
         )
 
     def _postures(self, pose: Pose, yaw: float, low: float) -> tuple[PostureOver, ...]:

@@ -39,6 +39,13 @@ class Segment:
     def seconds(self) -> float:
         return self.times[-1]
 
+    @property
+    def moving(self) -> Segment:
+        """The segment without the time at its end in which the arm stands still."""
+        if len(self.joints) < 3 or self.joints[-1] != self.joints[-2]:
+            return self
+        return Segment(self.name, self.times[:-1], self.joints[:-1], self.opening)
+
 
 @dataclass(frozen=True, slots=True)
 class Stage:

@@ -17,7 +17,11 @@ SETTLE = 0.1
 ROUNDS = 3
 CLOSE = 5e-5
 """An arm is where it should be within this [rad]: at the tool about 0.01 mm."""
-NUDGE_SECONDS = 0.25
+NEARLY = 3e-3
+"""An arm that is this near to where it should be can look, and close its hand [rad]: at the tool about 1 mm."""
+FAR = 3e-4
+"""An arm that is farther than this from where it should be does not let go of a part yet [rad]."""
+NUDGE_SECONDS = 0.2
 """How long a short motion takes, such as the shift of a goal."""
 
 
@@ -25,8 +29,18 @@ def walk(twin: Twin, robot: str, segments: tuple[Segment, ...]) -> Steps:
     """Drive an arm along `segments` and bring it to rest, its fingers as they are."""
     for segment in segments:
         twin.drive(robot, segment.times, segment.joints)
-        yield from executing(twin, robot, segment.name, segment.seconds)
-    yield from settle(twin, robot)
+        yield from executing(twin, robot, segment.name, segment.moving.seconds)
+    yield from steady(twin, robot, segments[-1].seconds - segments[-1].moving.seconds)
+
+
+def steady(twin: Twin, robot: str, seconds: float, far: float = NEARLY) -> Steps:
+    """Let an arm come to rest in a time, or as long as it takes to be within `far` of where it should be [rad]."""
+    off = math.inf
+    for wait in passing(seconds) if seconds > 0 else ():
+        yield wait
+        off = twin.trim(robot)
+    if off > far:
+        yield from settle(twin, robot)
 
 
 def executing(twin: Twin, robot: str, segment: SegmentName, seconds: float) -> Steps:
@@ -48,13 +62,12 @@ def settle(twin: Twin, robot: str) -> Steps:
 
 
 def nudge(twin: Twin, robot: str, goal: Joints) -> Steps:
-    """Bring an arm gently to `goal`, which is near, and to rest there."""
+    """Bring an arm gently to `goal`, which is near."""
     count, start = 20, twin.joints(robot)
     shares = [(1 - math.cos(math.pi * i / count)) / 2 for i in range(count + 1)]
     way = tuple(tuple(a + s * (b - a) for a, b in zip(start, goal, strict=True)) for s in shares)
     twin.drive(robot, tuple(NUDGE_SECONDS * i / count for i in range(count + 1)), way)
     yield from passing(NUDGE_SECONDS)
-    yield from settle(twin, robot)
 
 
 def passing(seconds: float) -> Steps:

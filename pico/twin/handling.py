@@ -18,8 +18,21 @@ from pico.model.catalog import Grasp
 from pico.model.lab import Robot
 from pico.model.pose import Pose, angle_between
 from pico.motion.kinematics import Column, columns, tool_pose
+from pico.motion.timing import CORRECTING
 from pico.motion.types import Joints, MovePath, Segment, SegmentName
-from pico.twin.gestures import CHUNK, Steps, backward, executing, nudge, passing, settle, walk
+from pico.twin.gestures import (
+    FAR,
+    NEARLY,
+    NUDGE_SECONDS,
+    Steps,
+    backward,
+    executing,
+    nudge,
+    passing,
+    settle,
+    steady,
+    walk,
+)
 from pico.twin.physics import Twin
 from pico.twin.sight import HandSight, InHand
 
@@ -27,6 +40,8 @@ HOVER = 2.0
 """Height above the table at which a part is looked at for the last time [mm]."""
 CLEARANCE = 0.05
 """Height above the table at which a part is let go [mm]."""
+BRIEFLY = (CORRECTING - NUDGE_SECONDS) / 2
+"""What is left of the last little way for each of two times of coming to rest [s]."""
 REST = 0.5
 """Time in which a part that fell comes to rest [s]."""
 SLID_MM, SLID_DEG = 10.0, 10.0
@@ -81,16 +96,14 @@ class Handling:
         yield from self._pick(legs)
         yield from self._follow(legs["lift"])
         yield from self._follow(legs["transit"])
-        yield from settle(self.twin, self.path.robot)
-        yield from self._watch()
         meant = self._meant(legs)
         held = yield from self._look(legs)
         correction = held.pose.distance(meant.pose), abs(angle_between(meant.pose.yaw, held.pose.yaw))
-        column = yield from self._aim(held, self.goal)
-        yield from self._follow(self._shifted(legs["lower"], column, HOVER - held.base))
-        yield from settle(self.twin, self.path.robot)
+        down, column = legs["lower"].moving, self._over(held, self.goal)
+        yield from self._follow(_blended(down, self._shifted(down, column, HOVER - held.base)))
+        yield from self._steady(BRIEFLY)
         held = yield from self._look(legs)
-        column = yield from self._aim(held, self.goal)
+        column = self._over(held, self.goal)
         yield from self._put_down(column, held)
         yield from self._let_go(legs["release"])
         self.left = self.sight.pose_in_hand(self.path.robot, self.component) if self.sight else None
@@ -105,13 +118,12 @@ class Handling:
         for leg in ("approach", "descend"):
             self.twin.grip(robot, legs[leg].opening)
             yield from self._follow(legs[leg])
-        yield from settle(self.twin, robot)
         if self.sight and not self.sight.refer(robot, self.component, self.stands):
             yield from self._lose(
                 "unseen", f"no camera sees {self.component} in the hand of {robot}: it was left there"
             )
         self.twin.grip(robot)
-        yield from executing(self.twin, robot, "grip", legs["grip"].seconds + CHUNK)
+        yield from executing(self.twin, robot, "grip", legs["grip"].seconds)
         if not self._holds():
             wide = self.twin.opening(robot)
             text = f"{robot} missed {self.component}: its fingers closed on nothing"
@@ -123,9 +135,17 @@ class Handling:
     def _follow(self, segment: Segment) -> Steps:
         """Drive the arm along a segment, and see all the time whether the part still is in the hand."""
         self.twin.drive(self.path.robot, segment.times, segment.joints)
-        for wait in executing(self.twin, self.path.robot, segment.name, segment.seconds):
+        moving = segment.moving.seconds
+        for wait in executing(self.twin, self.path.robot, segment.name, moving):
             yield wait
             yield from self._watch(segment.name)
+        if segment.seconds > moving:
+            yield from self._steady(segment.seconds - moving)
+
+    def _steady(self, seconds: float, far: float = NEARLY) -> Steps:
+        """Let the arm come to rest, and see whether the part still is in the hand."""
+        yield from steady(self.twin, self.path.robot, seconds, far)
+        yield from self._watch()
 
     def _watch(self, phase: str = "transit") -> Steps:
         if self._carrying and not self._holds():
@@ -166,18 +186,22 @@ class Handling:
 
     def _aim(self, held: _Held, goal: Pose) -> Generator[float, None, Column]:
         """Bring the part in the hand over `goal`; return the vertical on which the hand is then."""
-        joints = self.twin.read(self.path.robot)
-        z = tool_pose(self.robot, joints)[2]
-        column = self._column(goal.compose(held.pose.inverse()), z, joints)
+        column, z = self._over(held, goal), tool_pose(self.robot, self.twin.read(self.path.robot))[2]
         yield from nudge(self.twin, self.path.robot, _required(column.at(z)))
+        yield from settle(self.twin, self.path.robot)
         yield from self._watch()
         return column
+
+    def _over(self, held: _Held, goal: Pose) -> Column:
+        """The vertical on which the hand has the part over `goal`."""
+        joints = self.twin.read(self.path.robot)
+        return self._column(goal.compose(held.pose.inverse()), tool_pose(self.robot, joints)[2], joints)
 
     def _put_down(self, column: Column, held: _Held) -> Steps:
         """Lower the part the last little way, and wait until the arm rests."""
         goal = column.at(CLEARANCE - held.base)
         yield from nudge(self.twin, self.path.robot, goal or self.twin.read(self.path.robot))
-        yield from self._watch("lower")
+        yield from self._steady(BRIEFLY, FAR)
 
     def _let_go(self, release: Segment) -> Steps:
         self._carrying = False
@@ -191,7 +215,8 @@ class Handling:
         robot, top = self.path.robot, legs["transit"].joints[-1]
         yield from self._rise(tool_pose(self.robot, top)[2])
         yield from nudge(self.twin, robot, top)
-        yield from self._follow(backward(legs["transit"]))
+        yield from settle(self.twin, robot)
+        yield from self._follow(backward(legs["transit"].moving))
         yield from settle(self.twin, robot)
         column = yield from self._aim(held, self._start(legs))
         yield from self._follow(self._shifted(backward(legs["lift"]), column, CLEARANCE - held.base))
@@ -247,6 +272,18 @@ class Handling:
         way = [joints] + [column.at(z + (top - z) * i / 40) or joints for i in range(1, 41)]
         times = tuple(0.05 * i for i in range(41))
         yield from walk(self.twin, self.path.robot, (Segment("retreat", times, tuple(way), self.robot.gripper.stroke),))
+
+
+def _blended(planned: Segment, wanted: Segment) -> Segment:
+    """Return a segment that goes over from one to another one, which is near, in its first half."""
+    count = len(planned.joints) - 1
+    shares = [min(1.0, 2 * i / count) for i in range(count + 1)]
+    soft = [s * s * (3 - 2 * s) for s in shares]
+    joints = tuple(
+        tuple(p + s * (w - p) for p, w in zip(a, b, strict=True))
+        for s, a, b in zip(soft, planned.joints, wanted.joints, strict=True)
+    )
+    return Segment(wanted.name, wanted.times, joints, wanted.opening)
 
 
 def _required(joints: Joints | None) -> Joints:

@@ -23,8 +23,8 @@ def test_parts_carried_by_friction_end_within_tolerance_the_same_each_time(tmp_p
     for folder in (tmp_path / "a", tmp_path / "b"):
         apply(sim(SETUP, folder), BEFORE, "r0")
         bench = sim(SETUP, folder, fidelity="physics")
-        _, result, events = apply(bench, C3)
-        assert result.outcome == "done"
+        planned, result, events = apply(bench, C3)
+        assert result.outcome == "done" and abs(result.seconds / planned.makespan - 1) < 0.03
         seen = asyncio.run(bench.observe())
         assert [c.text for c in diff_observed(SETUP, seen, C3) if not c.tolerated] == []
         p2, lens = seen.components["p2"].pose, seen.components["lx_100"].pose
