@@ -15,12 +15,12 @@ from pico.model.record import as_json
 from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
-from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
+from pico.planning.checks.interlocks import lets_light_out, policy_rules, unguarded, with_interlocks
 from pico.planning.checks.target import Source, check_target, no_source
 from pico.planning.checks.tethers import check_tethers
 from pico.planning.parts.movers import Place
 from pico.planning.parts.selection import done_by, selection, told
-from pico.planning.parts.setdown import after_set_downs, left_standing, set_downs
+from pico.planning.parts.setdown import after_set_downs, left_standing, parked_first, set_downs
 from pico.planning.parts.situation import Situation, read_situation
 from pico.planning.request import Preference, Request
 from pico.planning.values import OPERATOR_SECONDS, value_operations
@@ -82,6 +82,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
         ordered = after_set_downs(setup, emptied, (*moves.operations, *shifted), request.motion)
+        if request.only.everything or any(lets_light_out(setup, o) for o in ordered):
+            ordered = parked_first(setup, request.seen, ordered, request.motion)
         guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))

@@ -121,6 +121,15 @@ def _sets(operation: Operation, name: str) -> bool:
     return operation.primitive == "set" and operation.component == name and tunable == "shutter"
 
 
+def lets_light_out(setup: Setup, operation: Operation) -> bool:
+    """Return whether an operation opens a shutter, or turns a laser on."""
+    if operation.primitive != "set" or operation.component not in setup.lab.inventory:
+        return False
+    emits = setup.type_of(operation.component).optics.element == "source"
+    wanted = (operation.arguments.get("tunable"), operation.arguments.get("to"))
+    return wanted == ("shutter", OPEN) or (emits and wanted == ("emission", True))
+
+
 def _close(
     out: list[Operation], shutter: Shutter, first: Sequence[int], guarded: Sequence[int], why: str
 ) -> None:  # fmt: skip

@@ -142,13 +142,30 @@ def after_set_downs(
     return [*first, *shifted, *parks]
 
 
+def parked_first(
+    setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None
+) -> list[Operation]:
+    """Return the operations after a park of each arm that was stopped on its way with an empty hand, and that none of
+    them uses; `after` holds indices as text. An arm that has no way to its park pose is left where it stands."""
+    used, parks = {o.robot for o in rest}, list[Operation]()
+    for name in astray(setup, seen):
+        found = _park_path(setup, seen, name, motion)
+        if name not in used and not isinstance(found, Blocked):
+            parks.append(park_operation(setup, seen, name, [str(len(parks) - 1)] if parks else (), motion))
+    if not parks:
+        return list(rest)
+    count, last = len(parks), str(len(parks) - 1)
+    waits = [replace(o, after=tuple(str(int(e) + count) for e in o.after)) for o in rest]
+    return [*parks, *(replace(o, after=(last, *o.after)) if o.robot else o for o in waits)]
+
+
 def left_standing(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Diagnostic]:
     """Yield a warning for each arm with an empty hand that stands away from its park pose and that no operation uses:
     one that was stopped on its way, where nothing is left to move."""
     used = {o.robot for o in operations}
     for name in astray(setup, seen):
         if name not in used:
-            hint = f"mind the beam and your hands; the next plan that moves a part with {name} parks it"
+            hint = "mind the beam and your hands; `pico recover` parks it, and so does `pico apply`, where it has a way"
             yield warning(
                 "not-parked", f"{name} stands where it was stopped, not at its park pose", hint=hint, address=name
             )
@@ -164,14 +181,17 @@ def astray(setup: Setup, seen: Observation) -> Iterator[str]:
             yield name
 
 
+def _park_path(setup: Setup, seen: Observation, robot: str, motion: Motion | None) -> MovePath | Blocked | None:
+    others = {n: r.joints for n, r in seen.robots.items() if n != robot}
+    standing: dict[str, StandingObject] = {o.name: o.standing for o in standing_obstacles(setup, seen, {})}
+    return motion.park(robot, seen.robots[robot].joints, standing, others) if motion else None
+
+
 def park_operation(
     setup: Setup, seen: Observation, robot: str, after: Sequence[str], motion: Motion | None
 ) -> Operation:
     """Return the operation that parks an arm, after those at some indices, as text."""
-    obstacles = standing_obstacles(setup, seen, {})
-    others = {n: r.joints for n, r in seen.robots.items() if n != robot}
-    standing: dict[str, StandingObject] = {o.name: o.standing for o in obstacles}
-    path = motion.park(robot, seen.robots[robot].joints, standing, others) if motion else None
+    path = _park_path(setup, seen, robot, motion)
     return Operation(
         id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=tuple(after),
         reason=Reason(kind="parked", text="out of the beam"),
