@@ -19,7 +19,7 @@ def text(made: Committed) -> str:
     if made.captured:
         block.append(f"{count(len(made.captured), 'tunable')} taken from the bench.")
     if not made.realized:
-        block.append("This state was never on the bench; the commit says so.")
+        block.append("Nobody compared this state with the bench, and the commit says so: `pico verify` does.")
     elif made.runs:
         block.append(f"With {count(len(made.runs), 'run')} ({made.evidence}).")
     if not made.branch:

@@ -19,7 +19,7 @@ def text(made: MergeMade) -> str:
     what = f"{count(len(made.changes), 'tunable')} changed here" if made.changes else "nothing changed on the table"
     block = [f"{head} ({made.commit[:7]}); {what}.", *lines(made.changes)]
     if made.kind == "merged":
-        block += ["", "This state was never on the bench. `pico plan` shows what would move to bring it there."]
+        block += ["", "Nothing moved. `pico plan` shows what the bench still has to do."]
     return "\n".join(block)
 
 

@@ -102,8 +102,12 @@ def convert(value: Any, unit: str) -> Any:
         raise QuantityError(f"`{given[:40]}` is not a unit; expected {example(unit)}")
     have, want = dimension(given), dimension(unit)
     if have != want:
-        raise DimensionError(f"`{value}` is a {have}, not a {want}; expected {example(unit)}", have, want)
+        raise DimensionError(f"`{value}` is {_a(have)}, not {_a(want)}; expected {example(unit)}", have, want)
     return float(_registry().Quantity(number, given).to(unit).magnitude)
+
+
+def _a(noun: str) -> str:
+    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
 def example(unit: str) -> str:

@@ -44,8 +44,10 @@ def asked(setup: Setup, seen: Observation, component: str, name: str, arguments:
     require_component(setup, component)
     allowed = setup.type_of(component).primitives
     if name not in allowed:
-        hint = did_you_mean(name, allowed)
-        raise _wrong(f"{component} has no primitive `{name}`", hint or f"known: {', '.join(allowed)}", component)
+        known = sorted({*allowed, *(("measure",) if setup.measurables_of(component) else ())})
+        hint = did_you_mean(name, known) or f"what can be done with it: {', '.join(known)}"
+        can = "no arm can move it: only a person can" if name in ("move", "stow") else f"it knows no `{name}`"
+        raise _wrong(f"{component}: {can}", hint, component)
     if name == "scan":
         raise _wrong(f"{name} of {component}: a scan is a step of recipes, which are not there yet", "")
     reader = {"move": _move, "stow": _stow, "set": _set, "home": _home}.get(name)

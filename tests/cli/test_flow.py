@@ -214,7 +214,7 @@ def test_commit_refuses_edits_that_were_never_applied_unless_told_who_wins(shel:
     assert "never applied: p2" in refused.err
     planned = pico("commit", "-m", "move p2", "--planned")
     assert planned.code == 0
-    assert "never on the bench" in planned.out
+    assert "Nobody compared this state with the bench" in planned.out
     assert "\nPico-Evidence: planned\n" in pico("show", "--json").data["message"]
 
 

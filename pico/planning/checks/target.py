@@ -174,7 +174,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
     if out > 0:
         width, depth = setup.lab.table.size
         found.append(error(
-            "impossible", f"{name} cannot stand at {spot}: it would stick out {out:.3g} mm over the table's edge",
+            "impossible", f"{name} cannot stand at {spot}: it would stick out {_mm(out)} mm over the table's edge",
             hint=f"the table ends at x = {width:g} and y = {depth:g}", address=address, source=blame,
         ))  # fmt: skip
     for zone in _forbidden(setup, mover, shape):
@@ -191,3 +191,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
             f"{most:g} mm", hint="choose a larger slot", address=address, source=blame,
         ))  # fmt: skip
     return found
+
+
+def _mm(length: float) -> str:
+    return f"{length:.0f}" if length >= 100 else f"{length:.3g}"

@@ -142,9 +142,7 @@ def after_set_downs(
     return [*first, *shifted, *parks]
 
 
-def parked_first(
-    setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None
-) -> list[Operation]:
+def parked_first(setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None) -> list[Operation]:
     """Return the operations after a park of each arm that was stopped on its way with an empty hand, and that none of
     them uses; `after` holds indices as text. An arm that has no way to its park pose is left where it stands."""
     used, parks = {o.robot for o in rest}, list[Operation]()
