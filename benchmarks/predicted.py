@@ -38,7 +38,7 @@ def seen_bench(lab: Path, tool: float) -> Setup:
     setup = load_folder(lab).require()[0]
     eyes = {camera.robot for camera in setup.lab.cameras.values()}
     looks = {None, *setup.lab.robots} <= eyes
-    robots = {n: replace(r, tool_speed=min(r.tool_speed, tool)) for n, r in setup.lab.robots.items()}
+    robots = {n: replace(r, tool_speed=min(r.fastest, tool)) for n, r in setup.lab.robots.items()}
     settings = replace(setup.lab.sim, observe="sight", sight="pixels") if looks else setup.lab.sim
     return replace(setup, lab=replace(setup.lab, robots=robots, sim=settings))
 

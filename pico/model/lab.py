@@ -128,7 +128,7 @@ class Robot:
     gripper: Gripper = Gripper()
     transit_height: Length = 250.0
     speed: float = 0.5
-    tool_speed: float = TOOL_SPEED
+    tool_speed: float | None = None
     park: tuple[Angle, ...] = (0.0, -60.0, 0.0, 30.0, 0.0, 90.0, 0.0)
 
     def __post_init__(self) -> None:
@@ -141,6 +141,11 @@ class Robot:
         for number, (angle, (low, high)) in enumerate(zip(self.park, XARM7_RANGES, strict=True), 1):
             if not low <= angle <= high:
                 raise ValueError(f"joint {number} of `park` is {angle:g} deg; it turns from {low:g} to {high:g} deg")
+
+    @property
+    def fastest(self) -> float:
+        """The greatest speed of the tool centre point [mm/s]."""
+        return TOOL_SPEED if self.tool_speed is None else self.tool_speed
 
     @property
     def park_joints(self) -> tuple[float, ...]:
@@ -304,8 +309,8 @@ class SimSettings:
     """How the simulated bench behaves where a command does not say. `pad_friction`: sliding friction coefficient of the
     finger pads on a part. `renderer`: what draws the cameras' pictures; `egl` needs OpenGL. `errors`: what is wrong
     with cameras and arms. `sight`: by what the physical world corrects a part in the hand before it is put down: the
-    truth (where nothing is said and the table is known exactly), the pictures of the eye in the hand, or nothing; with
-    `pixels` a physical run knows only what its cameras saw, of the table, too. `faults`: what goes wrong how often, as
+    truth (but where the table is looked at by sight), the pictures of the eye in the hand, or nothing; with `pixels` a
+    physical run knows only what its cameras saw, of the table, too. `faults`: what goes wrong how often, as
     a share of the operations that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, `all`.
     `observe`: how the table is looked at, exactly or through the cameras."""
 
@@ -314,7 +319,7 @@ class SimSettings:
     pad_friction: float = 1.0
     renderer: Literal["raycast", "egl"] = "raycast"
     errors: SimErrors = SimErrors()
-    sight: Literal["exact", "pixels", "none"] | None = None
+    sight: Literal["exact", "pixels", "none"] = "exact"
     observe: Literal["exact", "sight"] = "exact"
     faults: Mapping[Literal["drop", "slip", "jam", "camera", "timeout", "reading", "slow", "all"], float] = field(
         default_factory=dict
@@ -323,15 +328,13 @@ class SimSettings:
     @property
     def hand_sight(self) -> Literal["exact", "pixels", "none"]:
         """By what a part in the hand is seen in the physical world."""
-        return self.sight or ("pixels" if self.observe == "sight" else "exact")
+        return "pixels" if self.observe == "sight" and self.sight == "exact" else self.sight
 
     def runs_by_sight(self, fidelity: str) -> bool:
         """Return whether a run at a fidelity knows only what its cameras, joints and pads tell."""
         return self.observe == "sight" or (fidelity == "physics" and self.hand_sight == "pixels")
 
     def __post_init__(self) -> None:
-        if self.observe == "sight" and self.sight == "exact":
-            raise ValueError("with `observe: sight` nothing is known exactly: `sight` is `pixels` or `none`")
         for name, rate in self.faults.items():
             if not 0 <= rate <= 1:
                 raise ValueError(f"the rate of `{name}` in `faults` is a share from 0 to 1, not {rate:g}")

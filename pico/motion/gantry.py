@@ -95,7 +95,7 @@ def _ramps(robot: Robot, start: Joints, end: Joints) -> tuple[float, float, floa
     """How far it is [m], how fast the gantry gets [m/s], and how long that takes [s]."""
     way = max(math.dist(start[:3], end[:3]), _ARM * abs(end[3] - start[3]))
     acceleration = ACCELERATION * robot.speed**2
-    peak = min(SPEED * robot.speed, robot.tool_speed / 1000, math.sqrt(acceleration * way))
+    peak = min(SPEED * robot.speed, robot.fastest / 1000, math.sqrt(acceleration * way))
     return way, peak, peak / acceleration
 
 

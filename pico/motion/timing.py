@@ -154,9 +154,9 @@ def _ruckig() -> tuple[Any, Any, Any]:
 def _swing_limits(robot: Robot, start: Joints, end: Joints, longest: float) -> Limits:
     """What the joint that goes `longest` may do, so that the tool is not too fast either."""
     limits = joint_limits(robot)
-    enough = robot.tool_speed * longest / limits.velocity
+    enough = robot.fastest * longest / limits.velocity
     way = pace(start, end, robot.gripper.tool, enough)
-    return limits if way <= enough else replace(limits, velocity=robot.tool_speed * longest / way)
+    return limits if way <= enough else replace(limits, velocity=robot.fastest * longest / way)
 
 
 def _vertical_limits(robot: Robot, column: Column, start: float, end: float) -> Limits:
@@ -166,7 +166,7 @@ def _vertical_limits(robot: Robot, column: Column, start: float, end: float) -> 
     """
     first, second, third = _derivatives(column, start, end)
     joint = joint_limits(robot)
-    velocity = min(joint.velocity / first, TOOL_SPEED * robot.speed, robot.tool_speed)
+    velocity = min(joint.velocity / first, TOOL_SPEED * robot.speed, robot.fastest)
     limits = Limits(velocity, joint.acceleration / first, joint.jerk / first)
     v, a, j = limits.velocity, limits.acceleration, limits.jerk
     acceleration = first * a + second * v * v

@@ -138,9 +138,9 @@ def _ranges(document: Document, lab: Lab) -> Iterator[Diagnostic]:
             yield error(
                 "value", f"the speed of {name} is {robot.speed:g}", hint="expected a share, above 0 to 1", source=source
             )
-        if not 0 < robot.tool_speed <= TOOL_SPEED:
+        if not 0 < robot.fastest <= TOOL_SPEED:
             source = where(document, "robots", name, "tool_speed")
-            text = f"the tool speed of {name} is {robot.tool_speed:g} mm/s"
+            text = f"the tool speed of {name} is {robot.fastest:g} mm/s"
             hint = f"expected above 0 to {TOOL_SPEED:g} mm/s, the vendor's limit; 250 where a person may be near"
             yield error("value", text, hint=hint, source=source)
 
