@@ -90,6 +90,7 @@ def test_a_part_that_was_pushed_since_is_picked_where_it_is_seen(tmp_path: Path)
     assert result.outcome == "done" and bench.true().distance(GOAL) < 0.1
 
 
+@pytest.mark.slow
 def test_a_part_that_was_pushed_too_far_is_not_picked(tmp_path: Path) -> None:
     bench = Bench(tmp_path, "kinematic")
     bench.push(30.0)
