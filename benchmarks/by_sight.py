@@ -75,7 +75,7 @@ class Done:
 ARM = ArmErrors(mount_position=2.0, mount_rotation=0.3, joint_zero=0.1, tool_position=0.5, encoder_noise=0.01)
 
 
-def bench(lab: Path, seed: int, errors: bool, lost: float, arms: bool) -> Setup:
+def bench(lab: Path, seed: int, errors: bool, lost: float, arms: bool = False) -> Setup:
     """Return a bench that is looked at by sight."""
     wrong = SimErrors(lost_frames=lost, arm=ARM if arms else None)
     if errors:
