@@ -1,14 +1,16 @@
 """Physical moves by sight alone: how far from their goals parts really stand, and whether what is said of them is true.
 
     python benchmarks/by_sight.py [--moves 500] [--seeds 20] [--lab labs/shel] [--errors] [--lost 0.1] [--first 1]
-                                  [--arms calibrated|never]
+                                  [--arms calibrated|never] [--light]
 
 Each seed is a bench of its own: its cameras are wrong by 0.2 mm, 0.05 deg, 0.5 % of focal length and 0.1 mm of marker
 height (`--errors`), and lose a share of their frames (`--lost`). Its arms are off by 2 mm and 0.3 deg in their mount,
 0.1 deg in each joint and 0.5 mm in their tool, their encoders by 0.01 deg (`--arms`), and the bench is calibrated first
-(80 s each), or never. Random components go one after the other to random poses within reach. All that reaches planning
-and execution are frames, joints and the distance between the pads: what the simulation knows besides is poisoned while
-it moves, so that asking for it would stop this benchmark.
+(80 s each), or never. Every second bench is then in bad light (`--light`): a quarter of what there should be, pictures
+out of focus by 1.5 pixels, ten spots of scattered laser light, five reflections of lamps in each camera, in turn.
+Random components go one after the other to random poses within reach. All that reaches planning and execution are
+frames, joints and the distance between the pads: what the simulation knows besides is poisoned while it moves, so that
+asking for it would stop this benchmark.
 
 The truth is read afterwards. `silent`: a part that stands more than 0.5 mm off its goal and was said to be right, and
 known well enough to tell. `covered`: errors within two of the standard deviations that were said of them. Exit code 1
@@ -40,7 +42,7 @@ from pico.backends.sim.store import load_world  # noqa: E402
 from pico.cameras.calibrating import calibrate  # noqa: E402
 from pico.cameras.errors import true_cameras  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import ArmErrors, Setup, SimErrors  # noqa: E402
+from pico.model.lab import ArmErrors, BadLight, Setup, SimErrors  # noqa: E402
 from pico.model.observation import Observation, doubtful  # noqa: E402
 from pico.model.operation import Operation, Reason  # noqa: E402
 from pico.model.pose import Pose, angle_between  # noqa: E402
@@ -72,6 +74,7 @@ class Done:
     cpu: float
 
 
+LIGHT = (BadLight(dim=0.25), BadLight(defocus=1.5), BadLight(scatter=10), BadLight(glare=5))
 ARM = ArmErrors(mount_position=2.0, mount_rotation=0.3, joint_zero=0.1, tool_position=0.5, encoder_noise=0.01)
 
 
@@ -83,6 +86,12 @@ def bench(lab: Path, seed: int, errors: bool, lost: float, arms: bool = False) -
     setup = load_folder(lab).require()[0]
     sim = replace(setup.lab.sim, seed=seed, observe="sight", sight="pixels", errors=wrong)
     return replace(setup, lab=replace(setup.lab, sim=sim))
+
+
+def lit(setup: Setup, light: BadLight) -> Setup:
+    """Return a bench in bad light."""
+    sim = setup.lab.sim
+    return replace(setup, lab=replace(setup.lab, sim=replace(sim, errors=replace(sim.errors, light=light))))
 
 
 def draw(setup: Setup, motion: ArmMotion, seen: Observation, rnd: random.Random) -> tuple[Operation, float] | None:
@@ -157,6 +166,7 @@ def main() -> int:
     parser.add_argument("--lab", type=Path, default=ROOT / "labs" / "shel")
     parser.add_argument("--errors", action="store_true")
     parser.add_argument("--arms", choices=("calibrated", "never"))
+    parser.add_argument("--light", action="store_true")
     parser.add_argument("--lost", type=float, default=0.0)
     given = parser.parse_args()
     done: list[Done] = []
@@ -167,7 +177,15 @@ def main() -> int:
             if given.arms == "calibrated":
                 true = true_cameras(setup, setup.lab.sim.errors, seed)
                 write_calibration(Path(folder), calibrate(setup, true, seed))
-            done += moves(setup, Path(folder), min(each, given.moves - len(done)), seed)
+            if given.light and seed % 2 == 0:
+                setup = lit(setup, LIGHT[seed // 2 % len(LIGHT)])
+            made = list(moves(setup, Path(folder), min(each, given.moves - len(done)), seed))
+            for d in made:
+                where = as_json(setup.lab.sim.errors.light) if setup.lab.sim.errors.light else ""
+                print(
+                    f"{seed} {where} off {d.off:.3f} {d.turned:.3f} sigmas {d.sigmas:.2f} {d.how} {d.said}", flush=True
+                )
+            done += made
     good = [d for d in done if not d.said]
     for d in done:
         if d.said:

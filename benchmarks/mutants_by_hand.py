@@ -20,7 +20,7 @@ BY_HAND: tuple[ByHand, ...] = (
     ByHand("a laser that the plan turns on counts as dark",
         'return _read(seen, laser, "emission") is False and not lit', 'return _read(seen, laser, "emission") is False', "test_rules.py"),
     ByHand("a part turned in its place since is picked as planned",
-        'if away > tolerance.position or turned > tolerance.yaw:\n            text = f"the plan is stale', 'if away > tolerance.position:\n            text = f"the plan is stale', "test_checks.py"),
+        'if away > tolerance.position or turned > tolerance.yaw:\n            yield stale', 'if away > tolerance.position:\n            yield stale', "test_checks.py"),
     ByHand("the simulated hand picks what was turned in its place",
         "    if away > tolerance.position or turned > tolerance.yaw:\n        text = f\"{name} stands", "    if away > tolerance.position:\n        text = f\"{name} stands", "test_sim_backend.py"),
     ByHand("an arm may park while its move still runs",

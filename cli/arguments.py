@@ -134,6 +134,19 @@ def pairs(words: list[str] | None, positional: tuple[str, ...] = ()) -> dict[str
     return found
 
 
+def value_of(address: str, words: list[str]) -> tuple[str, dict[str, str]]:
+    """Return the component and the value of its tunable: of `p1.angle 3 deg`, `p1.angle=3`, `p1 angle=3`."""
+    for word in words:
+        if word.startswith("--"):
+            _named(word, iter(()))
+    component, _, tunable = address.partition(".")
+    if sum("=" in word for word in words) > 1:
+        return component, pairs(words)
+    said = " ".join([tunable, *words]).strip()
+    name, _, value = said.partition("=" if "=" in said else " ")
+    return component, {name.strip(): value.strip()} if said else {}
+
+
 def _named(word: str, names: Iterator[str]) -> str:
     if word.startswith("--"):
         raise PicoError(error("usage", f"no such option: {word}"))

@@ -75,7 +75,9 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
     hint = f"`{path} --help` shows how it is used"
     if " (Possible options: " in message:
         message, _, near = message.removesuffix(")").partition(" (Possible options: ")
-        hint = f"did you mean `{near.split(',')[0]}`? {hint}"
+        options = near.split(", ")
+        meant = [o for o in options if o.endswith(str(getattr(exc, "option_name", "-")).lstrip("-"))] or options
+        hint = f"did you mean {' or '.join(f'`{o}`' for o in meant)}? {hint}"
     if message.startswith("No such command"):
         unknown = message.split("'")[1] if "'" in message else next((w for w in words if not w.startswith("-")), "")
         if path == "pico" and (said := instead(unknown)):

@@ -94,14 +94,20 @@ def warning(
 
 
 class PicoError(Exception):
-    """Carries every diagnostic that stopped the work, and the exit code that a command ends with."""
+    """Carries every diagnostic that stopped the work, and the exit code that a command ends with; as text, for a script
+    that does not catch it, what is wrong and what would be right."""
 
     def __init__(self, diagnostics: Diagnostic | Iterable[Diagnostic], exit_code: ExitCode = ExitCode.ERROR) -> None:
         self.diagnostics: Sequence[Diagnostic] = (
             (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
         )
         self.exit_code = exit_code
-        super().__init__("; ".join(d.summary for d in self.diagnostics))
+        super().__init__("; ".join(f"{d.summary} ({d.hint})" if d.hint else d.summary for d in self.diagnostics))
+
+
+_AS_NEAR = 0.01
+_SLOTS_ALIKE = 0.91
+"""How alike a misspelt slot must be: `storage/z9` is none of its neighbours."""
 
 
 def did_you_mean(word: str, known: Iterable[str], alike: float = 0.6) -> str:
@@ -110,9 +116,17 @@ def did_you_mean(word: str, known: Iterable[str], alike: float = 0.6) -> str:
     import difflib
 
     names = sorted(known)
-    near = difflib.get_close_matches(word, names, n=1, cutoff=alike)
-    if near:
-        return f"did you mean `{near[0]}`?"
+    near = difflib.get_close_matches(word, names, n=3, cutoff=alike)
+    likeness = [difflib.SequenceMatcher(None, name, word).ratio() for name in near]
+    if nearest := [f"`{name}`" for name, like in zip(near, likeness, strict=True) if like > likeness[0] - _AS_NEAR]:
+        return f"did you mean {' or '.join(nearest)}?"
     if names and len(names) <= 12:
         return "known: " + ", ".join(f"`{n}`" for n in names)
     return ""
+
+
+def slot_meant(word: str, slots: Iterable[str]) -> str:
+    """Return a hint for a slot that there is not, like `did_you_mean`; `a4` may be `storage/a4`."""
+    known = sorted(slots)
+    short = [f"`{slot}`" for slot in known if slot.rpartition("/")[2] == word]
+    return f"did you mean {' or '.join(short)}?" if short else did_you_mean(word, known, _SLOTS_ALIKE)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from pico.attachment import bench_folder
+from pico.edge.lease import BenchLock
 
 
 @dataclass(frozen=True)
@@ -38,3 +42,13 @@ def edit(path: Path, before: str, after: str) -> None:
     text = path.read_text()
     assert before in text
     path.write_text(text.replace(before, after, 1))
+
+
+@contextmanager
+def a_run_goes_on(root: Path, what: str) -> Iterator[None]:
+    """Hold the bench, in the midst of a run."""
+    mark = bench_folder(root) / "run"
+    with BenchLock(root).held(what):
+        mark.write_text("20261123T120000Z-aaaaaa")
+        yield
+        mark.unlink()

@@ -48,7 +48,7 @@ def test_the_tour_runs_as_written(tmp_path: Path) -> None:
         check=False,
     )
     assert python.returncode == 0, python.stderr
-    assert re.match(r"\d+ operations, \d+ s", python.stdout)
+    assert re.match(r"\d+ operations, \d+ s", python.stdout) and python.stdout.splitlines()[-1] == "1.0"
 
 
 def test_every_file_the_readme_links_to_exists() -> None:

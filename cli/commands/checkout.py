@@ -65,7 +65,8 @@ def _go(session: Session, bench: Bench, what: str | SelectedParts, plan: Plan, b
         require_attached(bench.root)
     bench.history.checkout(what)
     if isinstance(what, str):
-        session.say(f"\nThe files are at {bench.history.head_name()}. Go back with `pico checkout {before}`.")
+        way = f" Go back with `pico checkout {before}`." if before != bench.history.here() else ""
+        session.say(f"\nThe files are at {bench.history.head_name()}.{way}")
         back = ""
     else:
         session.say(f"\n{view.text(what)}")

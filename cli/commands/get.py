@@ -12,7 +12,7 @@ from ..views import values as view
 
 def get(
     context: typer.Context,
-    what: Annotated[str, typer.Argument(metavar="COMPONENT[.TUNABLE]", help="Or a measurable; all without one.")],
+    what: Annotated[str, typer.Argument(metavar="COMPONENT[.TUNABLE]", help="Or COMPONENT.MEASURABLE.")],
 ) -> None:
     """Read the tunables of a component.
 

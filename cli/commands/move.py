@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, Yes, pairs
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Speed, Yes, pairs
 from ..runs.approving import single
 from ..session import Session
 
+Where = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="SLOT|home|KEY=VALUE...", help="x, y, yaw (or bare, in turn), turn, after, distance."),
+]
 SETTINGS = {"ignore_unknown_options": True}
 
 
 def move(
-    context: typer.Context, component: Component, arguments: Pairs = None, speed: Speed = None, dry_run: DryRun = False,
+    context: typer.Context, component: Component, arguments: Where = None, speed: Speed = None, dry_run: DryRun = False,
     fidelity: Fidelity = None, auto_approve: Yes = False, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Move a component: to a pose, by an angle, to a slot, home.
 
     What is not named of x, y and yaw stays; `turn` counts from where it stands, `distance` from the optical plane of
-    the other one, along its beam. The manifest stays as it is.
+    the other one, the way that one faces. The manifest stays as it is.
 
     Examples:
       pico move p2 x=500 y=420 yaw=30

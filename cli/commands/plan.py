@@ -51,6 +51,8 @@ def plan(
       pico plan e1 --explain p2
       pico plan e1 --graph --format dot | dot -Tsvg > plan.svg
     """
+    from pico.bench.in_use import goes_on
+
     _require(explain, graph, component, form)
     session = Session.of(context)
     bench = session.bench(fidelity)
@@ -59,6 +61,8 @@ def plan(
     named = scope_of(context)
     options = {"exact": exact, "prefer": prefer, "targets": named, "exclude": exclude or ()}
     found = bench.plans.plan_of(what, folder=session.folder, **options)
+    meanwhile = goes_on(bench)
+    session.tell(meanwhile)
     if graph:
         _graph(session, bench, found, form, out, what)
     elif out and not found.errored:
@@ -68,6 +72,8 @@ def plan(
     elif not graph:
         saved = what is not None and found.target.revision != what
         step = f"Apply with `pico apply {what}`." if saved else _next(what, out, _again(exclude, prefer), named)
+        if meanwhile:
+            step = "A run goes on: plan again when it is over."
         session.show(view, found, **_named(bench, found), next_step=step)
     session.draw(picture, "the plan", lambda path: bench.pictures.render(view="top", plan=found, out=path))
     if not explain:

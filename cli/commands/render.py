@@ -11,7 +11,6 @@ import typer
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 
-from ..arguments import Revision
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import picture as view
@@ -25,7 +24,9 @@ LARGEST = 8000
 
 def render(
     context: typer.Context,
-    revision: Revision = None,
+    revision: Annotated[
+        str | None, typer.Argument(metavar="REV", help="A commit, branch or tag; without it the bench as it is.")
+    ] = None,
     out: Annotated[
         Path, typer.Option("--out", metavar="FILE", help="Where it goes: .png, or .svg for a drawing with parts list.")
     ] = Path("bench.png"),

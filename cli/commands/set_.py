@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Yes, pairs
+from ..arguments import DryRun, Fidelity, LockTimeout, Yes, value_of
 from ..runs.approving import single
 from ..session import Session
 
+Values = Annotated[list[str] | None, typer.Argument(metavar="VALUE|TUNABLE=VALUE", help="To what.")]
 SETTINGS = {"ignore_unknown_options": True}
 
 
 def set_(
     context: typer.Context,
-    component: Component,
-    arguments: Pairs = None,
+    component: Annotated[str, typer.Argument(metavar="COMPONENT[.TUNABLE]", help="What is to be set.")],
+    arguments: Values = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
@@ -23,7 +26,9 @@ def set_(
     """Set a tunable.
 
     Examples:
+      pico set p1.angle 3
       pico set p1 angle=3
       pico set cam exposure="2 ms"
     """
-    return single(Session.of(context), component, "set", pairs(arguments), None, dry_run, fidelity, auto_approve)
+    name, given = value_of(component, arguments or [])
+    return single(Session.of(context), name, "set", given, None, dry_run, fidelity, auto_approve)

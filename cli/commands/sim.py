@@ -53,6 +53,8 @@ def nudge(
 ) -> None:
     """Push a component, as somebody bumping the table would.
 
+    One that was taken off the table is put to its home first.
+
     Examples:
       pico sim nudge p2 --dx 5
     """
@@ -91,7 +93,7 @@ def remove(context: typer.Context, name: Component) -> None:
     Examples:
       pico sim remove p2
     """
-    _act(context, lambda sim: sim.remove(name), f"{name} is off the table; `pico sim reset` brings everything back")
+    _act(context, lambda sim: sim.remove(name), f"{name} is off the table; `pico sim nudge {name}` puts it home")
 
 
 @app.command()

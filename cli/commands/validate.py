@@ -19,9 +19,9 @@ def validate(
 ) -> int:
     """Check the manifests.
 
-    Also that everything has room where the state wants it, that an arm can grip what it is to move and reaches the
-    slots, and where beams end. All errors at once, each with its place. Does not ask the bench; asks Git what it keeps
-    out of the folder, and what its merge kept.
+    Also that everything has room where the state wants it, that an arm can grip what it is to move and reaches where
+    it belongs, and where beams end. All errors at once, each with its place. Does not ask the bench; asks Git what it
+    keeps out of the folder, and what its merge kept.
 
     Examples:
       pico validate
@@ -33,14 +33,14 @@ def validate(
     from pico.manifest.folders import check_files, check_folder
     from pico.optics.ends import stray_beams
     from pico.planning.checks.bolted import check_bolted
-    from pico.planning.checks.grips import check_grips, check_slots
+    from pico.planning.checks.grips import check_grips, check_reach
 
     session = Session.of(context)
     asked = (
         lambda root, read: [
             *check_bolted(read.require()[0], read.source),
             *check_grips(read),
-            *check_slots(read.require()[0], read),
+            *check_reach(read),
             *overlapping(read),
             *stray_beams(*read.require()),
             *doubts_in(root, read),

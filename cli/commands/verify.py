@@ -40,6 +40,8 @@ def verify(
       pico verify
       pico verify e1 --measure
     """
+    from pico.bench.in_use import goes_on
+
     session = Session.of(context)
     bench = session.bench(writing=measure)
     taken: Mapping[str, Measurement] = {}
@@ -53,6 +55,7 @@ def verify(
             return report.exit_code
         taken = report.measurements
     found = bench.measurements.verify(revision, taken)
+    session.tell(goes_on(bench))
     session.show(view, found)
     if found.standing and not session.json:
         session.report(found.standing.diagnostics)

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import ExitCode
+from pico.diagnostics import ExitCode, PicoError
 from pico.policy.consent import asked_about, lights
 
 from ..session import Session
 from ..views import plan as plan_view
 from ..views import report as report_view
 from ..views import verified
-from ..views.style import count
+from ..views.style import count, listed
 from .running import execute
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
+    from pico.model.diff import Change
     from pico.model.lab import Setup
     from pico.model.plan import Plan
+
+FEW = 3
+"""So many components are named."""
 
 
 def approve(
@@ -65,11 +70,24 @@ def single(
     bench = session.bench(fidelity, speed, writing=not dry_run)
     plan = bench.plans.single(component, primitive, arguments)
     asked = arguments if primitive == "set" else ("pose",) if primitive in ("move", "stow") else ()
-    beside = bench.plans.not_in_manifest(plan, component, asked) if asked and not plan.operations else None
-    code = show(session, bench, plan, auto_approve or dry_run, single=True, beside=beside)
+    off: tuple[Change, ...] = ()
+    with nullcontext() if not plan.operations else suppress(PicoError):  # a manifest that can't be read stops no move
+        off = bench.plans.not_in_manifest(plan) if asked else ()
+    own = [c for c in off if c.component == component and c.tunable in asked] if asked else None
+    code = show(session, bench, plan, auto_approve or dry_run, single=True, beside=own)
     if code or dry_run or not plan.operations:
         return code
-    return declined(session, bench, plan, auto_approve) or execute(session, bench, plan)
+    after = _too(component, sorted({c.component for c in off} - {component}))
+    return declined(session, bench, plan, auto_approve) or execute(session, bench, plan, after=after)
+
+
+def _too(component: str, others: list[str]) -> str:
+    """Return that other components are not as the manifest says, either: moved on the bench, or edited in a file."""
+    if not others:
+        return ""
+    verb, names = "differs" if len(others) == 1 else "differ", " ".join(others) if len(others) <= FEW else "NAME"
+    then = f"`pico apply -- {names}` brings it there, `pico commit {component}` leaves it out of a commit"
+    return f"{listed(others, FEW)} {verb} from the manifest, too: {then}."
 
 
 def show(session: Session, bench: Bench, plan: Plan, auto_approve: bool, **how: Any) -> ExitCode:

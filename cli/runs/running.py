@@ -84,7 +84,8 @@ def ran(
             events.append(event)
 
     came = watched(run, show)
-    session.show(report_view, run.report, after=_after(plan) if after is None else after)
+    after = _after(plan) if after is None else after
+    session.show(report_view, run.report, after=after, undoing=plan.target.cause == "undo")
     session.tell(run.report.diagnostics)
     if record and recording and recording.snapshots and set(came) <= {signal.SIGINT}:  # else nobody waits for it
         from .filming import film

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,8 @@ from .diff import brief, lines
 from .runs import shown
 from .style import columns, count, pad, paint, printable, seconds, wide, width, wrap
 
+FEW = 2
+"""Runs of a commit that are told one by one where it has a line; more are summed up."""
 CHANGES = 8
 """Lines about what a commit changed, at most; `pico show` has them all."""
 
@@ -116,7 +119,7 @@ def _what(entry: CommitEntry) -> str:
 
 def _long(entry: CommitEntry, _: int) -> list[str]:
     what = [f"  {_what(entry)}"] if entry.unreadable or not entry.changes else _first(lines(entry.changes), entry)
-    return [*header(entry, brief=True), "", *what, *evidence_lines(entry), ""]
+    return [*header(entry, brief=True), "", *what, *evidence_lines(entry, CHANGES), ""]
 
 
 def _first(told: list[str], entry: CommitEntry) -> list[str]:
@@ -147,16 +150,19 @@ def proofs(entry: CommitEntry) -> list[str]:
     """Return in a few words how far the state of a commit is proven, and how its runs ended."""
     inherited = entry.standing is not None and entry.standing.verdict == "inherited"
     evidence = ["inherited"] if inherited else [entry.evidence] if entry.evidence else []
-    return [*evidence, *(ended(run) for run in entry.runs)]
+    return [*evidence, *([ended(*entry.runs)] if len(entry.runs) > FEW else map(ended, entry.runs))]
 
 
-def evidence_lines(entry: CommitEntry) -> list[str]:
-    """Return lines with the evidence for a commit, and for each of its runs how it ended and what did not hold."""
+def evidence_lines(entry: CommitEntry, most: int | None = None) -> list[str]:
+    """Return lines with the evidence for a commit, and for each of its runs how it ended and what did not hold; of more
+    than `most` runs together how they ended."""
     found = []
     standing = entry.standing
     if standing and standing.verdict != "unknown":
         by = f" ({standing.evidence})" if standing.evidence else ""
         found += wrap(f"{paint('dim', standing.verdict)}{by}: {shown(standing.why)}", "  ")
+    if most is not None and len(entry.runs) > most:
+        return [*found, f"  {ended(*entry.runs)}: `pico show {entry.commit.short}`"]
     for run in entry.runs:
         color = "green" if run.outcome == "done" else "red"
         found.append(f"  {paint('dim', f'run {shown(run.id)}')}: {paint(color, ended(run))} ({run.evidence})")
@@ -168,14 +174,20 @@ def evidence_lines(entry: CommitEntry) -> list[str]:
     return found
 
 
-def ended(run: Run) -> str:
-    """Return how a run ended: `5 moves done, 31 s`."""
-    words = [f"{number} {outcome}" for outcome, number in run.tally.items() if number and outcome != "done"]
-    done = run.tally.get("done", 0)
-    broken = sum(e.failed for e in run.expectations)
+def ended(*runs: Run) -> str:
+    """Return how a run ended: `5 operations done, 31 s`; of several together with how many they are."""
+    tally, ends = Counter[str](), Counter(run.outcome for run in runs if run.outcome != "done")
+    for run in runs:
+        tally.update(run.tally)
+    done = tally.pop("done", 0)
+    words = [f"{number} {outcome}" for outcome, number in tally.items() if number]
+    broken = sum(e.failed for run in runs for e in run.expectations)
     words += [f"{count(broken, 'expectation')} failed"] if broken else []
-    end = [] if run.outcome == "done" else [run.outcome]
-    return ", ".join([*end, f"{count(done, 'operation')} done", *words, seconds(run.seconds)])
+    several = len(runs) > 1
+    end = [count(len(runs), "run")] * several + [
+        f"{n} {outcome}" if several else outcome for outcome, n in ends.items()
+    ]
+    return ", ".join([*end, f"{count(done, 'operation')} done", *words, seconds(sum(run.seconds for run in runs))])
 
 
 def data(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:

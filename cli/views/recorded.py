@@ -45,7 +45,8 @@ def _head(d: Run, commit: Commit | None) -> list[str]:
         named = commit.label != commit.short
         where = f"carried by {commit.label} ({commit.short})" if named else f"carried by {commit.short}"
     total = sum(d.tally.values())
-    ended = f"{d.tally.get('done', 0)} of {count(total, 'operation')} done in {seconds(d.seconds)}"
+    begun = " begun" if d.outcome == "killed" else ""  # nobody was left to count the others
+    ended = f"{d.tally.get('done', 0)} of {count(total, 'operation')}{begun} done in {seconds(d.seconds)}"
     by = f" by {shown(d.operator)}" if d.operator else ""
     resumed = f", taken up again {count(d.resumed, 'time')}" if d.resumed else ""
     return [
@@ -88,7 +89,7 @@ def _place(to: Any) -> str:
 
 def _measured(found: Mapping[str, Any]) -> str:
     try:
-        return line(found)
+        return line(found) + (f", assured: {', '.join(found['assured'])}" if found.get("assured") else "")
     except (KeyError, TypeError, ValueError, AttributeError):  # written by another program
         return str(found)
 
@@ -123,7 +124,8 @@ def _with(run: RecordedRun) -> list[str]:
     rows += [["versions", shown(", ".join(f"{k} {v}" for k, v in d.versions.items()))]] if d.versions else []
     rows += [["files", ", ".join(f"{shown(name)} {f.size} bytes" for name, f in d.files.items())]] if d.files else []
     for artifact in d.artifacts:
-        where = "here" if artifact.sha256 not in run.missing else paint("red", "not here: `pico data pull`")
+        here = run.stored.get(artifact.sha256)
+        where = f"here: {here}" if here else paint("red", "not here: `pico data pull`")
         rows.append(["artifact", f"{shown(artifact.name)} {artifact.size} bytes, {where}"])
     return columns([[paint("dim", name), value] for name, value in rows])
 
@@ -136,7 +138,10 @@ def data(run: RecordedRun, commit: Commit | None) -> dict[str, Any]:
     """Return `pico.recorded/v1`: `document`, `commit`, `operations`, `measurements`, `artifacts`, diagnostics."""
     found: dict[str, Any] = {"schema": "pico.recorded/v1", "document": as_json(run.document)}
     found |= {"commit": commit.id} if commit else {}
-    artifacts = [{"artifact": as_json(a), "present": a.sha256 not in run.missing} for a in run.document.artifacts]
+    artifacts = [
+        {"artifact": as_json(a), "present": a.sha256 in run.stored, "path": run.stored.get(a.sha256)}
+        for a in run.document.artifacts
+    ]
     return found | {
         "operations": as_json(operations(run.trace)), "measurements": as_json(run.measurements),
         "artifacts": artifacts, "diagnostics": as_json(run.diagnostics),

@@ -13,8 +13,9 @@ from .diff import brief
 from .style import count, listed, paint, seconds, wrap
 
 
-def text(report: RunReport, *, after: str = "") -> str:
-    """Return the tally, and whether the bench now equals what was wanted; `after`: what to do once it is done."""
+def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
+    """Return the tally, and whether the bench now equals what was wanted; `after`: what to do once it is done;
+    `undoing`: the same command again would undo this one."""
     total = report.done + report.failed + report.unknown + report.skipped
     parts = [f"{report.done} of {count(total, 'operation')} done"]
     back = sum(d.code == "put-back" for d in report.diagnostics)
@@ -31,7 +32,7 @@ def text(report: RunReport, *, after: str = "") -> str:
     said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
     lines = [f"{head[report.outcome]}: {said} · {took}"]
     lines += expectations(report.expectations)
-    ending = [*_bench(report), *([after] if after and report.outcome == "done" else [])]
+    ending = [*_bench(report, undoing), *([after] if after and report.outcome == "done" else [])]
     return "\n".join(lines + [part for line in ending for part in wrap(line, "")])
 
 
@@ -54,7 +55,7 @@ def expectations(found: Sequence[Expected]) -> list[str]:
     return [*lines, f"{holding} of {count(len(found), 'expectation')} {verb}{rest}."]
 
 
-def _bench(report: RunReport) -> list[str]:
+def _bench(report: RunReport, undoing: bool) -> list[str]:
     if report.reached:
         if report.whole:
             return [f"The bench equals {report.goal}."]
@@ -73,7 +74,8 @@ def _bench(report: RunReport) -> list[str]:
     lines += [_in_hand(robot, part) for robot, part in report.held.items()]
     if report.outcome == "interrupted":
         return [*lines, "Continue with `pico resume`; go back with `pico undo`."]
-    return [*lines, "Continue with the same command: it plans from what is observed now. `pico undo` goes back."]
+    again = "Continue with the same command: it plans from what is observed now. `pico undo` goes back."
+    return [*lines, "Continue with `pico resume`: another `pico undo` would take back this one." if undoing else again]
 
 
 def _in_hand(robot: str, part: str) -> str:

@@ -74,7 +74,9 @@ def _summary(status: Status) -> list[str]:
             return ['The bench is as the manifest says; nothing is committed yet: `pico commit -m "why"`.']
         return ["Committed, desired and live are equal."]
     advice = []
-    if pending or drifts:
+    if any(d.code == "goes-on" for d in status.cut_short):
+        advice.append("A run goes on: this is the bench in between.")
+    elif pending or drifts:
         advice.append("`pico plan` shows what would move; `pico capture` takes the live values into the manifest.")
     elif edits and not lost:
         advice.append('The bench is as the manifest says; `pico commit -m "why"` keeps it.')

@@ -13,7 +13,7 @@ def text(holder: Holder | None, run: RunRecord | None) -> str:
     """Return who was stopped, how far it came, and what next."""
     if holder is None:
         return "Nothing moves: nobody has the bench."
-    lines = [f"Stopped {holder.what} of {holder.user} (process {holder.pid})."]
+    lines = [f"Stopped {holder.what} of {holder.who}."]
     if run is not None and run.tally is not None:
         names = {"done": "done", "failed": "not completed", "unknown": "with unknown outcome", "skipped": "not started"}
         counts = {name: int(run.tally.get(end, 0)) for end, name in names.items()}

@@ -16,6 +16,7 @@ from typing import Any
 from pico.attachment import bench_folder
 from pico.diagnostics import PicoError
 from pico.disk import write_whole
+from pico.model.lab import Setup
 from pico.model.observation import Observation, Uncertainty
 from pico.model.pose import Pose
 from pico.model.record import Format, as_json, record
@@ -65,6 +66,12 @@ def recall_hands(root: Path) -> dict[str, Taken]:
 def remember_hands(root: Path, hands: Mapping[str, Taken]) -> None:
     """Keep what hands take, before they do; where that can't be written, the journal still knows the component."""
     _write(_hands_path(root), {"schema": HANDS.schema, "hands": as_json(hands)})
+
+
+def repeated(setup: Setup, component: str) -> Uncertainty:
+    """Return how exactly an arm puts a part where it is to stand."""
+    repeatability = setup.type_of(component).repeatability
+    return Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
 
 
 def _hands_path(root: Path) -> Path:

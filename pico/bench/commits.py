@@ -12,7 +12,8 @@ from datetime import datetime
 from types import MappingProxyType
 from typing import Literal
 
-from pico.bench.cut_short import cut_short
+from pico.bench.cut_short import cut_short, told_with
+from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.link.opening import remembered
@@ -23,7 +24,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.messages.default import default_message
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
 from pico.history.writing.in_progress import message_of, require_resolved
-from pico.model.address import Named, read_addresses
+from pico.model.address import Named, holds, read_addresses
 from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
@@ -32,6 +33,7 @@ from pico.model.status import refuse_unapplied
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
 
 CommitMode = Literal["strict", "capture", "planned"]
+WAIT = "wait for its end, or `pico stop` ends it safely; `pico commit --planned` leaves the bench out"
 
 
 class Commits:
@@ -43,10 +45,25 @@ class Commits:
     def capture(self, *only: str, write: bool = True) -> Captured:
         """Write what the bench shows otherwise than the manifest, beyond tolerance, into the manifest.
 
-        `only`: these components or tunables (`p2`, `p1.angle`). Without `write`, say what would be written.
+        `only`: these components or tunables (`p2`, `p1.angle`). Without `write`, say what would be written. Raises
+        PicoError: exit code LOCKED where something would be written while somebody moves the bench.
         """
         named = read_addresses(self.folder.setup, only) if only else None
-        return self.folder.capture(self._live(self.opened.observe()), named, write=write)
+        if not write:
+            return self.folder.capture(self._live(self.opened.observe()), named, write=False)
+        seen, moved = self._seen()
+        if moved:
+            raise moved
+        with told_with(self.opened, seen):
+            _refuse_in_hand(seen, named)
+        return self.folder.capture(self._live(seen), named)
+
+    def _seen(self) -> tuple[Observation, PicoError | None]:
+        """Look at the bench; what stands there while somebody moves it is no state that anybody wanted: nothing of it
+        counts then, and this says who."""
+        before, seen = in_use(self.opened, WAIT), self.opened.observe()
+        moved = before or in_use(self.opened, WAIT)
+        return (replace(seen, components={}) if moved else seen), moved
 
     def _used(self) -> bool:
         return self.opened.wait(self.opened.edge.describe()).kept
@@ -73,20 +90,23 @@ class Commits:
 
         A commit that ends a merge, a cherry-pick or a revert captures nothing: it is about two histories, and a
         hypothesis until the bench stands so. Every commit at whose state the bench stands carries the runs that no
-        other has yet. Raises PicoError: for edits that were never applied, nothing to commit, and what git refuses.
+        other has yet. Raises PicoError: for edits that were never applied, nothing to commit, and what git refuses;
+        exit code LOCKED where it would capture while somebody moves the bench.
         """
         if mode == "planned":
             from pico.history.merge.checked import overlapping
 
             if found := overlapping(self.folder.manifests):
                 raise PicoError(found, ExitCode.IMPOSSIBLE)
-        seen = self.opened.observe()
+        seen, moved = self._seen()
         require_meta(meta)
         folder, repository = self.folder, self.folder.history()
-        with folder.writing("pico commit"):
+        with told_with(self.opened, seen), folder.writing("pico commit"):
             ending = require_resolved(repository.root, repository.own)
             named = read_addresses(folder.setup, only) if only and not ending else None
             captured = Captured()
+            if moved and not ending and mode != "planned":
+                raise moved
             if not ending:
                 _refuse(folder, seen, mode, named, used=self._used())
             if not ending and mode != "planned":
@@ -108,10 +128,12 @@ class Commits:
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
         """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
-        seen, folder, repository = self.opened.observe(), self.folder, self.folder.history()
+        (seen, moved), folder, repository = self._seen(), self.folder, self.folder.history()
         ending = require_resolved(repository.root, repository.own)
         if ending:
             return message_of(repository.own)
+        if moved and mode != "planned":
+            raise moved
         named = read_addresses(folder.setup, only) if only else None
         _refuse(folder, seen, mode, named, used=self._used())
         captured, state = (Captured(), folder.state)
@@ -128,6 +150,8 @@ class Commits:
 def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named | None, *, used: bool) -> None:
     """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins. `used`: the
     bench is not one that was only just made up: such a one never stood as anybody has committed."""
+    if mode != "planned":
+        _refuse_in_hand(seen, named)
     if mode != "strict":
         return
     components = contents(folder, named).components if named else None
@@ -144,6 +168,15 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
         hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the bench is left out"
         text = f"the bench never stood as the last commit says: {names}"
         raise PicoError(error("unapplied", text, hint=hint))
+
+
+def _refuse_in_hand(seen: Observation, named: Named | None) -> None:
+    """Raise PicoError where a hand holds what is to be captured or committed: it stands nowhere."""
+    for name, robot in sorted(seen.robots.items()):
+        if robot.holding and (named is None or holds(named, robot.holding, "pose")):
+            text = f"{name} holds {robot.holding}, and a manifest says where each part stands"
+            hint = "`pico recover` sets it down; or name others, which alone are taken"
+            raise PicoError(error("in-hand", text, hint=hint))
 
 
 def _stood(folder: LabFolder) -> datetime | None:

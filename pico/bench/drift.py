@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, Uncertainty
+from pico.model.observation import Observation, ObservedComponent, Uncertainty, slot_at
 from pico.model.pose import Pose, angle_between
 from pico.model.primitive import primitive
 from pico.model.record import record
@@ -49,7 +49,7 @@ class Drift:
 class Drifted:
     """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address.
 
-    `held`: why nothing may be healed now; empty where that is allowed. `cut_short`: see `pico.bench.cut_short`.
+    `held`: why nothing may be healed now; empty where that is allowed. `cut_short`: see `told_first`.
     """
 
     head: str
@@ -131,9 +131,12 @@ def who(
 ) -> tuple[Who, str]:  # fmt: skip
     """Return who changed a tunable last, and how that is known.
 
-    `operation` where the last one that touched it left it as it is now, or nobody knows how that one ended; `person`
-    where a part stands elsewhere than any left it; `unknown` for what else can change by itself.
+    `operation` where the last one that touched it left it as it is now, or nobody knows how that one ended, or a hand
+    holds it; `person` where a part stands elsewhere than any left it; `unknown` for what else can change by itself.
     """
+    records = tuple(records)
+    if part.presence == "held" and (begun := [r.key for r in records if _intends(r, change)]):
+        return "operation", f"run {begun[-1].split('/')[0]}, which picked it"
     touched = [r for r in _touching(records, change) if r.kind in ("done", "failed", "unknown", "resolved")]
     last = touched[-1] if touched else None
     run = last.key.split("/")[0] if last else ""
@@ -143,6 +146,9 @@ def who(
         return "operation", f"run {run}, {last.at}"
     since = f"; run {run} left it elsewhere, {last.at}" if last else ""
     if change.tunable == "pose":
+        home = setup.lab.inventory[change.component].home
+        if not last and home and part.pose and slot_at(setup, part.pose) == home:
+            return "unknown", "at home, where a new bench has it"
         return "person", f"no operation did it{since}"
     return "unknown", f"no operation set it{since}"
 
@@ -150,16 +156,18 @@ def who(
 def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalRecord]:
     wanted, found = set(), []
     for r in records:
-        if r.component != change.component:
-            continue
-        if r.kind == "intent":
-            own = r.data.get("arguments", {}).get("tunable")
-            moves = primitive(str(r.data.get("primitive"))).changes in ("pose", "anything")
-            if own == change.tunable or (change.tunable == "pose" and moves):
-                wanted.add(r.key)
-        elif r.key in wanted:
+        if _intends(r, change):
+            wanted.add(r.key)
+        elif r.key in wanted and r.component == change.component:
             found.append(r)
     return found
+
+
+def _intends(r: JournalRecord, change: Change) -> bool:
+    if r.kind != "intent" or r.component != change.component:
+        return False
+    moves = primitive(str(r.data.get("primitive"))).changes in ("pose", "anything")
+    return r.data.get("arguments", {}).get("tunable") == change.tunable or (change.tunable == "pose" and moves)
 
 
 def _as_left(setup: Setup, change: Change, part: ObservedComponent, after: Mapping[str, Any]) -> bool:

@@ -35,6 +35,9 @@ class Measurements:
             return {tunable: read_peeked(opened.wait(opened.edge.peek(component, tunable)))}
         return read_values(opened.setup, opened.observe(), component, tunable)
 
+    def _measurables(self) -> frozenset[str]:
+        return self.opened.wait(self.opened.edge.describe()).measurables
+
     def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
         """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""
         from pico.model.report import parts_of
@@ -58,7 +61,7 @@ class Measurements:
         committed = wanted if revision else folder.committed()
         return Verified(
             goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(setup, seen, wanted),
-            expectations=check_expectations(setup, seen, wanted.expect),
+            expectations=check_expectations(setup, seen, wanted.expect, self._measurables()),
             standing=recording.standing_of(folder, revision),
             left=committed is not None and not stands(setup, seen, committed),
         )  # fmt: skip
@@ -69,5 +72,5 @@ class Measurements:
         from pico.policy.expectations import check_expectations
 
         seen = self.opened.observe()
-        found = check_expectations(self.opened.setup, seen, plan.target.expect or ())
+        found = check_expectations(self.opened.setup, seen, plan.target.expect or (), self._measurables())
         return Verified(goal=plan.target.name, observed_at=seen.observed_at, expectations=found)

@@ -37,7 +37,8 @@ class Moves:
         opened = self.opened
         opened.suit(plan)
         named = partial(self._goal_now, plan)
-        return Execution(plan, opened.edge, opened.thread, named, wait=opened.lock_timeout, **options)
+        options = {"wait": opened.lock_timeout, "speed": opened.speed, **options}
+        return Execution(plan, opened.edge, opened.thread, named, **options)
 
     def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it.

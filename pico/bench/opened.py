@@ -7,7 +7,6 @@ computes in the thread of its caller: see `docs/decisions/0013-services.md`.
 from __future__ import annotations
 
 from collections.abc import Coroutine
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -37,6 +36,8 @@ class Opened:
         self.fidelity = fidelity or folder.setup.lab.sim.fidelity
         self.asked = fidelity is not None
         """Whether somebody asked for this fidelity."""
+        self.speed: float | None = None
+        """Share of the joint limits at which robots move here; None: as the lab says."""
         self.lock_timeout = 0.0
         self.thread = LoopThread()
         self._edge: Edge | None = None
@@ -57,10 +58,9 @@ class Opened:
         """
         _require_backend(backend, fidelity, speed)
         folder = LabFolder(Path(path), bench=True)
-        if speed is not None:
-            robots = {name: replace(robot, speed=speed) for name, robot in folder.setup.lab.robots.items()}
-            folder.setup = replace(folder.setup, lab=replace(folder.setup.lab, robots=robots))
+        folder.setup = folder.setup.at_speed(speed)
         bench = cls(folder, fidelity, backend)
+        bench.speed = speed
         if backend != SIMULATOR:
             _ = bench.edge  # says what is missing
         return bench
@@ -84,9 +84,11 @@ class Opened:
     def edge(self) -> Edge:
         """The edge, made when it is first needed; raises PicoError where its device can't be had."""
         if self._edge is None:
-            from pico.edge.link.opening import opened
+            from pico.edge.link.opening import opened, served_fidelity
 
             self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own)
+            if not self.asked:
+                self.fidelity = served_fidelity(self.root) or self.fidelity
         return self._edge
 
     @property

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
-from pico.model.diff import Change, diff_states
-from pico.model.observation import Observation, live_state
+from pico.model.diff import Change
+from pico.model.drift import drift_of
+from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.request import PrimitiveRequest, asked
-from pico.model.state import LabState, state_from_json
+from pico.model.state import LabState, place_of, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -197,12 +198,18 @@ class Plans:
         told = cut_short(self.opened, seen)
         return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
 
-    def not_in_manifest(self, plan: Plan, component: str, tunables: Collection[str]) -> tuple[Change, ...]:
-        """Return in which of some tunables of a component (`pose`: where it stands) the goal of a plan is not what the
-        manifest says; raises PicoError where that can't be read."""
-        wanted = state_from_json(plan.lab.name, plan.target.state)
-        found = diff_states(self.opened.setup, self.opened.state, wanted)
-        return tuple(c for c in found if c.component == component and c.tunable in tunables and not c.tolerated)
+    def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
+        """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError
+        where that can't be read."""
+        setup, goal = self.opened.setup, state_from_json(plan.lab.name, plan.target.state)
+        parts = {
+            name: ObservedComponent(
+                pose=place_of(setup, goal, name)[1], values={k: ObservedValue(value=v) for k, v in part.values.items()}
+            )
+            for name, part in goal.components.items()
+        }
+        seen = Observation(backend=plan.backend, components=parts)
+        return tuple(c for c in drift_of(setup, seen, self.opened.state) if not c.tolerated and c.component in parts)
 
     def _one(self, seen: Observation, request: PrimitiveRequest) -> Plan:
         from pico import planning

@@ -6,9 +6,10 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan, Target, plan_from_json
@@ -37,11 +38,11 @@ class Recovery:
         from pico.execution.resume import renumbered
 
         memory = self._memory()
-        self._refuse_while_held()
+        refuse_in_use(self.opened)
         last = _last(memory)
         if last.outcome == "done":
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
-            raise PicoError(error("nothing-to-resume", text, hint="`pico plan` shows what differs now"))
+            raise PicoError(error("nothing-to-resume", text, hint=_goes_on(memory)))
         began = _document(memory, last)
         self._as_before(memory)
         only = began.target.only or _asked(began)
@@ -60,7 +61,7 @@ class Recovery:
         has changed since, the plan is for what the run changed alone. Raises PicoError where no run has moved anything.
         """
         memory = self._memory()
-        self._refuse_while_held()
+        refuse_in_use(self.opened)
         moving = memory.moving()
         runs = [run for run in reversed(memory.runs()) if run.run in moving]
         last = next((n for n, run in enumerate(runs) if _document(memory, run).target.cause != "recover"), None)
@@ -84,7 +85,7 @@ class Recovery:
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, and changes nothing else."""
-        self._refuse_while_held()
+        refuse_in_use(self.opened)
         if memory := self.opened.edge.memory:
             self._as_before(memory)
         seen = self.opened.observe()
@@ -131,11 +132,15 @@ class Recovery:
             raise PicoError(_no_run())
         return memory
 
-    def _refuse_while_held(self) -> None:
-        holder = self.opened.wait(self.opened.edge.holder())
-        if holder is not None:
-            text = f"a run goes on: {holder.user} (process {holder.pid}, since {holder.since}): {holder.what}"
-            raise PicoError(error("locked", text, hint="`pico stop` ends it safely"), ExitCode.LOCKED)
+
+def _goes_on(memory: Memory) -> str:
+    """Return what goes on with a run that was cut short, where hands were only emptied after it."""
+    before = [(run, _document(memory, run).target) for run in memory.runs()]
+    run, target = next(((r, t) for r, t in reversed(before) if t.cause != "recover"), before[-1])
+    if run.outcome == "done" or target.cause not in (None, "checkout"):
+        return "`pico plan` shows what differs now"
+    words = ["pico apply", target.revision, f"-- {' '.join(target.only)}" if target.only else None]
+    return f"`{' '.join(filter(None, words))}` goes on with {run.run}, which was cut short before that"
 
 
 def _begun(memory: Memory, run: RunRecord) -> Iterator[tuple[str, str]]:

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.bench.cut_short import cut_short
+from pico.bench.cut_short import told_first
 from pico.bench.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
+from pico.bench.in_use import moved_by
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
@@ -55,7 +56,7 @@ class Watch:
 
         folder, seen = self.opened.folder, self.opened.observe()
         found = compare(folder.setup, folder.committed(), folder.state, seen, self.opened.history.head_name())
-        return replace(found, cut_short=cut_short(self.opened, seen))
+        return replace(found, cut_short=told_first(self.opened, seen))
 
     def look(self) -> Drifted:
         """Look at the bench and return where it has left HEAD: by how much, how surely, and who did it. Moves nothing,
@@ -73,7 +74,7 @@ class Watch:
             head=self.opened.history.head_name(), observed_at=seen.observed_at, beyond=beyond,
             within=tuple(d for d in found if d.change.tolerated),
             ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
-            cut_short=cut_short(self.opened, seen),
+            cut_short=told_first(self.opened, seen),
         )  # fmt: skip
 
     def _records(self) -> Sequence[JournalRecord]:
@@ -85,9 +86,8 @@ class Watch:
 
     def _held(self, seen: Observation, beyond: Sequence[Drift]) -> str:
         """Return why nothing may be brought back now."""
-        holder = self.opened.wait(self.opened.edge.holder())
-        if holder is not None:
-            return f"a run goes on: {holder.user} (process {holder.pid}): {holder.what}"
+        if who := moved_by(self.opened):
+            return f"a run goes on: {who}"
         if seen.person is not False:
             return "somebody is at the table" if seen.person else "nothing tells whether somebody is at the table"
         hands = [name for name, robot in sorted(seen.robots.items()) if robot.holding]

@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from pico.cameras.bad_light import lit_badly
 from pico.cameras.errors import true_cameras
 from pico.cameras.markers import draw_markers
 from pico.cameras.stickers import Sticker, stickers
@@ -57,7 +59,7 @@ class Eyes:
         self.errors = setup.lab.sim.errors if errors is None else errors
         seed = setup.lab.sim.seed if seed is None else seed
         self.cameras = dict(true_cameras(setup, self.errors, seed) if cameras is None else cameras)
-        self._random = np.random.default_rng((seed, 1))
+        self._seed, self._random = seed, np.random.default_rng((seed, 1))
         heights = np.random.default_rng((seed, 2))
         plain = (*stickers(setup, model, markers), *extra)
         sigma = self.errors.marker_height
@@ -90,8 +92,11 @@ class Eyes:
             picture = np.full((height, width), _DARK, np.float32)
         else:
             picture = self._exposed(view)
-            if settings.blur > 0:
-                picture = cv2.GaussianBlur(picture, (0, 0), settings.blur)
+            blur = settings.blur
+            if light := self.errors.light:
+                picture, blur = lit_badly(picture, view, light, self._seed), math.hypot(blur, light.defocus)
+            if blur > 0:
+                picture = cv2.GaussianBlur(picture, (0, 0), blur)
         noise = self._noise(picture.shape, settings.noise * self.errors.noise)
         gray: Any = cv2.add(picture, noise, dtype=cv2.CV_8U)
         return Frame(gray, view.region[:2], name, float(self.data.time))
@@ -126,7 +131,9 @@ class Eyes:
 
         if sigma <= 0:
             return np.zeros(shape, np.float32)
-        return self._random.standard_normal(shape, np.float32) * np.float32(sigma)  # type: ignore[no-any-return]
+        noise: Gray = self._random.standard_normal(shape, np.float32)
+        noise *= np.float32(sigma)
+        return noise
 
 
 def clipped(region: Region | None, pixels: tuple[int, int]) -> Region:

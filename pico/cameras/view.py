@@ -87,11 +87,11 @@ def photograph(view: CameraView, table: Gray) -> Gray:
 
     _, _, width, height = view.region
     solid = _refined(view)
-    whole = cv2.resize(solid, (solid.shape[1] * 2, solid.shape[0] * 2), interpolation=cv2.INTER_LINEAR)
-    whole = whole[:height, :width]
+    size = (solid.shape[1] * 2, solid.shape[0] * 2)
+    level, cover = (cv2.resize(one, size, interpolation=cv2.INTER_LINEAR)[:height, :width] for one in cv2.split(solid))
     picture = _table(view, table)
-    there = whole[..., 1] > 0
-    picture[there] = picture[there] * (1 - whole[..., 1][there]) + whole[..., 0][there]
+    picture *= 1 - cover
+    picture += level
     return picture
 
 
@@ -188,9 +188,10 @@ def _stretched(maps: Gray, factor: int) -> Gray:
         np.pad(maps, ((1, 1), (1, 1), (0, 0)), mode="reflect", reflect_type="odd") if min(maps.shape[:2]) > 1 else maps
     )
     size = (padded.shape[1] * factor, padded.shape[0] * factor)
-    whole = cv2.resize(padded, size, interpolation=cv2.INTER_LINEAR)
+    whole: Any = cv2.resize(padded, size, interpolation=cv2.INTER_LINEAR)
     inset = factor if min(maps.shape[:2]) > 1 else 0
-    return np.ascontiguousarray(whole[inset:, inset:])
+    laid: Gray = whole[inset:, inset:]
+    return laid
 
 
 @lru_cache(maxsize=4)

@@ -46,6 +46,8 @@ class BenchLock:
         self._root = root
         self._clock = clock
         self._file: int | None = None
+        self.server = False
+        """Whether this process takes it for others, whom it serves."""
 
     def acquire(self, holder: str) -> Lease:
         """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for, or which worktree
@@ -144,7 +146,10 @@ class BenchLock:
         with self._writing():
             os.pwrite(self._file, b"%-31d\n" % lease.token, 0)
             os.fsync(self._file)
-        who = {"token": lease.token, "user": user(), "pid": os.getpid(), "since": lease.since, "what": lease.holder}
+        who = {
+            "token": lease.token, "user": user(), "pid": os.getpid(), "since": lease.since, "what": lease.holder,
+            "server": self.server,
+        }  # fmt: skip
         with suppress(PicoError):  # it is for who asks; the lock is taken
             write_whole(self._folder / "holder.json", json.dumps(who).encode(), durable=False)
 
@@ -167,7 +172,7 @@ class BenchLock:
             who = json.loads((self._folder / "holder.json").read_text(encoding="utf-8"))
             return Holder(
                 token=int(who["token"]), user=str(who["user"]), pid=int(who["pid"]), since=str(who["since"]),
-                what=str(who["what"]),
+                what=str(who["what"]), server=bool(who.get("server")),
             )  # fmt: skip
         except (OSError, ValueError, KeyError, TypeError):
             return Holder(token=0, user="somebody", pid=0, since="", what="another process")
@@ -204,9 +209,8 @@ def attach(root: Path) -> Path | None:
 
 
 def _in_use(who: Holder, more: str = "") -> Diagnostic:
-    by = f"{who.user} (process {who.pid}, since {who.since}): {who.what}" if who.pid else "another process"
     hint = "wait with `--lock-timeout SECONDS`, or end it with `pico stop`; looking is always possible"
-    return error("locked", f"the bench is in use by {by}{'; ' if more else ''}{more}", hint=hint)
+    return error("locked", f"the bench is in use by {who.said}{'; ' if more else ''}{more}", hint=hint)
 
 
 def _alive(process: int) -> bool:

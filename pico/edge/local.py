@@ -65,6 +65,7 @@ class LocalEdge:
     ) -> None:  # fmt: skip
         self.setup, self.root, self.device = setup, root, opening(setup)
         self._opening, self._lab = opening, lab
+        self._usual: tuple[Setup, Device] | None = None
         self._first: tuple[Diagnostic, ...] = ()
         self.settled: tuple[SettledOperation, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
@@ -80,8 +81,12 @@ class LocalEdge:
         self._memories: dict[int, Journal] = {}
 
     async def describe(self) -> Capabilities:
-        """Return what the device can do."""
+        """Return what the device can do, at the speed of the run that goes on."""
         return replace(await self.device.describe(), kept=self.device.kept())
+
+    def served(self) -> None:
+        """From now on who has the bench has it through this process, which serves it."""
+        self._lock.server = True
 
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""
@@ -171,7 +176,10 @@ class LocalEdge:
         """Take the bench; raises PicoError (exit code LOCKED) where somebody has it, and where its files are broken."""
         return await self._acquire(holder, wait)
 
-    async def _acquire(self, holder: str, wait: float, run: str = "") -> Lease:
+    async def _acquire(
+        self, holder: str, wait: float, run: str = "", prepare: Callable[[], None] = lambda: None
+    ) -> Lease:  # fmt: skip
+        """Take the bench for a run, or for who runs nothing; `prepare` is called before the device is taken."""
         from pico.edge.attempts import Attempts
         from pico.edge.recovery import open_questions, settle
 
@@ -186,6 +194,7 @@ class LocalEdge:
             except PicoError as exc:
                 if run != ADOPTING or exc.diagnostics[0].code != own_lab.CODE:
                     raise
+            prepare()
             await self.device.take(lease.token, self._heard)
             self._attempts, self._lease = Attempts(self.journal, self.device, lease.token), lease
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
@@ -208,6 +217,8 @@ class LocalEdge:
         if self._obeying is not None:
             self._obeying.cancel()
         await self.device.leave()
+        if self._usual is not None:
+            (self.setup, self.device), self._usual = self._usual, None
         self._lease = self._attempts = self._obeying = None
         self._lock.release()
 
@@ -259,10 +270,18 @@ class LocalEdge:
                 raise PicoError(error("run", f"run {run} is of another plan", hint="start it under a new id"))
             return run
         self._cancelled.discard(run)  # of an earlier time that it was taken up
-        require_applicable(job.plan, await self.describe())
+        usual, _ = self._usual or (self.setup, None)
+        able = replace(await self.describe(), lab_digest=usual.at_speed(job.speed).digest())
+        require_applicable(job.plan, able)
         running = self._new(job, run)
-        self.device.watch(running.recording.look if running.recording else None)
-        lease = await self._acquire(job.holder, job.wait, run)
+
+        def prepare() -> None:
+            if (setup := self.setup.at_speed(job.speed)) != self.setup:
+                self._usual = self.setup, self.device
+                self.setup, self.device = setup, self._opening(setup)
+            self.device.watch(running.recording.look if running.recording else None)
+
+        lease = await self._acquire(job.holder, job.wait, run, prepare)
         try:
             seen = await self.observe()
             require_current(self.setup, job.plan, seen)

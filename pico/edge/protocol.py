@@ -35,13 +35,25 @@ class Lease:
 
 @record
 class Holder:
-    """Who has the bench: the lease's token, the user, the process, since when, and what for."""
+    """Who has the bench: the lease's token, the user, the process, since when, and what for. `server`: the process is
+    the one that serves the bench, for a client of that user."""
 
     token: int
     user: str
     pid: int
     since: str
     what: str
+    server: bool = False
+
+    @property
+    def who(self) -> str:
+        """`ann (process 12)`."""
+        return f"{self.user} ({'the server of this bench, ' if self.server else ''}process {self.pid})"
+
+    @property
+    def said(self) -> str:
+        """`ann (process 12, since 2026-11-23T07:00:00Z): pico apply`."""
+        return f"{self.who[:-1]}, since {self.since}): {self.what}" if self.pid else "another process"
 
 
 @record
@@ -64,6 +76,7 @@ class Job:
 
     `resumes`: the run of this id goes on, which is known. `stop_on_error`: the first failure lets nothing more start.
     `filmed`: what moves is kept for a film. `wait`: so long it waits for the bench where somebody has it [s].
+    `speed`: share of the joint limits that the plan was made for, instead of the lab's.
     """
 
     plan: Plan
@@ -72,6 +85,7 @@ class Job:
     stop_on_error: bool = False
     filmed: bool = False
     wait: float = 0.0
+    speed: float | None = None
 
 
 class Edge(Protocol):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.execution.stale import require_fresh
+from pico.execution.stale import require_fresh, stale
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
@@ -22,8 +22,7 @@ def require_applicable(plan: Plan, able: Capabilities) -> None:
     if plan.errored:
         raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
     if plan.lab.digest != able.lab_digest:
-        text = "the plan is stale: the lab or its component types were edited since"
-        raise PicoError(error("stale", text, hint="plan again"), ExitCode.STALE)
+        raise PicoError(stale("", "the lab or its component types were edited since"), ExitCode.STALE)
     require_able(plan, able)
 
 
@@ -69,16 +68,20 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
 
 def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
     own = sorted(a.partition(".")[2] for a in able.measurables if a.partition(".")[0] == op.component)
-    why = "light is not simulated yet" if able.simulated else f"{able.name} has nothing that measures it"
+    blind = "no camera over the bench sees it" if op.address.endswith(".pose") else "light is not simulated yet"
+    why = blind if able.simulated else f"{able.name} has nothing that measures it"
     hint = f"of {op.component} it measures: {', '.join(own)}" if own else ""
     return error("unmeasured", f"{op.address} can't be measured: {why}", hint=hint, address=op.address)
 
 
 def _for_a_person(op: Operation, able: Capabilities) -> Diagnostic:
-    what = op.arguments.get("text") or f"only a person can move {op.component}"
-    hint = "do it by hand, then plan again"
-    if able.simulated:
-        hint = f"the hand of the simulated bench is `pico sim nudge {op.component}`; then plan again"
+    what, by_hand = op.arguments.get("text") or f"only a person can move {op.component}", "do it by hand"
+    if able.simulated and "from" in op.arguments:
+        start, goal = (Pose(**op.arguments[key]["pose"]) for key in ("from", "to"))
+        by = {"dx": goal.x - start.x, "dy": goal.y - start.y, "dyaw": angle_between(start.yaw, goal.yaw)}
+        words = " ".join(f"--{key} {value:.10g}" for key, value in by.items() if round(value, 6))
+        by_hand = f"the hand of the simulated bench is `pico sim nudge {op.component} {words}`"
+    hint = f"{by_hand}, then plan again; `--exclude {op.component}` does the rest without it"
     return error("operator", f"{op.component} needs a person: {what}", hint=hint, address=op.component)
 
 
@@ -99,15 +102,13 @@ def _moved(setup: Setup, plan: Plan, seen: Observation) -> Iterator[Diagnostic]:
         checked.add(op.component)
         part, start = seen.components.get(op.component), Pose(**op.arguments["from"]["pose"])
         if part is None or part.pose is None or op.component not in setup.lab.inventory:
-            yield error("stale", f"the plan is stale: {op.component} is not on the table", hint="plan again")
+            yield stale(op.component, f"{op.component} is not on the table")
             continue
         hand = seen.robots[op.robot].holding if op.robot and op.robot in seen.robots else None
         if bool(op.arguments["from"].get("held")) != (hand == op.component):
-            text = f"the plan is stale: {op.robot} holds {hand or 'nothing'}"
-            yield error("stale", text, hint="plan again", address=op.component)
+            yield stale(op.component, f"{op.robot} holds {hand or 'nothing'}")
             continue
         tolerance = setup.type_of(op.component).pose.tolerance
         away, turned = part.pose.distance(start), abs(angle_between(start.yaw, part.pose.yaw))
         if away > tolerance.position or turned > tolerance.yaw:
-            text = f"the plan is stale: {op.component} was moved by {away:.3g} mm and {turned:.3g}° from {start}"
-            yield error("stale", text, hint="plan again; what moved it is not known", address=op.component)
+            yield stale(op.component, f"{op.component} was moved by {away:.3g} mm and {turned:.3g}° from {start}")

@@ -37,7 +37,7 @@ def run_report(
         left=_left(setup, plan, seen) if plan.target.scope else (),
         remaining=_remaining(setup, plan, seen, whole),
         absent=_absent(setup, plan, seen) if whole else (),
-        expectations=_expectations(setup, plan, seen) if whole else (),
+        expectations=_expectations(setup, plan, seen, able) if whole else (),
         measurements=seen.measurements,
         diagnostics=tuple(_diagnostics(events)),
     )
@@ -92,12 +92,12 @@ def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _expectations(setup: Setup, plan: Plan, seen: Observation) -> tuple[Expected, ...]:
+def _expectations(setup: Setup, plan: Plan, seen: Observation, able: Capabilities) -> tuple[Expected, ...]:
     if not plan.target.expect:
         return ()
     from pico.policy.expectations import check_expectations
 
-    return check_expectations(setup, seen, plan.target.expect)
+    return check_expectations(setup, seen, plan.target.expect, able.measurables)
 
 
 def _diagnostics(events: Sequence[Event]) -> Iterator[Diagnostic]:

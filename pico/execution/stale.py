@@ -32,7 +32,7 @@ def require_fresh(setup: Setup, plan: Plan, seen: Observation) -> None:
 
 def stale(address: str, summary: str) -> Diagnostic:
     """Return the diagnostic that a plan is stale, and why."""
-    hint = "plan again; `--refresh` plans anew for the same goal"
+    hint = "give the command again: it plans anew; a saved plan goes with `pico apply --refresh FILE`"
     return error("stale", f"the plan is stale: {summary}", address=address, hint=hint)
 
 

@@ -261,6 +261,7 @@ def _somewhere(documents: Mapping[str, list[Document]], root: str) -> SourceRang
     return Source(path, "").range(0)
 
 
-def _order(diagnostic: Diagnostic) -> tuple[str, int, int]:
+def _order(diagnostic: Diagnostic) -> tuple[bool, str, int, int]:
+    """What can't be read stands first: others may follow from it."""
     at = diagnostic.source
-    return (at.path, at.start.line, at.start.column) if at else ("", 0, 0)
+    return (diagnostic.code != "yaml", *((at.path, at.start.line, at.start.column) if at else ("", 0, 0)))

@@ -145,7 +145,8 @@ class _Translation:
             return self._at(place.node, code or "type", summary or f"{name} is wrong", label=expected_quantity(unit))
         reason = found.get("ctx", {}).get("error")
         if isinstance(reason, ValueError) and found["type"] == "value_error":
-            return self._at(place.key, "value", f"{name}: {reason}", hint=f"expected {describe(place.kind)}")
+            hint = getattr(reason, "hint", "") or f"expected {describe(place.kind)}"
+            return self._at(place.key, "value", f"{name}: {reason}", hint=hint)
         summary = f"{name} is {shown(plain(place.node))}"
         if isinstance(place.node, Scalar) and place.node.value is None:
             return self._at(place.key, "type", summary, hint=f"expected {describe(place.kind)}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, slot_meant, warning
 from pico.manifest.bench_view import BenchView
 from pico.manifest.checks.labs import off_table
 from pico.manifest.text.names import name_problem
@@ -60,7 +60,7 @@ class _Reader:
         self._lab(document, root)
         for key, (at, _) in root.entries.items():
             if key not in _KEYS:
-                hint = did_you_mean(key[:40], _KEYS)
+                hint = self._belongs(key) or did_you_mean(key[:40], _KEYS)
                 self._error(document, at, "unknown-key", f"unknown key `{key[:40]}` in a LabState", hint)
         components = root.get("components")
         if isinstance(components, Map):
@@ -122,12 +122,21 @@ class _Reader:
             else:
                 self._component(document, name, key, node)
 
+    def _belongs(self, key: str) -> str:
+        """Return where a key belongs that is the name of a component."""
+        return f"`{key}` is a component: begin it in the column of the others" if key in self.view.kinds else ""
+
     def _unknown(self, document: Document, key: Scalar) -> None:
         problem = name_problem(key.text)
         if problem:
             self._error(document, key, "name", f"`{key.text[:40]}` is not a name", f"expected {problem}")
             return
+        owner = next((n for n, kind in sorted(self.view.kinds.items()) if kind and key.text in kind.tunables), None)
         hint = did_you_mean(key.text, self.view.kinds) or "add it to the inventory in lab.yaml"
+        if owner is not None:
+            hint = f"`{key.text}` is a tunable, of {owner} for example: indent it as the `pose` of its component is"
+        if key.text in ("slot", "pose", "x", "y", "yaw"):
+            hint = f"`{key.text}` says where a component is: indent it below the name of its component"
         self._error(
             document, key, "unknown-component", f"{key.text} is not in the inventory of this lab", hint, key.text
         )
@@ -158,7 +167,7 @@ class _Reader:
             summary = f"{name} is fixed to the table and can't be in a slot"
             self._error(document, node, "slot", summary, "give its `pose`, or leave it out", name)
         elif not isinstance(node, Scalar) or text not in self.view.slots:
-            hint = did_you_mean(text[:40], self.view.slots) or "the slots are listed under `slots:` in lab.yaml"
+            hint = slot_meant(text[:40], self.view.slots) or "the slots are listed under `slots:` in lab.yaml"
             said = (
                 f"there is no slot {shown(text)}" if isinstance(plain(node), str) else f"slot is {shown(plain(node))}"
             )
@@ -189,7 +198,9 @@ class _Reader:
                 numbers[axis] = number
         for other, (at, _) in node.entries.items():
             if other not in ("x", "y", "yaw"):
-                hint = did_you_mean(other[:40], ("x", "y", "yaw"))
+                own = other in kinds.tunables if (kinds := self.view.kinds.get(name)) else False
+                hint = f"`{other}` is a tunable of {name}: bring it back to the column of `pose`" if own else ""
+                hint = hint or did_you_mean(other[:40], ("x", "y", "yaw"))
                 summary = f"unknown key `{other[:40]}` in the pose of {name}"
                 self._error(document, at, "unknown-key", summary, hint, f"{name}.pose")
         if "x" not in numbers or "y" not in numbers:
@@ -208,7 +219,7 @@ class _Reader:
                 continue
             tunable = kind.tunables.get(key)
             if tunable is None:
-                hint = self._tunables(key[:40], kind.tunables)
+                hint = self._belongs(key) or self._tunables(key[:40], kind.tunables)
                 self._error(
                     document, at, "unknown-tunable", f"{name} ({kind.name}) has no tunable `{key[:40]}`", hint, name
                 )

@@ -8,7 +8,7 @@ from dataclasses import field, replace
 from typing import Literal
 
 from pico.model.body import Body, grooved
-from pico.model.quantities import Angle, Length, Mass, Milliseconds, QuantityError, Value, convert
+from pico.model.quantities import Angle, Length, Mass, Milliseconds, QuantityError, Value, convert, require_unit
 from pico.model.record import record
 
 Mover = Literal["arm", "motor", "electronics", "person", "none"]
@@ -23,6 +23,9 @@ class Parameter:
     value: Value
     unit: str = ""
     description: str = ""
+
+    def __post_init__(self) -> None:
+        require_unit(self.unit)
 
 
 @record
@@ -71,6 +74,9 @@ class Tunable:
     initial: Value | None = None
     restore: Restore = Restore()
     description: str = ""
+
+    def __post_init__(self) -> None:
+        require_unit(self.unit)
 
 
 @record

@@ -286,13 +286,26 @@ class ArmErrors:
 
 
 @record
+class BadLight:
+    """Light in which the simulated cameras see badly. `dim`: share of the light that there should be. `defocus`: sigma
+    by which pictures are blurred besides [pixels]. `scatter`, `glare`: how many spots of scattered laser light there
+    are on the table, speckled and up to saturation, and how many reflections of lamps in each camera's picture."""
+
+    dim: float = 1.0
+    defocus: float = 0.0
+    scatter: int = 0
+    glare: int = 0
+
+
+@record
 class SimErrors:
     """What is wrong with the simulated cameras, markers and arms, and not known to what looks through them.
 
     Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
     random axis, and its focal length is wrong by the share `focal_length`, up or down. `marker_height`: sigma by which
     a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
-    `noise`: factor on the sensors' noise. `arm`: what is wrong with arms; nothing where it is left out.
+    `noise`: factor on the sensors' noise. `arm`: what is wrong with arms, `light`: with the light; nothing where they
+    are left out.
     """
 
     camera_position: Length = 0.0
@@ -302,6 +315,7 @@ class SimErrors:
     lost_frames: float = 0.0
     noise: float = 1.0
     arm: ArmErrors | None = None
+    light: BadLight | None = None
 
 
 @record
@@ -413,6 +427,13 @@ class Setup:
             return {**read, "pose": Measurable(datatype="pose", unit="mm, mm, deg"), **kind.measurables}
         camera = self.lab.cameras.get(name)
         return {} if camera is None or camera.robot else {"frame": Measurable(datatype="image", unit="count")}
+
+    def at_speed(self, speed: float | None) -> Setup:
+        """Return the same with every robot at a share of its joint limits; as it is where that is None."""
+        if speed is None:
+            return self
+        robots = {name: replace(robot, speed=speed) for name, robot in self.lab.robots.items()}
+        return replace(self, lab=replace(self.lab, robots=robots))
 
     def same_as(self, other: Setup) -> bool:
         """Whether this is the same lab with the same types, as digests tell it."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import field
 from typing import Literal
 
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup, Slot
 from pico.model.measurement import Measurement
@@ -157,3 +157,24 @@ def live_state(setup: Setup, seen: Observation, *, sure: bool = False) -> LabSta
         values = {k: v.value for k, v in part.values.items() if v.value is not None and v.status != "unknown"}
         components[name] = ComponentState(pose=part.pose, values=values)
     return LabState(lab=setup.lab.name, components=components)
+
+
+def left_standing(setup: Setup, seen: Observation, used: Collection[str | None] = ()) -> Iterator[Diagnostic]:
+    """Yield a warning for each arm with an empty hand that stands away from its park pose, one that was stopped on its
+    way; `used`: those that will be moved."""
+    for name in astray(setup, seen):
+        if name not in used:
+            hint = "mind the beam and your hands; `pico recover` parks it, and so does `pico apply`, where it has a way"
+            yield warning(
+                "not-parked", f"{name} stands where it was stopped, not at its park pose", hint=hint, address=name
+            )
+
+
+def astray(setup: Setup, seen: Observation) -> Iterator[str]:
+    """Yield the arms with an empty hand that stand away from their park pose."""
+    for name, state in sorted(seen.robots.items()):
+        arm = setup.lab.robots.get(name)
+        if arm is None or arm.model != "xarm7" or not state.joints or state.holding:
+            continue
+        if not arm.is_parked(state.joints):
+            yield name

@@ -7,6 +7,8 @@ import re
 from functools import cache
 from typing import Annotated, Any
 
+from pico.diagnostics import did_you_mean
+
 # Units that manifests use most, with the factor to the first of their dimension: no import of pint for these.
 _FACTORS: dict[str, tuple[str, float]] = {
     "mm": ("length", 1.0),
@@ -35,6 +37,8 @@ _DIMENSIONS = {
     "[mass]": "mass",
     "[mass] * [length] ** 2 / [time] ** 3": "power",
 }
+_OTHERS = frozenset({"%", "A", "A/W", "Hz", "V", "V/A", "bit", "count", "dB", "nW", "pixel"})
+"""Units besides that component types have: known without an import of pint."""
 # What may follow a number: units with one exponent each. Anything else never reaches pint, which evaluates powers.
 _UNIT = re.compile(
     r"(?:1/)?[A-Za-zµμΩ°%]+(?:(?:\*\*|\^)?-?\d)?(?:\s?[*/·\s]\s?[A-Za-zµμΩ°%]+(?:(?:\*\*|\^)?-?\d)?){0,4}"
@@ -43,7 +47,9 @@ _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?
 
 
 class QuantityError(ValueError):
-    """A text that is no quantity of the unit asked for; `str()` is fit for a user."""
+    """A text that is no quantity of the unit asked for; `str()` and `hint` are fit for a user."""
+
+    hint = ""
 
 
 class DimensionError(QuantityError):
@@ -79,6 +85,16 @@ def dimension(unit: str) -> str:
     return _DIMENSIONS.get(dimensionality, dimensionality)
 
 
+def require_unit(unit: str) -> None:
+    """Raise QuantityError for a unit that nobody knows, with one that may be meant as its hint."""
+    try:
+        if unit not in _OTHERS:
+            dimension(unit)
+    except QuantityError as exc:
+        exc.hint = did_you_mean(unit[:40], _FACTORS.keys() | _OTHERS) or "expected a unit, such as `mm` or `deg`"
+        raise
+
+
 def convert(value: Any, unit: str) -> Any:
     """Return `value` in `unit`: numbers unchanged, strings such as "1.2 cm" converted; other types unchanged.
 
@@ -98,6 +114,8 @@ def convert(value: Any, unit: str) -> Any:
         return number
     if given in _FACTORS and unit in _FACTORS and _FACTORS[given][0] == _FACTORS[unit][0]:
         return number * _FACTORS[given][1] / _FACTORS[unit][1]
+    if re.fullmatch(r",\d+", given):
+        raise QuantityError(f"`{value}` has a comma; decimals are written with a point, `{value.replace(',', '.')}`")
     if len(given) > 40 or not _UNIT.fullmatch(given):
         raise QuantityError(f"`{given[:40]}` is not a unit; expected {example(unit)}")
     have, want = dimension(given), dimension(unit)

@@ -101,8 +101,8 @@ class Committed:
 
 @record
 class PartRow:
-    """One part of the inventory: its type, where it is (None where nobody sees it), and whether it is free: at rest
-    in storage and not used by the manifest."""
+    """One part of the inventory: its type, where it is (or `held`, `toppled`; None where nobody sees it), and whether
+    it is free: at rest in storage and not used by the manifest."""
 
     name: str
     type: str
@@ -121,7 +121,8 @@ def parts_of(setup: Setup, desired: LabState, seen: Observation, *, free: bool =
         live = seen.components.get(name)
         pose = live.pose if live and live.presence == "seen" else None
         slot = slot_at(setup, pose) if pose else None
-        where = slot or (str(pose) if pose else None)
+        elsewhere = live.presence if live and live.presence in ("held", "toppled") else None
+        where = slot or (str(pose) if pose else elsewhere)
         resting = slot is not None and setup.movable(name) and place_of(setup, desired, name)[0] is not None
         rows.append(
             PartRow(

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import PicoError, did_you_mean, error, slot_meant
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement
@@ -58,7 +58,18 @@ def require_component(setup: Setup, name: str) -> None:
     """Raise PicoError where the inventory has no part of that name."""
     if name not in setup.lab.inventory:
         hint = did_you_mean(name, setup.lab.inventory) or "`pico catalog parts` lists them"
+        if name in setup.lab.cameras:
+            _refuse_on_arm(setup, name)
+            hint = f"`{name}` is a camera over the bench: `pico get {name}.frame` peeks at what it sees"
         raise _wrong(f"there is no component `{name}` in {setup.lab.name}", hint)
+
+
+def _refuse_on_arm(setup: Setup, name: str) -> None:
+    """Raise PicoError where a camera is on an arm."""
+    if robot := setup.lab.cameras[name].robot:
+        over = next((c for c, camera in setup.lab.cameras.items() if not camera.robot), None)
+        hint = f"over the bench is `{over}`: `pico get {over}.frame` peeks at what it sees" if over else ""
+        raise _wrong(f"`{name}` is the camera on {robot}, through which only runs look", hint)
 
 
 def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
@@ -68,8 +79,9 @@ def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     if slot is not None:
         _only(name, "move", given, ())
         if slot not in setup.lab.slots:
-            raise _wrong(f"there is no slot `{slot}`", did_you_mean(slot, setup.lab.slots), name)
+            raise _wrong(f"there is no slot `{slot}`", slot_meant(slot, setup.lab.slots), name)
         return PrimitiveRequest(component=name, primitive="move", slot=slot)
+    _absolute(setup, seen, name, given)
     _only(name, "move", given, primitive("move").arguments)
     if not given:
         raise _wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
@@ -83,6 +95,21 @@ def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     x, y = (_quantity(f"{k} of {name}", given[k], "mm") if k in given else getattr(pose, k) for k in ("x", "y"))
     yaw = _quantity(f"yaw of {name}", given["yaw"], "deg") if "yaw" in given else pose.yaw
     return PrimitiveRequest(component=name, primitive="move", pose=Pose(x, y, wrap(yaw + turn)))
+
+
+def _absolute(setup: Setup, seen: Observation, name: str, given: Mapping[str, str]) -> None:
+    """Raise PicoError for a step where a place is wanted, and for a slot that is named by its last word."""
+    if "dyaw" in given:
+        raise _wrong(f"move of {name} takes no `dyaw`", f"`pico move {name} turn={given['dyaw']}`", name)
+    pose = seen.components[name].pose if name in seen.components else None
+    for axis in ("x", "y"):
+        if (step := given.get(f"d{axis}")) is not None and pose is not None:
+            stands = getattr(pose, axis)
+            there = stands + _quantity(f"d{axis} of {name}", step, "mm")
+            hint = f"{axis} counts from the table's corner; {name} stands at {axis}={stands:.6g}: `{axis}={there:.6g}`"
+            raise _wrong(f"move of {name} takes no `d{axis}`", hint, name)
+    if given.get("x") in {slot.rpartition("/")[2] for slot in setup.lab.slots}:
+        raise _wrong(f"there is no slot `{given['x']}`", slot_meant(given["x"], setup.lab.slots), name)
 
 
 def _after(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
@@ -128,7 +155,9 @@ def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
 
 def _measure(setup: Setup, name: str, given: Mapping[str, str]) -> PrimitiveRequest:
     """A camera over the bench can be asked as a component can; one measurable of a type need not be named."""
-    if name not in setup.lab.cameras:
+    if name in setup.lab.cameras:
+        _refuse_on_arm(setup, name)
+    else:
         require_component(setup, name)
     known = setup.measurables_of(name)
     _only(name, "measure", given, primitive("measure").arguments)

@@ -53,7 +53,7 @@ class StatusRow:
 @record
 class Status:
     """The three states of a bench. `head`: what the commit is called, empty without Git or before a first commit.
-    `cut_short`: that the last run was killed, and what to do."""
+    `cut_short`: that the last run was killed or an arm left standing, and what to do."""
 
     schema: str = "pico.status/v1"
     lab: str

@@ -68,6 +68,7 @@ def build_arm(robot: Robot, offsets: ArmOffsets = NOMINAL) -> mujoco.MjSpec:
 
 
 NEIGHBORS = (
+    ("base", "link1"),
     ("base", "link2"),
     ("link1", "link3"),
     ("link2", "link4"),
@@ -79,7 +80,7 @@ NEIGHBORS = (
     ("link7", "left_finger"),
     ("link7", "right_finger"),
 )
-"""Bodies that touch by construction, besides parent and child, which never collide in MuJoCo."""
+"""Bodies that touch by construction, besides parent and child, of which MuJoCo looks at a base and what turns on it."""
 
 
 def attach_arm(

@@ -1,7 +1,7 @@
 """Where every link of an arm is, for many postures at once: the forward kinematics of the second collision check.
 
 In metres. Links are counted 0 (base) to 7 (flange), then the gripper (8) and the part in hand (9); all of them in the
-plane of joint 1, that is with joint 1 at zero: what links do to one another does not depend on it. `world` turns them.
+plane of joint 1, that is as seen from link 1, where the base is what turns. `world` turns them all.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def in_plane(joints: Array, hold: tuple[float, float]) -> tuple[Array, Array]:
     n = len(joints)
     turns, origins = np.empty((n, 10, 3, 3)), np.empty((n, 10, 3))
     turn, origin = np.broadcast_to(np.eye(3), (n, 3, 3)), np.zeros((n, 3))
-    turns[:, 0], origins[:, 0] = turn, origin
+    turns[:, 0], origins[:, 0] = about_z(-joints[:, 0]), origin
     for i, (offset, roll) in enumerate(zip(ORIGINS, ROLLS, strict=True)):
         origin = origin + turn @ (np.array(offset) / 1000)
         angles = joints[:, i] if i else np.zeros(n)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from pico.geometry import table as tabletop
 from pico.geometry.shape import placed, separation
@@ -79,11 +80,32 @@ def check_tether(setup: Setup, component: str, pose: Pose) -> Blocked | None:
 
 
 def check_reach(name: str, robot: Robot, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:
-    """Return why the arm can't hold its tool vertical over `pose` at the height of the grasp and of the transit."""
-    for height in (grasp_height(robot, geometry), robot.transit_height):
-        if not reaches(robot, pose.x, pose.y, height):
-            return _too_far(name, robot, component, pose, height)
-    return None
+    """Return why the arm can't hold its tool vertical over `pose` at the height of the grasp and of the transit, by the
+    one of them that asks for more."""
+    found = [
+        _too_far(name, robot, component, pose, height)
+        for height in (grasp_height(robot, geometry), robot.transit_height)
+        if not reaches(robot, pose.x, pose.y, height)
+    ]
+    return max(found, key=lambda why: why.by or 0.0, default=None)
+
+
+def out_of_reach(arms: Sequence[Robot], x: float, y: float, geometry: Geometry | None = None) -> str:
+    """Return how far a place is from the nearest base, and what the arms reach, at the height at which they carry and
+    at which they hold a part of `geometry` there; empty where one of them reaches it."""
+    reach = [(arm.mount, *_bounds(arm, geometry)) for arm in arms]
+    away = [math.hypot(x - mount.x, y - mount.y) for mount, _, _ in reach]
+    if any(near <= d <= far for d, (_, near, far) in zip(away, reach, strict=True)):
+        return ""
+    bounds = " or ".join(sorted({f"{near:.0f} to {far:.0f} mm" for _, near, far in reach}))
+    nearest, mount = min((d, f"({mount.x:g}, {mount.y:g})") for d, (mount, _, _) in zip(away, reach, strict=True))
+    return f"it is {nearest:.0f} mm from the nearest base, at {mount}, and they reach {bounds}"
+
+
+def _bounds(arm: Robot, geometry: Geometry | None) -> tuple[float, float]:
+    low = [grasp_height(arm, geometry)] if geometry and geometry.grasp else []
+    near, far = zip(*(span(arm, height) for height in (arm.transit_height, *low)), strict=True)
+    return max(near), min(far)
 
 
 def _too_far(name: str, robot: Robot, component: str, pose: Pose, height: float) -> Blocked:
@@ -93,10 +115,12 @@ def _too_far(name: str, robot: Robot, component: str, pose: Pose, height: float)
     if greatest == 0.0:
         text = f"{name} can't hold its tool vertical at {height:.0f} mm height anywhere"
         return Blocked("reach", text, help="change the robot's transit_height or mount")
+    base = f"{name}'s base, which stands at ({robot.mount.x:g}, {robot.mount.y:g}), or use another arm"
+    nearer = f"nearer to {base}"
     if distance < greatest:
         text = f"{where}; it comes no nearer than {math.ceil(least)} mm at {height:.0f} mm height"
         return Blocked(
-            "reach", text, by=least - distance, help=f"place it farther from {name}'s base, or use another arm"
+            "reach", text, by=least - distance, help=f"place it {math.ceil(least - distance)} mm farther from {base}"
         )
     text = f"{where}; it reaches {math.floor(greatest)} mm at {height:.0f} mm height"
-    return Blocked("reach", text, by=distance - greatest, help=f"place it nearer to {name}'s base, or use another arm")
+    return Blocked("reach", text, by=distance - greatest, help=f"place it {math.ceil(distance - greatest)} mm {nearer}")

@@ -145,6 +145,9 @@ class Recheck:
 
     def _with_itself(self, leg: Leg) -> Hit | None:
         first, second = self._own_pairs(leg.parts)
+        low, high = leg.bounds
+        meet = (np.maximum(low[first] - high[second], low[second] - high[first]) < ROUNDING).all(axis=-1)
+        first, second = first[meet], second[meet]
         apart = leg.centers[:, first] - leg.centers[:, second]
         near = np.einsum("npi,npi->np", apart, apart) < (leg.radii[first] + leg.radii[second]) ** 2
         for pair in np.flatnonzero(near.any(axis=0)).tolist():
@@ -171,7 +174,7 @@ class Recheck:
         margins = np.array([self._margin(part, segment) for part in leg.parts])
         owners = [(thing, b) for thing in things for b in range(len(thing.hulls))]
         floors, ceilings = (np.concatenate([thing.bounds[side] for thing in things]) for side in (0, 1))
-        low, high = leg.centers.min(axis=0) - leg.radii[:, None], leg.centers.max(axis=0) + leg.radii[:, None]
+        low, high = leg.bounds
         apart = np.maximum(floors[None] - high[:, None], low[:, None] - ceilings[None]).max(axis=-1)
         for k, n in np.argwhere(apart < margins[:, None] + ROUNDING).tolist():
             part, (thing, b) = leg.parts[k], owners[n]

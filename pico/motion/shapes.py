@@ -1,7 +1,8 @@
-"""What the arm looks like and weighs: capsules, cylinders, ellipsoids and boxes in the links' frames, in mm and kg.
+"""What the arm looks like and weighs: capsules, cylinders and boxes in the links' frames, in mm and kg.
 
-Drawn after the real arm's outline. Shapes that collide round off the white ones; caps and rings are only seen. A link's
-mass is spread over its colliding shapes.
+The shapes that collide enclose the outline that the vendor publishes, of both makes of the arm (measured in the meshes
+of the vendor's ROS package: `tests/motion/outline.py`); rings and caps are only seen. A link's mass is spread over its
+colliding shapes.
 """
 
 from __future__ import annotations
@@ -24,10 +25,10 @@ NONE: Color = (0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, slots=True)
 class LinkShape:
-    """One shape of a link. A capsule or cylinder runs from `a` to `b` with a radius; a box or ellipsoid is centered
+    """One shape of a link. A capsule or cylinder runs from `a` to `b` with a radius; a box is centered
     at `a` with the half-lengths `b`."""
 
-    kind: Literal["capsule", "cylinder", "box", "ellipsoid"]
+    kind: Literal["capsule", "cylinder", "box"]
     a: Point
     b: Point
     radius: float = 0.0
@@ -44,56 +45,52 @@ def _disc(a: Point, b: Point, radius: float, color: Color = DARK) -> LinkShape:
 
 
 LINKS: tuple[tuple[LinkShape, ...], ...] = (
-    (  # base: a plate on the table and the housing of joint 1
-        _solid("cylinder", (0, 0, 0), (0, 0, 186), 60),
-        _disc((0, 0, 0), (0, 0, 12), 68, GREY),
-        _disc((0, 0, 186), (0, 0, 191), 57),
-        LinkShape("box", (-58, 0, 45), (9, 30, 24), color=DARK),
+    (  # base: a plate on the table, a column, and the sockets with their plugs behind it
+        _solid("cylinder", (0, 0, 0), (0, 0, 156), 49.1),
+        _solid("cylinder", (0, 0, 0), (0, 0, 13), 64),
+        LinkShape("box", (-65.5, 0, 32), (27.5, 34, 24), color=DARK, collides=True),
     ),
     (  # shoulder: a stump under a barrel that lies across
-        _solid("capsule", (0, 0, -20), (0, 0, 0), 58),
-        _disc((0, 0, -76), (0, 0, -18), 58.6, WHITE),
-        _solid("capsule", (0, -22, 0), (0, 22, 0), 58),
-        _disc((0, -81, 0), (0, -60, 0), 38),
-        _disc((0, 60, 0), (0, 81, 0), 38),
+        _solid("capsule", (0, 0, -103), (0, -13, 0), 51),
+        _solid("capsule", (0, -14.5, 0), (0, 60, 0), 51),
+        _disc((0, 0, -112), (0, 0, -106), 51.6),
     ),
-    (  # upper arm: from the barrel straight up to joint 3
-        _solid("capsule", (0, 0, 0), (0, -190, 0), 51),
-        LinkShape("ellipsoid", (0, -30, 0), (55, 62, 57), color=WHITE),
-        _disc((0, -228, 0), (0, -234, 0), 49),
-        _disc((0, -228, 0), (0, -150, 0), 51.6, WHITE),
+    (  # upper arm: beside the barrel, up, and back into the arm's plane to joint 3
+        _solid("capsule", (0, -1.5, 75), (0, -105, 69), 58),
+        _solid("capsule", (0, -107, 75), (0, -111, 20), 49),
+        _solid("capsule", (0, -100, 1), (0, -175, 0), 47),
+        _disc((0, -188, 0), (0, -182, 0), 47.6),
     ),
-    (  # elbow: the stump of joint 3, and a barrel set forward of it
-        _solid("capsule", (0, 0, -10), (20, 0, 0), 50),
-        _disc((0, 0, -58), (0, 0, -8), 50.6, WHITE),
-        _solid("capsule", (52.5, -24, 0), (52.5, 24, 0), 50),
-        _disc((52.5, -75, 0), (52.5, -58, 0), 33),
-        _disc((52.5, 58, 0), (52.5, 75, 0), 33),
-        _disc((0, 0, 46), (0, 0, 52), 20, BLUE),
+    (  # elbow: from joint 3 forward to a barrel that lies across
+        _solid("capsule", (0, 0, -101), (0, 0, -72), 46.5),
+        _solid("capsule", (-1, 8.5, -45), (43, 23, -1), 54),
+        _solid("capsule", (52.5, 10, 0), (52.5, -54, 0), 46),
+        _disc((0, 0, -108), (0, 0, -102), 47),
     ),
-    (  # forearm: slants forward, then runs straight towards the wrist
-        _solid("capsule", (0, 0, 0), (77.5, -95, 0), 45),
-        _solid("capsule", (77.5, -95, 0), (77.5, -205, 0), 44),
-        _disc((77.5, -205, 0), (77.5, -243, 0), 44.6, WHITE),
-        _disc((77.5, -243, 0), (77.5, -249, 0), 42),
+    (  # forearm: slants forward beside the barrel, then back into the arm's plane to joint 5
+        _solid("capsule", (2, -1, 65), (77.5, -84, 64), 52.5),
+        _solid("capsule", (77.5, -80, 56), (77.5, -88, 4.5), 47.5),
+        _solid("capsule", (77.5, -85, 0), (77.5, -156, 0), 46.5),
+        _disc((77.5, -168, 0), (77.5, -162, 0), 47.1),
     ),
-    (  # lower forearm: tapers to the barrel of joint 6
-        _solid("capsule", (0, 0, -50), (0, 0, 0), 40),
-        _disc((0, 0, -93), (0, 0, -45), 40.6, WHITE),
-        _solid("capsule", (0, -18, 0), (0, 18, 0), 42),
-        _disc((0, -64, 0), (0, -52, 0), 27),
-        _disc((0, 52, 0), (0, 64, 0), 27),
+    (  # lower forearm: a bow around the wrist to the barrel of joint 6
+        _solid("capsule", (0, 0, -163.5), (0, 8, -145), 49),
+        _solid("capsule", (0, 27, -120), (0, 47.5, -81), 43.5),
+        _solid("capsule", (0, 52, -64), (0, 54.5, -16), 43),
+        _solid("capsule", (0, 55, 0), (0, 17.5, 0), 41),
+        _disc((0, 0, -178), (0, 0, -172), 49),
     ),
-    (  # wrist: reaches forward to the housing of joint 7
-        _solid("capsule", (0, 0, 0), (76, 10, 0), 37),
-        _solid("capsule", (76, 10, 0), (76, 38, 0), 37.5),
-        _disc((76, 30, 0), (76, 72, 0), 38, WHITE),
-        _disc((76, 72, 0), (76, 76, 0), 35),
-        _disc((76, -32, 0), (76, -26, 0), 18, BLUE),
+    (  # wrist: reaches forward to the barrel of joint 7
+        _solid("capsule", (5.5, -1, -6), (0, 0, 22.5), 45.5),
+        _solid("capsule", (8.5, 0, 19.5), (78, 0, 2.5), 40.5),
+        _solid("cylinder", (76, -37.5, 0), (76, 69.5, 0), 40),
+        _disc((76, 62, 0), (76, 68, 0), 40.5),
+        _disc((0, 0, 67), (0, 0, 68.5), 18, BLUE),
     ),
-    (  # flange
-        _solid("cylinder", (0, 0, -20), (0, 0, 0), 36),
-        _disc((0, 0, -8), (0, 0, 0), 36.5, GREY),
+    (  # flange, and the socket for the tool
+        _solid("cylinder", (0, 0, -33.5), (0, 0, 0.5), 39.6),
+        LinkShape("box", (0, -46.5, -16.5), (16, 10, 17), color=DARK, collides=True),
+        _disc((0, 0, -8), (0, 0, 0.6), 39.8, GREY),
     ),
 )
 """Shapes of the base and of links 1 to 7."""

@@ -53,10 +53,16 @@ class Leg:
         self.hulls = tuple(h for _, h in hulls)
         self.radii = np.array([h.radius for h in self.hulls])
         self._turns = turns
-        offsets = np.array([h.center for h in self.hulls])
-        self.centers = origins[:, self.links] + (turns[:, self.links] @ offsets[..., None])[..., 0]
+        self.centers = np.empty((len(turns), len(hulls), 3))
+        for k, (i, hull) in enumerate(hulls):
+            self.centers[:, k] = origins[:, i] + (turns[:, i].reshape(-1, 3) @ hull.center).reshape(-1, 3)
         self.parts = tuple(h.part for h in self.hulls)
         self._known: dict[int, tuple[Array, Array, Array]] = {}
+
+    @cached_property
+    def bounds(self) -> tuple[Array, Array]:
+        """The lower and the upper corner of a box around all ways of each hull: arrays (hulls, 3)."""
+        return self.centers.min(axis=0) - self.radii[:, None], self.centers.max(axis=0) + self.radii[:, None]
 
     def boxes(self, k: int) -> tuple[Array, Array, Array]:
         """Return the rotations (N, 3, 3) of hull `k`, and the corners (N, 3) of the boxes around it."""

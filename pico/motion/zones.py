@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations
 
 from pico.geometry import Shape, disc, polygon, separation
 from pico.model.lab import Robot, Setup
@@ -14,12 +13,14 @@ from pico.motion.types import Joints, MovePath
 
 HAND = 80.0
 """How far a hand without a part reaches to the side of its axis [mm]."""
-ARM_RADIUS = 110.0
-"""How far a link reaches from the line between its joints, the bend of the forearm included [mm]."""
+WIDTHS = (148.0, 126.0, 106.0)
+"""Radii of discs that cover an arm whose joints 3 and 5 are at zero, as plans have them: along the lines from base to
+joint 4, on to joint 6 and on to joint 7, at most 60 mm from one to the next [mm]. The first one covers any posture."""
 MARGIN = 25.0
 """How far a plan keeps an arm from a zone that it does not hold [mm]: between two waypoints it is elsewhere, and on the
 bench the path is found anew from where things really stand."""
-_APART = 60.0  # mm, of the discs that cover a link; two of them 9 mm wider than a link cover what is between
+_APART = 60.0  # mm, of the discs that cover a link
+_STRAIGHT = 0.01  # rad, how far joints 3 and 5 may be from zero: less than 4 mm at the hand
 _HEIGHTS = (50.0, 100.0, 150.0, 200.0)  # mm, besides the transit height: where the tool may be
 _CORNERS = 48  # of a circle, drawn around it
 
@@ -82,16 +83,19 @@ def within(
     return any(separation(shape, area) <= margin for shape in _shadow(arm, joints, max(HAND, carried)))
 
 
-def _shadow(robot: Robot, joints: Joints, hand: float) -> Iterable[Shape]:
+def _shadow(robot: Robot, joints: Joints, hand: float) -> list[Shape]:
     """Discs on the table that cover an arm seen from above: along its links, and the hand with what it holds."""
     points = ((0.0, 0.0, 0.0), joint_at(joints, 4), joint_at(joints, 6), joint_at(joints, 7))
     c, s = math.cos(math.radians(robot.mount.yaw)), math.sin(math.radians(robot.mount.yaw))
     places = [(robot.mount.x + c * x - s * y, robot.mount.y + s * x + c * y) for x, y, _ in points]
-    for (ax, ay), (bx, by) in pairwise(places):
+    straight = all(abs(q) < _STRAIGHT for q in joints[2:5:2])
+    widths = WIDTHS if straight else WIDTHS[:1] * 3
+    discs = []
+    for (ax, ay), (bx, by), width in zip(places, places[1:], widths, strict=False):
         count = max(1, math.ceil(math.hypot(bx - ax, by - ay) / _APART))
-        for i in range(count):
-            yield disc(ax + (bx - ax) * i / count, ay + (by - ay) * i / count, ARM_RADIUS + 9.0)
-    yield disc(*places[-1], hand)
+        shares = [i / count for i in range(count + 1)]
+        discs += [disc(ax + (bx - ax) * t, ay + (by - ay) * t, width) for t in shares]
+    return [*discs[:-1], disc(*places[-1], hand)]
 
 
 def _whole_table(setup: Setup) -> tuple[tuple[float, float], ...]:

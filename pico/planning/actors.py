@@ -60,7 +60,7 @@ def _dependents(
         return []
     found = []
     for name, actor in movers.items():
-        for clash in check_target(request.setup, [actor], bad, request.source)[:1]:
+        for clash in check_target(request.setup, [actor], bad, request.source, alone=request.alone)[:1]:
             found.append(warning("blocked", f"{name} is not moved: {clash.summary}", hint=clash.hint, address=name))
     return found
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, error, warning
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, left_standing
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
@@ -20,7 +20,7 @@ from pico.planning.checks.target import Source, check_target, no_source
 from pico.planning.checks.tethers import check_tethers
 from pico.planning.parts.movers import Place
 from pico.planning.parts.selection import done_by, selection, told
-from pico.planning.parts.setdown import after_set_downs, left_standing, parked_first, set_downs
+from pico.planning.parts.setdown import after_set_downs, parked_first, set_downs
 from pico.planning.parts.situation import Situation, read_situation
 from pico.planning.request import Preference, Request
 from pico.planning.values import OPERATOR_SECONDS, value_operations
@@ -87,7 +87,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
-        diagnostics = (*diagnostics, *left_standing(setup, request.seen, operations))
+        diagnostics = (*diagnostics, *left_standing(setup, request.seen, {o.robot for o in operations}))
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
@@ -117,7 +117,7 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     movers, obstacles, put_off = actors(request, situation)
     if not movers:
         return Compiled(diagnostics=tuple(put_off))
-    impossible = check_target(request.setup, movers, obstacles, request.source)
+    impossible = check_target(request.setup, movers, obstacles, request.source, alone=request.alone)
     impossible += check_tethers(request.setup, movers, request.source)
     if impossible:
         return Compiled(diagnostics=(*put_off, *impossible))

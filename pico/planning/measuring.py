@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from pico.model.catalog import Measurable
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason
 from pico.model.primitive import primitive
 from pico.model.quantities import Value
@@ -14,7 +14,7 @@ from pico.model.record import record
 from pico.model.setpoint import set_seconds
 from pico.motion.types import Motion
 from pico.planning.checks.interlocks import CLOSED
-from pico.planning.parts.setdown import astray, park_operation
+from pico.planning.parts.setdown import park_operation
 
 
 @record

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
 from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state
@@ -37,7 +37,7 @@ def move_one(
     """
     _part(setup, seen, component)
     if isinstance(to, str) and to not in setup.lab.slots:
-        raise PicoError(error("unknown-slot", f"there is no slot `{to}`", hint=did_you_mean(to, setup.lab.slots)))
+        raise PicoError(error("unknown-slot", f"there is no slot `{to}`", hint=slot_meant(to, setup.lab.slots)))
     place = ComponentState(slot=to) if isinstance(to, str) else ComponentState(pose=to)
     wanted = _live_with(setup, seen, component, place)
     request = Request(setup, seen, wanted, motion, exact=not isinstance(to, str), alone=True, reason=ASKED)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 
 from pico.diagnostics import PicoError, error
 from pico.expressions import ExpressionError, Language, UnknownValue
@@ -29,9 +29,12 @@ def require_expressions(setup: Setup, texts: Iterable[str]) -> None:
         raise PicoError(found)
 
 
-def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> tuple[Expected, ...]:
+def check_expectations(
+    setup: Setup, seen: Observation, expect: Sequence[Expectation], measurables: Set[str] = frozenset()
+) -> tuple[Expected, ...]:
     """Return what became of each expectation; one that can't be told is unknown, and says why. What speaks of what
-    nobody measured, or of which not all was assured, is not assured, and no failure."""
+    nobody measured, or of which not all was assured, is not assured, and no failure. `measurables`: the addresses of
+    what the bench can measure."""
     if not expect:
         return ()
     names = spoken_of(setup, (e.that for e in expect))
@@ -45,7 +48,10 @@ def check_expectations(setup: Setup, seen: Observation, expect: Sequence[Expecta
         except UnknownValue as exc:
             why = unknown.get(exc.name, str(exc))
             component, _, number = exc.name.partition(".")
-            assured = number not in numbers_of(setup, component)
+            measurable = numbers_of(setup, component).get(number)
+            assured = measurable is None
+            if f"{component}.{measurable}" in measurables - seen.measurements.keys():
+                why = f"{exc.name} was not measured now: `pico verify --measure` does it"
         except ExpressionError as exc:
             why = str(exc)
         if holds is False:

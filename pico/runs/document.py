@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import Diagnostic
@@ -27,8 +28,8 @@ class RecordedRun:
     """A run with what lies beside its document.
 
     `before`, `after`: the states that were observed at its ends, None where that is not known. `holder`: who had the
-    bench, as far as its journal is here. `missing`: the artifacts, by SHA-256, that are not here; `diagnostics`: what
-    is wrong with the files.
+    bench, as far as its journal is here. `stored`: where artifacts lie that are here, seen from the lab's folder, and
+    `missing`: those that are not, both by SHA-256. `diagnostics`: what is wrong with the files.
     """
 
     document: Run
@@ -37,6 +38,7 @@ class RecordedRun:
     trace: tuple[TraceEvent, ...] = ()
     measurements: tuple[TraceEvent, ...] = ()
     holder: str = ""
+    stored: Mapping[str, str] = field(default_factory=dict)
     missing: frozenset[str] = frozenset()
     diagnostics: tuple[Diagnostic, ...] = ()
 

@@ -41,8 +41,7 @@ class CameraModel:
         import cv2
         import numpy as np
 
-        inverse = np.linalg.inv(self.pose)
-        local = points @ inverse[:3, :3].T + inverse[:3, 3]
+        local = (points - self.pose[:3, 3]) @ self.pose[:3, :3]
         seen, _ = cv2.projectPoints(local.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, self.distortion)
         pixels = np.asarray(seen, np.float64).reshape(-1, 2)
         pixels[local[:, 2] <= 0] = np.nan

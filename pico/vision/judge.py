@@ -105,7 +105,10 @@ def _apart(views: Sequence[MarkerView], height: float) -> str:
     return "is seen " + " and ".join(places) + ", which can't be one marker"
 
 
-def combined(estimate: Estimate, accuracy: Accuracy) -> Uncertainty:
-    """Return one standard deviation of a pose: noise of the corners, and what the calibration adds."""
-    noise = estimate.uncertainty
+def combined(
+    estimate: Estimate, accuracy: Accuracy, point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> Uncertainty:
+    """Return one standard deviation of a pose, or of where a `point` of the marker's frame is [mm]: noise of the
+    corners, and what the calibration adds."""
+    noise = estimate.known_at(point)
     return Uncertainty(position=math.hypot(noise.position, accuracy.position), yaw=math.hypot(noise.yaw, accuracy.yaw))

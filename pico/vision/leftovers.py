@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     Gray = NDArray[np.float32]
 
 _BLOCK = 16  # mm between the points of the table that are projected
-_UNLIKE = 16.0  # gray levels
+_TABLE = 150.0  # gray level of the table in good light
+_UNLIKE = 16.0  # gray levels in good light
 _AROUND = 9.0  # mm around what is known that may belong to it
 _HOLE = 7.0  # mm around the middle of a hole that is darker
 _RIM = 4  # mm from the edge of the table, where the floor may be seen
@@ -54,12 +55,13 @@ def leftovers(
     import cv2
     import numpy as np
 
-    views = [_laid(setup, frame, cameras[frame.camera], known) for frame in frames if not frame.black]
-    if not views:
+    laid = [_laid(setup, frame, cameras[frame.camera], known) for frame in frames if not frame.black]
+    if not laid:
         return ()
     eyes = [cameras[frame.camera].pose[:3, 3] for frame in frames if not frame.black]
-    plain = _plain(setup, views[0][0].shape)
-    unlike = [(np.abs(top - _ground(top, free & plain)) > _UNLIKE) & free & plain for top, free in views]
+    plain = _plain(setup, laid[0][0].shape)
+    views = [(_alike(top, free & plain), free) for top, free in laid]
+    unlike = [(np.abs(top - _TABLE) > _UNLIKE) & free & plain for top, free in views]
     odd = _odd(views, unlike)
     seen = [_closed(part | (odd & free), _HOLE) for part, (_, free) in zip(unlike, views, strict=True)]
     groups, labels = cv2.connectedComponents(_closed(np.logical_or.reduce(seen), _GAP).astype(np.uint8))
@@ -73,11 +75,12 @@ def leftovers(
     return tuple(sorted(found, key=lambda thing: (thing.x, thing.y)))
 
 
-def _ground(top: Gray, where: Any) -> float:
-    """The gray of the table itself."""
+def _alike(top: Gray, where: Any) -> Gray:
+    """A picture as bright as it is in good light, by the gray of the table itself."""
     import numpy as np
 
-    return float(np.median(top[where])) if where.any() else 0.0
+    ground = float(np.median(top[where])) if where.any() else _TABLE
+    return top * np.float32(_TABLE / max(ground, 1.0))
 
 
 def _odd(views: Sequence[tuple[Gray, Any]], unlike: Sequence[Any]) -> Any:
@@ -122,7 +125,7 @@ def _laid(setup: Setup, frame: Frame, camera: CameraModel, known: Sequence[Array
     pixels = np.nan_to_num(pixels, nan=-1e4) - frame.offset
     size = (x.shape[1] * _BLOCK, x.shape[0] * _BLOCK)
     maps: Any = cv2.resize(pixels.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
-    maps = np.ascontiguousarray(maps[_BLOCK : _BLOCK + depth, _BLOCK : _BLOCK + width])
+    maps = maps[_BLOCK : _BLOCK + depth, _BLOCK : _BLOCK + width]
     soft: Any = cv2.GaussianBlur(frame.gray, (0, 0), 1.2)
     no_map: Any = None
     top: Any = cv2.remap(soft.astype(np.float32), maps, no_map, cv2.INTER_LINEAR, borderValue=(-1.0,))

@@ -22,6 +22,7 @@ CELLS = 6
 """Across a marker: four bits and the black border on both sides."""
 _CLEAR = 0.2  # a cell is black or white where it is off the middle by this share of the contrast
 _MISFIT = 0.15  # of the contrast, that a picture may differ from the marker it is said to show
+_CLEAN = 0.4  # share of a marker that light must have left as it is
 _CONTRAST = 24.0  # least difference of white and black [gray levels]
 _SMALLEST = 24.0  # pixels around a marker, less of which can't be read
 _SMALLEST_SHARE = 0.03  # of the longer edge of a picture
@@ -101,6 +102,52 @@ def detect(frame: Frame) -> Markers:
     centers = np.array([m.corners.mean(axis=0) - offset for m in read]).reshape(-1, 2)
     fragments = [quad for quad in doubtful if _alone(quad, centers) and _framed(picture, quad)]
     return Markers(frame.camera, tuple(read), tuple(Fragment(q + offset, frame.camera) for q in _distinct(fragments)))
+
+
+def stained(frame: Frame, number: int, corners: Array) -> Marker | None:
+    """Return a marker that light shines on, known to be about at `corners` (4, 2) [pixels of the whole sensor],
+    to within a cell; None where the picture speaks against it.
+
+    Light can make black cells bright and never white ones dark: one that is dark is of another marker, or covered.
+    """
+    import numpy as np
+
+    picture, offset = np.ascontiguousarray(frame.gray), np.array(frame.offset, np.float64)
+    near = _matched(picture, corners - offset, number)
+    fit = None if near is None else refine(picture, near, cells(number))
+    if fit is None or near is None or fit.clean < _CLEAN or not _near(fit.corners, near):
+        return None
+    seen, wanted = _levels(picture, fit.corners), cells(number)
+    white, black = np.median(seen[wanted > 0.5]), np.median(seen[wanted < 0.5])
+    if white - black < _CONTRAST:
+        return None
+    share = (seen - (white + black) / 2) / (white - black)
+    bright, dark = share[1:-1, 1:-1][wanted[1:-1, 1:-1] > 0.5], share[wanted < 0.5]
+    if np.any(bright < _CLEAR) or np.mean(dark < -_CLEAR) < _CLEAN:
+        return None
+    return Marker(number, fit.corners + offset, frame.camera, fit.covariance)
+
+
+def _matched(picture: Picture, corners: Array, number: int) -> Array | None:
+    """Return the corners (4, 2) moved, by a cell at most, to where the picture looks most like the marker."""
+    import cv2
+    import numpy as np
+
+    cell = float(np.linalg.norm(corners[0] - corners[2])) / 2**0.5 / CELLS
+    low, high = np.floor(corners.min(axis=0)).astype(int), np.ceil(corners.max(axis=0)).astype(int)
+    room = int(np.ceil(cell))
+    window = picture[max(low[1] - room, 0) : high[1] + room, max(low[0] - room, 0) : high[0] + room]
+    width, height = (int(n) for n in high - low)
+    if cell < 2 or window.shape[0] < height or window.shape[1] < width or np.any(low < room):
+        return None
+    to_cells = cv2.getPerspectiveTransform((corners - low).astype(np.float32), _unit() + np.float32(0.5))
+    drawn = np.asarray(cells(number), np.float32)
+    flags = cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP
+    look: Any = cv2.warpPerspective(drawn, to_cells, (width, height), flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    like: Any = cv2.matchTemplate(window.astype(np.float32), look, cv2.TM_CCOEFF_NORMED)
+    _, _, _, (across, down) = cv2.minMaxLoc(like)
+    found: Array = corners + (np.array((across, down)) - room)
+    return found
 
 
 def _near(refined: Array, found: Array) -> bool:

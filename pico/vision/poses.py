@@ -65,10 +65,19 @@ class Estimate:
 
     @property
     def uncertainty(self) -> Uncertainty:
-        """One standard deviation from the noise of the corners: position in its worse direction, and yaw."""
+        """One standard deviation of its middle, see `known_at`."""
+        return self.known_at((0.0, 0.0, 0.0))
+
+    def known_at(self, point: tuple[float, float, float]) -> Uncertainty:
+        """Return one standard deviation, from the noise of the corners, of where a `point` of the marker's frame is
+        [mm], in its worse direction, and of yaw. A tilt moves what is below."""
         import numpy as np
 
-        position = math.sqrt(max(0.0, float(np.linalg.eigvalsh(self.covariance[:2, :2])[-1])))
+        arm = self.pose[:3, :3] @ np.array(point)
+        lever = np.array(((0.0, arm[2], -arm[1]), (-arm[2], 0.0, arm[0])))  # of turns about x, y, z: turn x arm
+        jacobian = np.column_stack((np.eye(2, 3), lever))
+        covariance = jacobian @ self.covariance @ jacobian.T
+        position = math.sqrt(max(0.0, float(np.linalg.eigvalsh(covariance)[-1])))
         return Uncertainty(position=position, yaw=math.degrees(math.sqrt(max(0.0, float(self.covariance[5, 5])))))
 
 
@@ -116,11 +125,20 @@ def on_plane(
 
     One camera is enough. `height_sigma` [mm] and `tilt_sigma` [deg]: how well it is known that it does.
     """
+    return leaning_as(views, size, flat_start(views[0], size, height), height_sigma, tilt_sigma)
+
+
+def leaning_as(
+    views: Sequence[MarkerView], size: float, there: Array, height_sigma: float, tilt_sigma: float
+) -> Estimate:
+    """Return the pose of a marker that is as high and leans as one at `there` (4, 4), near which it is.
+
+    `height_sigma` [mm] and `tilt_sigma` [deg]: how well it is known that it does.
+    """
     import numpy as np
 
-    start = flat_start(views[0], size, height)
     sigma = np.array([height_sigma, math.radians(tilt_sigma), math.radians(tilt_sigma)])
-    return _fitted(views, size, start, (start, sigma))
+    return _fitted(views, size, there, (there, sigma))
 
 
 def flat_start(view: MarkerView, size: float, height: float) -> Array:
@@ -186,7 +204,8 @@ def _fitted(
         left = [white @ one for white, one in zip(whitening, off, strict=True)]
         if known is not None:
             there, sigma = known
-            left.append(np.array([pose[2, 3] - there[2, 3], pose[1, 2], pose[0, 2]]) / sigma)
+            apart = pose - there
+            left.append(np.array([apart[2, 3], apart[1, 2], apart[0, 2]]) / sigma)
         return np.concatenate(left)
 
     solution = solve(residuals, np.zeros(6), np.array(_STEPS), rounds=12)

@@ -26,6 +26,11 @@ _STILL = 4e-4  # cells: about what a drawn marker is sampled to, so that no furt
 _MOST = 12_000  # pixels of one marker that are fitted
 _OVER = 0.12
 """What of a picture differs by more than this share of the contrast is no part of the marker."""
+_TRACE = 0.035
+"""The same for a spot of it, on the average."""
+_BINS = 24  # across a marker, by which pixels around a spoilt one are left out
+_LEAST = 0.4  # share of a marker that must be clean
+_STAINED = 5.0  # what shines on a marker or covers it leaves traces that no noise would
 _FLOOR = 0.01  # pixels: what no fit of one picture is better than
 
 
@@ -33,13 +38,15 @@ _FLOOR = 0.01  # pixels: what no fit of one picture is better than
 class Fit:
     """Corners (4, 2) [pixels] with the covariance (8, 8) of u0, v0, u1, ... [pixels^2].
 
-    `misfit`: root mean square of what is left, as a share of the contrast; `blur`: sigma of the picture [pixels].
+    `misfit`: root mean square of what is left, as a share of the contrast; `blur`: sigma of the picture [pixels];
+    `clean`: share of the pixels that counted at last.
     """
 
     corners: Array
     covariance: Array
     misfit: float
     blur: float
+    clean: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,25 +72,48 @@ def refine(picture: Picture, corners: Array, cells: Array, blur: float = 0.8) ->
     start = _homography((corners - patch.center) / patch.scale)
     side = float(np.linalg.norm(corners[0] - corners[2])) / 2**0.5 / _CELLS
     parameters: Any = np.append(start.ravel()[:8], blur / side)
-    drawn: Any = np.kron(np.pad(cells, 1, constant_values=1.0), np.ones((_FINE, _FINE)))
+    drawn: Any = np.kron(np.pad(cells, 1, constant_values=1.0), np.ones((_FINE, _FINE))).astype(np.float32)
+    counted, still = np.ones(len(patch.gray), bool), False
     for number in range(_ROUNDS):
-        design, left, contrast = _linear(patch, drawn, parameters)
+        design, left, contrast = _linear(patch, drawn, parameters, counted)
         # once it fits, what lies over the plate or shines on it is left out: it would pull the edges beside it
         counted = np.abs(left) < (_OVER * contrast if number > 1 else np.inf)
-        design = design[counted]
-        normal = design.T @ design
+        if still and (around := counted & _clean(patch, left, contrast)).mean() > _LEAST:
+            counted = around
+        design = design[:, counted]
+        normal = design @ design.T
         try:
-            change = np.linalg.solve(normal, design.T @ left[counted])
+            change = np.linalg.solve(normal, design @ left[counted])
         except np.linalg.LinAlgError:
             return None
         parameters = parameters + change[:9]
         parameters[8] = min(max(parameters[8], 0.02), 0.6)
         if number > 2 and np.max(np.abs(change[:8])) < _STILL:
-            break
+            if still or counted.all():
+                break
+            still = True
     if not np.all(np.isfinite(parameters)) or contrast < 1:
         return None
     spread = np.asarray(np.linalg.pinv(normal), np.float64)
     return _result(patch, parameters, spread, left, left[counted], contrast, side)
+
+
+def _clean(patch: _Patch, left: Array, contrast: float) -> Any:
+    """Which pixels (n,) to count at last: nothing around what lies over the plate or shines on it, which still reaches
+    there."""
+    import cv2
+    import numpy as np
+
+    off = np.abs(left)
+    sigma = 1.48 * float(np.median(off))
+    wrong = off > max(_OVER * contrast, 5 * sigma)
+    across, down = np.clip(((patch.at / 1.2 + 1) / 2 * _BINS).astype(int), 0, _BINS - 1).T
+    bins = down * _BINS + across
+    spoilt = np.bincount(bins, wrong, _BINS**2) > 0
+    mean = np.bincount(bins, off, _BINS**2) / np.maximum(np.bincount(bins, None, _BINS**2), 1)
+    spoilt |= mean > max(_TRACE * contrast, 2 * sigma, 3 * float(np.median(mean)))
+    grown = cv2.dilate(spoilt.astype(np.uint8).reshape(_BINS, _BINS), np.ones((5, 5), np.uint8))
+    return grown.ravel()[bins] == 0
 
 
 def _result(
@@ -93,11 +123,13 @@ def _result(
 
     corners = _corners(parameters[:8])
     noise = max(float(inner @ inner) / max(len(inner) - 11, 1), 0.3)  # never less than rounding to gray levels
+    noise *= _STAINED**2 if len(inner) < len(left) else 1.0
     steps = np.diag(np.full(8, 1e-6))
     jacobian = np.column_stack([(_corners(parameters[:8] + step) - corners).ravel() / 1e-6 for step in steps])
     covariance = jacobian @ spread[:8, :8] @ jacobian.T * noise * patch.scale**2 + np.eye(8) * _FLOOR**2
+    clean = len(inner) / len(left)
     misfit = float(np.sqrt(np.mean(left**2))) / contrast
-    return Fit(corners * patch.scale + patch.center, covariance, misfit, float(parameters[8]) * side)
+    return Fit(corners * patch.scale + patch.center, covariance, misfit, float(parameters[8]) * side, clean)
 
 
 def _patch(picture: Picture, corners: Array) -> _Patch | None:
@@ -121,8 +153,8 @@ def _patch(picture: Picture, corners: Array) -> _Patch | None:
     return _Patch(picture[v, u].astype(np.float64), at, center, scale)
 
 
-def _linear(patch: _Patch, drawn: Array, parameters: Array) -> tuple[Array, Array, float]:
-    """Return the derivatives (n, 11) of the picture by homography, blur and levels, what is left (n,), the contrast."""
+def _linear(patch: _Patch, drawn: Array, parameters: Array, counted: Any) -> tuple[Array, Array, float]:
+    """Return the derivatives (11, n) of the picture by homography, blur and levels, what is left (n,), the contrast."""
     import cv2
     import numpy as np
 
@@ -130,27 +162,28 @@ def _linear(patch: _Patch, drawn: Array, parameters: Array) -> tuple[Array, Arra
     g = parameters
     depth = g[6] * x + g[7] * y + 1
     u, v = (g[0] * x + g[1] * y + g[2]) / depth, (g[3] * x + g[4] * y + g[5]) / depth  # cells from the corner
-    image = np.asarray(cv2.GaussianBlur(drawn, (0, 0), g[8] * _FINE, borderType=cv2.BORDER_REPLICATE), np.float64)
-    layers = np.dstack((image, *_gradient(image), g[8] * cv2.Laplacian(image, cv2.CV_64F) * _FINE**2))
+    image = cv2.GaussianBlur(drawn, (0, 0), g[8] * _FINE, borderType=cv2.BORDER_REPLICATE)
+    slopes = (cv2.Sobel(image, cv2.CV_32F, dx, 1 - dx, ksize=1, scale=_FINE / 2) for dx in (1, 0))
+    layers = cv2.merge((image, *slopes, cv2.Laplacian(image, cv2.CV_32F, scale=g[8] * _FINE**2)))
     across = ((u + _AROUND) * _FINE - 0.5).astype(np.float32).reshape(-1, 1)
     down = ((v + _AROUND) * _FINE - 0.5).astype(np.float32).reshape(-1, 1)
-    value, du, dv, ds = cv2.remap(layers, across, down, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0].T
-    levels = np.column_stack((value, np.ones(len(value))))
-    (contrast, black), *_ = np.linalg.lstsq(levels, patch.gray, rcond=None)
+    read: Any = cv2.remap(layers, across, down, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    value, du, dv, ds = read[:, 0].T.astype(np.float64)
+    contrast, black = _levels(value[counted], patch.gray[counted])
     du, dv = du * contrast / depth, dv * contrast / depth
     bent = -(u * du + v * dv)
-    design = np.column_stack(
+    design = np.stack(
         (du * x, du * y, du, dv * x, dv * y, dv, bent * x, bent * y, ds * contrast, value, np.ones(len(value)))
     )
-    return design, patch.gray - contrast * value - black, float(contrast)
+    return design, patch.gray - contrast * value - black, contrast
 
 
-def _gradient(image: Array) -> tuple[Array, Array]:
-    """Return the derivatives of the drawn marker along u and v, by cell."""
-    import numpy as np
-
-    down, across = (np.asarray(d, np.float64) * _FINE for d in np.gradient(image))
-    return across, down
+def _levels(value: Array, gray: Array) -> tuple[float, float]:
+    """Return contrast and black level of the straight line that takes `value` (n,) to `gray` (n,)."""
+    middle = float(value.mean())
+    off = value - middle
+    contrast = float(off @ gray) / max(float(off @ off), 1e-9)
+    return contrast, float(gray.mean()) - contrast * middle
 
 
 def _homography(corners: Array) -> Array:

@@ -18,12 +18,14 @@ def rotation(vector: Array) -> Array:
     """Return the rotation (3, 3) about `vector` (3,) by its length [rad] (Rodrigues' formula)."""
     import numpy as np
 
-    angle = float(np.linalg.norm(vector))
-    x, y, z = vector
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    sine, cosine = (math.sin(angle) / angle, (1 - math.cos(angle)) / angle**2) if angle > 1e-9 else (1.0, 0.5)
-    turn: Array = np.eye(3) + sine * cross + cosine * (cross @ cross)
-    return turn
+    x, y, z = (float(v) for v in vector)
+    angle = math.sqrt(x * x + y * y + z * z)
+    s, c = (math.sin(angle) / angle, (1 - math.cos(angle)) / angle**2) if angle > 1e-9 else (1.0, 0.5)
+    return np.array((
+        (1 - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y),
+        (c * x * y + s * z, 1 - c * (x * x + z * z), c * y * z - s * x),
+        (c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)),
+    ))  # fmt: skip
 
 
 def rotation_vector(matrix: Array) -> Array:

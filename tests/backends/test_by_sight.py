@@ -13,19 +13,24 @@ from oracles.poison import Poisoned, poisoned
 from test_sight import seeing
 
 from pico.backends.device import Began
+from pico.backends.last_seen import Taken, remember_hands
 from pico.backends.sim.device import SimDevice
 from pico.backends.sim.hand import nudge
 from pico.backends.sim.session import WorldSession
+from pico.backends.sim.store import save_world
+from pico.backends.sim.world import new_world
 from pico.cameras.simulated import Eyes
 from pico.model.lab import ArmErrors, Setup, SimErrors
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
+from pico.motion.arms import ArmMotion
+from pico.motion.types import Blocked
 
 SETUP = seeing()
 START, GOAL = Pose(200, 220), Pose(395.0, 420.0, 30.0)
 PART = "p2"
-SEEN = Pose(560.0, 160.0, -90.0)
+SEEN = Pose(480.0, 160.0, -90.0)
 """Where a camera sees a part while the hand is still above it."""
 
 
@@ -174,3 +179,34 @@ def test_an_arm_that_is_off_sets_right_what_it_put_down_beside_its_goal(tmp_path
 
 def test_the_lab_of_the_case_study_sees_its_hand_by_pixels_in_physics() -> None:
     assert shel()[0].lab.sim.sight == "pixels"
+
+
+def test_a_plan_and_a_run_agree_on_what_a_hand_that_was_stopped_while_it_closed_has(tmp_path: Path) -> None:
+    """The run felt a part between the pads and never parked, the plan saw one that stood and never set it down."""
+    sim = replace(SETUP.lab.sim, observe="exact", sight="pixels")
+    setup, world = replace(SETUP, lab=replace(SETUP.lab, sim=sim)), new_world(SETUP)
+    path = ArmMotion(setup).move("arm1", PART, START, GOAL, 0.0, {}, world.robots["arm1"].joints)
+    assert not isinstance(path, Blocked)
+    grip = next(segment for segment in path.segments if segment.name == "grip")
+    robots = {"arm1": replace(world.robots["arm1"], joints=grip.joints[-1])}
+    save_world(tmp_path, replace(world, robots=robots, openings={"arm1": grip.opening - 0.2}))
+    remember_hands(tmp_path, {"arm1": Taken(component=PART, pose=Pose(0, 0))})
+    for fidelity, holds in (("physics", PART), ("kinematic", None)):
+        seen = asyncio.run(SimDevice(setup, tmp_path, fidelity, clock=lambda: "").observe())
+        assert seen.robots["arm1"].holding == holds
+        assert (seen.components[PART].presence == "held") == bool(holds)
+
+
+def test_a_part_that_a_hand_which_was_stopped_has_just_let_go_of_is_between_its_fingers(tmp_path: Path) -> None:
+    """It hides it from the cameras: not known to be there, it was a thing without a marker, and no arm went near it."""
+    world = nudge(SETUP, new_world(SETUP), PART, dx=GOAL.x - START.x, dy=GOAL.y - START.y, dyaw=GOAL.yaw)
+    path = ArmMotion(SETUP).move("arm1", PART, START, GOAL, 0.0, {}, world.robots["arm1"].joints)
+    assert not isinstance(path, Blocked)
+    release = next(segment for segment in path.segments if segment.name == "release")
+    robots = {"arm1": replace(world.robots["arm1"], joints=release.joints[-1])}
+    save_world(tmp_path, replace(world, robots=robots, openings={"arm1": release.opening}))
+    remember_hands(tmp_path, {"arm1": Taken(component=PART, pose=Pose(0, 0))})
+    seen = asyncio.run(SimDevice(SETUP, tmp_path, "physics", clock=lambda: "").observe())
+    assert not seen.unknown and seen.robots["arm1"].holding is None
+    pose = seen.components[PART].pose
+    assert pose is not None and pose.distance(GOAL) < 0.5 and abs(angle_between(pose.yaw, GOAL.yaw)) < 0.5

@@ -19,7 +19,7 @@ from pico.backends.sim.world import FreePose, World, new_world
 from pico.diagnostics import PicoError
 from pico.model.catalog import Footprint
 from pico.model.drift import drift_of
-from pico.model.lab import Setup, SimErrors
+from pico.model.lab import BadLight, Setup, SimErrors
 from pico.model.observation import Observation, Uncertainty, UnknownObject, doubtful, live_state
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
@@ -241,6 +241,7 @@ def test_a_thing_without_a_marker_is_an_obstacle_that_holds_all_of_it(tmp_path: 
     (text,) = said(seen, "unidentified")
     assert text.startswith("something without a marker stands or lies at (6") and name == "unknown/thing_1"
     assert any(p.code == "unidentified" for p in planned(tmp_path).diagnostics)
+    assert len(observe(tmp_path, seeing(replace(ERRORS, light=BadLight(dim=0.2)))).unknown) == 1
 
 
 def test_markers_that_were_swapped_are_told_until_something_is_moved(tmp_path: Path) -> None:

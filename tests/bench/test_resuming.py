@@ -67,6 +67,17 @@ def test_a_resumed_single_operation_moves_only_what_was_asked(bench: Bench) -> N
     assert {op.component for op in plan.operations if op.primitive == "move"} == {"p2"}
 
 
+def test_after_hands_were_emptied_it_is_said_what_goes_on_with_the_run_that_was_cut_short(bench: Bench) -> None:
+    id = cut_short(bench, "e1")
+    emptied = bench.run(bench.recovery.recover_plan())
+    list(emptied)
+    assert emptied.report.outcome == "done"
+    with pytest.raises(PicoError, match="nothing to resume") as refused:
+        bench.recovery.resume_plan()
+    assert (refused.value.diagnostics[0].hint or "").startswith("`pico apply e1` goes on with ")
+    assert id in str(refused.value.diagnostics[0].hint)
+
+
 def test_what_goes_on_from_a_run_keeps_its_fidelity_unless_another_is_asked_for(bench: Bench) -> None:
     with Bench.open(bench.root, fidelity="physics") as physical:
         assert physical.apply(physical.plans.single("p1", "set", {"angle": "33"})).outcome == "done"

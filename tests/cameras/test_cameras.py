@@ -18,11 +18,12 @@ from pico.cameras.stickers import Sticker, flat
 from pico.diagnostics import PicoError
 from pico.drawing.picture import pose_model
 from pico.model.catalog import Footprint, Geometry
-from pico.model.lab import Setup, SimErrors
+from pico.model.lab import BadLight, Setup, SimErrors
 from pico.model.pose import Pose
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import SceneBody, build_scene
 from pico.vision.frame import Frame
+from pico.vision.markers import detect
 
 import mujoco  # isort: skip
 
@@ -204,6 +205,26 @@ def test_noise_has_the_sigma_of_the_camera_times_the_injected_factor() -> None:
     for factor in (1.0, 3.0):
         gray = look(bench(), {}, errors=SimErrors(noise=factor)).frame("left", region).gray
         assert gray.std() == pytest.approx(2.0 * factor, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("light", "least"),
+    [(BadLight(dim=0.25), 1.0), (BadLight(defocus=1.5), 0.9), (BadLight(scatter=60), 0.5), (BadLight(glare=40), 0.5)],
+    ids=["dim", "out of focus", "scatter", "glare"],
+)
+def test_in_bad_light_markers_are_as_near_as_is_said_or_not_read(light: BadLight, least: float) -> None:
+    """What falls on a marker in part pulls it by less than four of its standard deviations."""
+    eyes = look(bench(), {"p1": upright(Pose(300, 400, 20))}, errors=SimErrors(light=light))
+    known, looks = [sticker(eyes, number) for number in (P1, 991, 994)], 0
+    seen = []
+    for eyes._seed in range(12):
+        for one in known:
+            looks += 1
+            for marker in detect(eyes.frame("left", around(eyes, "left", one))).markers:
+                off = np.abs(marker.corners - corners(eyes, "left", one)).max()
+                seen.append((off, marker.noise))
+    assert len(seen) >= least * looks
+    assert all(off < 4 * noise + 0.03 for off, noise in seen), max(seen)
 
 
 def test_lost_frames_are_black_and_as_many_as_asked_for() -> None:

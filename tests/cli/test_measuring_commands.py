@@ -7,6 +7,7 @@ import re
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 from commanding import Answer, Pico, edit
 
@@ -27,7 +28,8 @@ def test_a_set_point_is_measured_and_shown_with_its_run(shel: Path, pico: Pico) 
     assert answer.code == 0 and "1 measurement" in answer.out and "0 deg" in answer.out
     assert "9 components of 9 stay as is" in answer.out
     shown = pico("runs", "show")
-    assert "measure p1.angle  done: 0 deg" in shown.out and "It changed nothing beyond tolerance." in shown.out
+    assert "measure p1.angle  done: 0 deg, assured: settled, arm parked" in shown.out
+    assert "It changed nothing beyond tolerance." in shown.out
     (one,) = [m for m in pico("runs", "show", "--json").data["measurements"] if m["kind"] == "measurement"]
     assert (one["component"], one["operation"], one["t"]) == ("p1", "op1", 0.5)
     assert (one["data"]["schema"], one["data"]["value"]) == ("pico.measurement/v1", 0)
@@ -37,6 +39,10 @@ def test_a_set_point_is_measured_and_shown_with_its_run(shel: Path, pico: Pico) 
 def test_a_frame_goes_to_the_store_and_its_hash_into_the_commit(shel: Path, pico: Pico) -> None:
     array = measured(pico("do", "left", "measure", "--json", "-y"))["array"]
     assert isinstance(array, dict) and array["dtype"] == "uint8"
+    assert list(np.load(shel / opened(pico)).shape) == array["shape"]
+    own = pico("runs", "show", "--json").data["document"]["id"]
+    early = pico("runs", "export", "--run", own)
+    assert early.code == 1 and f"no commit has the run {own} yet" in early.err and "did you mean" not in early.err
     assert pico("commit", "--capture", "-m", "the table from the left").code == 0
     (document,) = [json.loads(p.read_bytes()) for p in shel.glob("runs/*/*/*/run.json")]
     (artifact,) = document["artifacts"]
@@ -48,9 +54,18 @@ def test_a_frame_goes_to_the_store_and_its_hash_into_the_commit(shel: Path, pico
     data = LabData.discover(shel)
     assert data.store.size(array["sha256"]) == artifact["size"] and not data.check().missing
     assert not data.garbage(0).removable
-    assert (
-        f"artifact      op1-left-frame.npy {artifact['size']} bytes, here" in pico("runs", "show", document["id"]).out
-    )
+    shown = pico("runs", "show", document["id"])
+    assert f"artifact      op1-left-frame.npy {artifact['size']} bytes, here: {opened(pico)}\n" in shown.out
+    crate = pico("runs", "export", "--run", document["id"][-6:], "--out", "x.zip", "--pictures", "none", "--json")
+    assert (crate.data["runs"], crate.data["evidence"]) == ([document["id"]], "kinematic")
+    (other,) = pico("runs", "export", "HEAD~1", "--run", document["id"], "--json").data["diagnostics"]
+    assert "carries the run" in other["summary"] and "`pico runs export " in other["hint"]
+
+
+def opened(pico: Pico) -> str:
+    """Return where the one artifact of the last run is, in the lab."""
+    (artifact,) = pico("runs", "show", "--json").data["artifacts"]
+    return str(artifact["path"])
 
 
 def lines(lab: Path, name: str) -> list[dict[str, object]]:
@@ -92,6 +107,13 @@ def test_get_peeks_without_lease_or_record(shel: Path, pico: Pico) -> None:
     assert set(found["measurement"]["not_assured"]) == {"settled", "arm parked", "not saturated"}
     assert not pico("runs", "list", "--all", "--json").data["runs"]
     assert "light is not traced" in pico("get", "cam.image").err
+
+
+def test_the_camera_on_an_arm_is_told_apart_from_those_over_the_bench(shel: Path, pico: Pico) -> None:
+    for words in (("get", "hand"), ("get", "hand.frame"), ("do", "hand", "measure", "frame")):
+        told = " ".join(pico(*words).err.split())
+        assert "`hand` is the camera on arm1, through which only runs look" in told
+        assert "`pico get left.frame`" in told and "hand.frame" not in told
 
 
 def test_two_runs_that_measured_the_same_are_compared_only_where_that_means_something(shel: Path, pico: Pico) -> None:
@@ -173,6 +195,9 @@ def test_verify_measures_what_expectations_speak_of(shel: Path, pico: Pico) -> N
     assert pico("apply", "--auto-approve").code == 0
     plain = {e["that"]: e for e in pico("verify", "--json").data["expectations"]}
     assert [e.get("holds") for e in plain.values()] == [None, None, True]
+    assert [e.get("why", "") for e in plain.values()] == [
+        "left.peak was not measured now: `pico verify --measure` does it", "nobody measured cam.peak", "",
+    ]  # fmt: skip
     answer = pico("verify", "--measure", "--auto-approve", "--json")
     assert answer.code == 0, answer
     told = [json.loads(line) for line in answer.out.splitlines()]

@@ -139,6 +139,17 @@ def test_a_type_without_its_file_is_not_known(tmp_path: Path, pico: Pico) -> Non
     )
     answer = pico("-C", str(tmp_path / "lab"), "validate")
     assert answer.code == 1 and "pinhole_25" in answer.err
+    lens = (
+        (catalog_dir() / "linear_polarizer.yaml").read_text().replace("name: linear_polarizer", "name: pinhole_25", 1)
+    )
+    for old, new, told in (
+        ("    unit: deg", "\tunit: deg", "a tab in the indentation"),
+        ("    unit: deg", "    unit: dge", "did you mean `deg`?"),
+        (", set, ", ", ", "warning[unset]: `angle` of pinhole_25 can be set"),
+    ):
+        (tmp_path / "lab" / "pinhole_25.yaml").write_text(lens.replace(old, new, 1))
+        answer = pico("-C", str(tmp_path / "lab"), "validate")
+        assert told in answer.err.split("error[unknown-type]")[0], answer.err
 
 
 BODIES = re.compile(r"  bodies:.*?\n(?=  grasp)", re.DOTALL)
@@ -175,6 +186,11 @@ def test_a_slot_that_no_arm_reaches_is_told(tmp_path: Path, pico: Pico, monkeypa
     answer = pico("validate")
     assert answer.code == 0 and "warning[slot-reach]: no arm reaches storage/z9" in " ".join(answer.err.split())
     assert answer.err.count("slot-reach") == 1
+    stands, table = "x: 660\n      y: 420", lab / "state" / "table.yaml"
+    for place in ("x: 1100\n      y: 100", "x: 500\n      y: 720"):  # too far, and at the foot of the arm
+        edit(table, stands, place)
+        assert "warning[reach]: no arm reaches lens" in " ".join(pico("validate").err.split())
+        stands = place
 
 
 def test_a_labs_own_type_is_shown_before_any_part_uses_it(tmp_path: Path, pico: Pico) -> None:

@@ -215,6 +215,7 @@ def test_init_makes_a_lab_that_validates_and_says_what_next(
     assert "cd mybench" in answer.out
     assert pico("-C", "mybench", "validate").code == 0
     assert pico("-C", "mybench", "plan").code == 0
+    assert "no camera over the bench sees it" in pico("-C", "mybench", "do", "lens", "measure", "pose", "-y").err
 
 
 def test_fmt_check_names_the_file_and_fmt_writes_it(shel: Path, pico: Pico) -> None:

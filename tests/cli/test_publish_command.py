@@ -241,7 +241,7 @@ def test_runs_can_be_chosen_among_those_of_the_revision(lab: Path, tmp_path: Pat
     assert len(made["runs"]) == 1
     assert first not in made["runs"]
     made = pico("runs", "export", "--run", first, "--out", str(tmp_path / "b"), "--pictures", "none", "--json").data
-    assert made["runs"] == [first]
+    assert made["runs"] == [first] and made["evidence"] == "kinematic"  # another run of it led to the state
     answer = pico("runs", "export", "HEAD~1", "--run", f"{first}x", "--out", str(tmp_path / "c"))
     assert answer.code == 1
     assert f"did you mean `{first}`?" in answer.err

@@ -105,6 +105,7 @@ def test_a_whole_checkout_may_leave_the_bench_alone_and_says_how_to_go_back(shel
     assert answer.code == 0 and "`pico checkout main --files-only`" in answer.out
     assert git("branch", "--show-current") == "e1\n" and pico("get", "p2", "--json").data == before
     assert "Go back with `pico checkout e1`" in pico("checkout", "main", "--auto-approve").out
+    assert "Go back" not in pico("checkout", "main", "--auto-approve").out
     edit(TABLE, "exposure: 10", "exposure: 12")
     assert pico("checkout", "e1", "--files-only").code == 1
 

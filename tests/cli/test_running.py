@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,16 @@ def test_ctrl_c_halts_then_stops_and_ends_with_a_tally(
     assert "✓ 1/2 lx_125 storage/a1 → (395, 420, 0°)" in out
     assert "off by 0.11 mm" in out
     assert "Interrupted: 1 of 2 operations done, 1 not started · 9.8 s simulated" in out
+
+
+@pytest.mark.parametrize(("cause", "again"), [("undo", "pico resume"), ("checkout", "the same command")])
+def test_after_an_undo_that_failed_the_same_command_would_undo_it(
+    cause: Any, again: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = Interrupted(0)
+    run.report = replace(run.report, outcome="failed")
+    execute(Session(), OneRun(run), replace(PLAN, target=Target(revision="e1", cause=cause)))  # type: ignore[arg-type]
+    assert f"Continue with {again}" in capsys.readouterr().out.replace("`", "")
 
 
 @pytest.fixture

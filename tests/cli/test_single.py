@@ -12,6 +12,8 @@ from commanding import Pico, Typed
 def test_a_tunable_is_set_and_read(shel: Path, pico: Pico) -> None:
     assert pico("set", "p1", "angle=3", "-y").code == 0
     assert "p1.angle  3 deg" in pico("get", "p1").out
+    for words, angle in ((["p1.angle", "4", "deg"], 4), (["p1.angle=5"], 5), (["p1", "angle=6", "deg"], 6)):
+        assert f"p1.angle  3 → {angle} deg" in pico("set", *words, "--dry-run").out
     assert pico("do", "p1", "set", "angle=0.5 rad", "-y").code == 0
     assert pico("get", "p1.angle", "--json").data["values"]["angle"]["value"] == pytest.approx(28.6479, abs=1e-3)
 
@@ -48,6 +50,10 @@ def test_what_is_so_already_is_not_taken_for_the_manifest(shel: Path, pico: Pico
     assert "The manifest is not (p1.angle 90 → 5 deg)" in answer.out
     assert "equals" not in answer.out
     assert pico("plan", "--detailed-exitcode").code == 2
+    pico("apply", "--auto-approve")
+    assert ", too:" not in pico("set", "p1", "angle=5", "-y").out
+    other = " ".join(pico("set", "p2.angle", "4", "-y").out.split())
+    assert "p1 differs from the manifest, too: `pico apply -- p1` brings it there, `pico commit p2` leaves it" in other
     pico("capture")
     assert "bench and manifest are as asked already" in pico("set", "p1", "angle=5", "-y").out
 
@@ -84,6 +90,8 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
     assert answer.code == 3
     assert "p1" in answer.err
     assert "(520, 420, 0°)" in pico("get", "p2").out
+    taken = " ".join(pico("move", "p1", "storage/a1", "-y").err.split())
+    assert "choose a free slot: storage/b1, storage/b2 or storage/b3;" in taken  # those of p1 and p2, which are out
 
 
 @pytest.mark.parametrize(
@@ -92,11 +100,18 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["set", "p1", "angel=3"], "did you mean `angle`?"),
         (["set", "p1", "angle=2 kg"], "mass"),
         (["set", "p1", "angle=9000"], "from 0 to 360 deg"),
-        (["set", "p1", "3"], "no `key=value`"),
+        (["set", "p1", "3"], "known: `angle`"),
+        (["get", "left"], "`pico get left.frame`"),
         (["set", "laser", "shutter=ajar"], "no choice `ajar`"),
         (["set", "laser", "emission=3"], "true or false"),
         (["move", "p9", "1", "2"], "there is no component `p9`"),
         (["move", "p1", "storage/b9"], "there is no slot `storage/b9`"),
+        (["move", "p1", "storage/z9"], "known: `storage/a1`, `storage/a2`"),
+        (["move", "p1", "a4"], "did you mean `storage/a4`?"),
+        (["move", "p1", "slot=a4"], "did you mean `storage/a4`?"),
+        (["move", "p1", "dx=5"], "p1 stands at x=110: `x=115`"),
+        (["move", "p1", "dyaw=5"], "`pico move p1 turn=5`"),
+        (["set", "cam", "exposure=5", "gain=3"], "set of cam takes no `gain`"),
         (["move", "p1"], "where to move p1?"),
         (["move", "p1", "x=1", "x=2"], "given twice"),
         (["do", "laser", "move", "x=1"], "no arm can move it: only a person can"),
@@ -112,6 +127,7 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["move", "p1", "290", "420", "--speed", "7"], "share of the joint limits"),
         (["get", "p1.nothing"], "no tunable `nothing`"),
         (["sim", "nudge", "p9", "--dx", "1"], "there is no component `p9`"),
+        (["sim", "nudge", "p1", "--yaw", "1"], "did you mean `--dyaw`?"),
     ],
 )  # fmt: skip
 def test_what_makes_no_sense_is_refused_in_words(shel: Path, pico: Pico, words: list[str], said: str) -> None:
@@ -123,7 +139,7 @@ def test_what_makes_no_sense_is_refused_in_words(shel: Path, pico: Pico, words: 
 
 def test_a_removed_component_is_missing_and_reset_brings_it_back(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
-    assert pico("sim", "remove", "p2").code == 0
+    assert "`pico sim nudge p2` puts it home" in pico("sim", "remove", "p2").out
     assert "missing" in pico("status").out
     planned = pico("plan", "--detailed-exitcode")
     assert planned.code == 2
@@ -131,4 +147,6 @@ def test_a_removed_component_is_missing_and_reset_brings_it_back(shel: Path, pic
     assert "warning[missing]" in planned.err
     assert pico("apply", "e1", "--auto-approve").code == 1
     assert pico("sim", "reset").code == 0
+    assert "storage/b2" in pico("status").out
+    assert pico("sim", "remove", "p2").code == pico("sim", "nudge", "p2").code == 0
     assert "storage/b2" in pico("status").out

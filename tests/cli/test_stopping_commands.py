@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from pico.runs.journal import Journal
 
 PROGRAM = """
 import sys, time
+from contextlib import closing
 from pathlib import Path
 from pico.backends.sim import session
 from pico.bench.running import execution
@@ -93,6 +95,8 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
         assert said.count("warning[cut-short]: run ") == 1 and f"was killed, and arm1 holds {held}" in said
         assert "`pico resume` takes the run up again" in said and "`pico recover` only sets down" in said
         assert "cut-short" in pico(*words, "--json").out
+    refused = pico("commit", "-m", "nothing")
+    assert refused.code == 1 and f"arm1 holds {held}" in " ".join(refused.err.split())
     operations = pico("plan", "--json").data["operations"]
     moved = {op["component"] for op in operations if op["reason"]["kind"] != "interlock"} - {"arm1"}
     assert held in moved and f"  {9 - len(moved)} components of 9 stay as is\n" in pico("plan").out
@@ -105,7 +109,13 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert at_home.operations and at_home.asked, "what sets the held part down does not lead to the manifest"
     one = pico("set", "cam", "exposure=5")
     assert one.code == 0 and "cut-short" in one.err and f"arm1 still holds {held}" in one.out
-    assert "cut-short" in pico("commit", "--capture", "-m", "in between").err
+    assert "pico resume" not in pico("verify").err  # the last run is that one
+    assert "which picked it" in drifted and "by hand" not in drifted
+    whole = pico("commit", "--capture", "-m", "in between")
+    assert whole.code == 1 and f"error[in-hand]: arm1 holds {held}" in whole.err
+    assert pico("capture").code == 1 and pico("capture", "cam").code == 0
+    assert "cut-short" in pico("commit", "cam", "--capture", "-m", "in between").err
+    assert any(line.split()[0] == held and "held" in line for line in pico("catalog", "parts").out.splitlines()[1:-2])
     assert pico("recover", "--auto-approve").code == 0
     assert "cut-short" not in pico("status").err
     assert Bench.open(shel).observe().robots["arm1"].holding is None
@@ -128,6 +138,16 @@ def test_what_was_set_down_after_a_kill_is_undone_to_where_it_was_before_the_run
     answer = pico("undo", "--auto-approve")
     assert answer.code == 0 and "The bench equals the bench before" in answer.out
     assert {n: p.pose for n, p in Bench.open(shel).observe().components.items()} == before
+
+
+def test_of_a_run_that_was_killed_before_it_moved_anything_that_is_told(shel: Path, pico: Pico) -> None:
+    """`pico runs list` has no such run."""
+    with Bench.open(shel) as bench:
+        plan = bench.plan("e1")
+    with closing(Journal(shel / ".pico" / "journal.sqlite")) as journal:
+        journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
+    (shel / ".pico" / "run").write_text("r1")
+    assert "run r1 was killed before it began an operation" in " ".join(pico("status").err.split())
 
 
 def test_nothing_to_stop_or_to_undo_is_said(shel: Path, pico: Pico) -> None:

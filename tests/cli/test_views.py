@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from datetime import UTC, datetime
+from typing import Any
+
 import pytest
 from commanding import Typed
 from hypothesis import given
 from hypothesis import strategies as st
 from pico_cli.views import diagnostics as view
+from pico_cli.views import log
 from pico_cli.views.style import columns, count, folded, listed, number, paint, plain, seconds, shorten, width
 
-from pico.diagnostics import Position, SourceRange, error, warning
+from pico.diagnostics import PicoError, Position, SourceRange, error, warning
+from pico.history.git.commit import Commit
+from pico.history.lab.folder import CommitEntry
+from pico.model.plan import LabRef
+from pico.model.run import Run
 
 
 def at(line: int, start: int, end: int, snippet: str) -> SourceRange:
@@ -30,6 +39,11 @@ def test_a_diagnostic_shows_the_line_with_a_caret_and_what_would_be_right() -> N
         "   |\n"
         "   = help: for example `2` or `2 ms`"
     )
+
+
+def test_an_error_that_nobody_catches_says_what_would_be_right() -> None:
+    found = PicoError([error("usage", "set of p1 takes no `angel`", hint="did you mean `angle`?"), error("x", "no")])
+    assert str(found) == "set of p1 takes no `angel` (did you mean `angle`?); no"
 
 
 def test_errors_stand_last_and_are_counted() -> None:
@@ -58,6 +72,22 @@ def test_no_source_line_breaks_the_view(snippet: str, start: int, length: int) -
 )
 def test_numbers_have_no_needless_zeros(value: float, text: str) -> None:
     assert number(value) == text
+
+
+def test_many_runs_of_a_commit_are_summed_up_in_a_log() -> None:
+    known: dict[str, Any] = {"lab": LabRef(name="shel", digest=""), "state_before": "", "state_after": "", "plan": ""}
+    one = Run(id="r1", evidence="kinematic", started_at="", outcome="done", seconds=4.0, tally={"done": 2}, **known)
+    cut = replace(one, outcome="interrupted", tally={"done": 1, "skipped": 3})
+    commit = Commit(
+        id="f" * 40, parents=(), summary="s", message="s", author="A", time=datetime(2026, 1, 1, tzinfo=UTC)
+    )
+    assert log.proofs(CommitEntry(commit=commit, runs=(one, cut))) == [
+        "2 operations done, 4.0 s", "interrupted, 1 operation done, 3 skipped, 4.0 s",
+    ]  # fmt: skip
+    many = CommitEntry(commit=commit, runs=(*[one] * 94, cut))
+    summed = "95 runs, 1 interrupted, 189 operations done, 3 skipped, 6 min 20 s"
+    assert log.proofs(many) == [summed] and log.evidence_lines(many, 8) == [f"  {summed}: `pico show fffffff`"]
+    assert len(log.evidence_lines(many)) == 95
 
 
 def test_words_agree_with_their_number() -> None:

@@ -113,6 +113,19 @@ def test_a_run_is_told_whole_and_from_any_number_on_and_is_remembered(bench: Ben
     assert next(memory.successes([moved])).after is not None
 
 
+def test_a_run_goes_at_the_speed_that_was_asked_for_and_the_next_one_at_the_labs(bench: Bench) -> None:
+    took = []
+    for speed in (0.2, None, 1.0):
+        with Bench.open(bench.root, speed=speed) as other:
+            plan = other.single("p2", "move", x=560 if speed is None else 520)
+            began = other.observe().time
+            assert other.apply(plan).outcome == "done"
+            took.append(other.observe().time - began)
+            assert took[-1] == pytest.approx(plan.makespan, abs=0.5)
+    assert took == sorted(took, reverse=True)
+    assert on_edge(bench, lambda edge: edge.describe()).lab_digest == bench.setup.digest()
+
+
 def test_a_run_of_another_plan_does_not_take_its_id(bench: Bench) -> None:
     first, other = bench.plan("e1"), bench.plan("C1")
     on_edge(bench, lambda edge: ran(edge, first, "r1"))
@@ -223,6 +236,25 @@ def test_its_runs_are_committed_with_their_evidence(bench: Bench) -> None:
     assert not found.beyond and not found.held
 
 
+def test_what_stands_in_the_midst_of_a_run_is_not_captured_and_it_is_said_who_runs_what(
+    bench: Bench, kept: type
+) -> None:
+    run = bench.apply("e1").run
+    lease = on_edge(bench, lambda edge: edge.acquire("pico apply"))
+    (bench.root / ".pico" / "run").write_text(run)  # as if it were not over
+    server = "the server of this bench, " if kept is RemoteEdge else ""
+    for take in (bench.commit, bench.capture, bench.commits.draft):
+        with pytest.raises(
+            PicoError, match=rf"\({server}process .*\): pico apply e1, (\d+) of \1 operations d"
+        ) as caught:
+            take()
+        assert caught.value.exit_code == ExitCode.LOCKED
+    assert [d.code for d in bench.status().cut_short] == ["goes-on"] and not bench.capture(write=False).written
+    planned = bench.commit("left out", "planned", empty=True)
+    assert (planned.evidence, planned.runs, planned.realized) == ("planned", (), False)
+    on_edge(bench, lambda edge: edge.release(lease))
+
+
 def test_what_moves_can_be_filmed(bench: Bench) -> None:
     recording = Recording()
     run = bench.run(bench.plan("e1"), recording=recording)
@@ -301,8 +333,10 @@ def test_who_follows_a_run_of_a_bench_that_is_closed_does_not_wait_for_ever(benc
 # only behind a socket
 
 
-def test_only_its_user_reaches_the_socket_and_a_second_server_is_refused(lab: Path) -> None:
-    with served(lab):
+def test_its_fidelity_counts_only_its_user_reaches_the_socket_and_a_second_server_is_refused(lab: Path) -> None:
+    with served(lab, "physics"):
+        with Bench.open(lab) as bench:
+            assert bench.plan().fidelity == "physics"  # nobody asked for another
         path = place.find(lab)
         assert path is not None
         assert stat.S_IMODE(path.lstat().st_mode) == 0o600 and stat.S_IMODE(path.parent.lstat().st_mode) == 0o700

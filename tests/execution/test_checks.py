@@ -119,6 +119,17 @@ def test_a_plan_is_for_one_backend_with_its_robots_and_primitives() -> None:
     assert caught.value.exit_code == ExitCode.STALE
 
 
+@pytest.mark.parametrize(("measurable", "said"), [("pose", "no camera over the bench"), ("image", "light is not sim")])
+def test_what_the_simulator_can_not_measure_is_told_by_what_is_missing(measurable: str, said: str) -> None:
+    able = Capabilities(
+        name="sim", fidelity="kinematic", evidence="kinematic", lab_digest=SETUP.digest(), simulated=True,
+        primitives=frozenset({"measure"}), robots=("arm1",),
+    )  # fmt: skip
+    made = plan(replace(move(HOME["p2"], AWAY), primitive="measure", arguments={"measurable": measurable}))
+    with pytest.raises(PicoError, match=said):
+        require_applicable(made, able)
+
+
 def test_a_plan_of_another_lab_is_stale() -> None:
     made = plan(move(HOME["p2"], AWAY))
     other = replace(made, lab=LabRef(name="shel", digest="other"))

@@ -70,10 +70,12 @@ def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench
 
 
 def test_what_needs_a_person_is_refused_with_the_way_to_do_it(bench: LocalEdge) -> None:
-    moved = changed(C3, {"hwp": {"pose": Pose(222, 420, 3)}})
+    moved, nudged = (changed(C3, {"hwp": {"pose": pose}}) for pose in (Pose(222, 420, 3), Pose(214.5, 420)))
     found = refusal(bench, asyncio.run(plan_to(bench, moved)))
     assert "hwp needs a person" in found.diagnostics[0].summary
-    assert "pico sim nudge hwp" in found.diagnostics[0].hint
+    hint = found.diagnostics[0].hint
+    assert "`pico sim nudge hwp --dyaw 3`" in hint and "--exclude hwp" in hint
+    assert f"--dx {-7.5}" in refusal(bench, asyncio.run(plan_to(bench, nudged))).diagnostics[0].hint
 
 
 def test_a_plan_for_another_lab_is_stale(bench: LocalEdge) -> None:

@@ -26,7 +26,7 @@ def git(folder: Path, *arguments: str, code: int = 0) -> str:
 def turn(folder: Path, component: str, angle: float) -> str:
     """Turn a polarizer in its mount, and return the id of the run."""
     with Bench.open(folder) as bench:
-        return bench.apply(bench.plans.single(component, "set", {"angle": str(angle)})).run
+        return bench.apply(bench.single(component, "set", angle=angle)).run
 
 
 def commit(folder: Path, message: str, mode: str = "capture") -> Committed:

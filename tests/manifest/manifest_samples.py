@@ -80,6 +80,7 @@ geometry:
 frames: {optical: [0, 0, 70]}
 optics: {element: lens}
 repeatability: {position: 0.1, yaw: 0.05}
+primitives: [move, stow, set]
 """
 USES_OWN = LAB.replace("inventory:\n", "inventory:\n  lens: {type: own_lens, pose: {x: 700, y: 420}}\n")
 GOOD = {"lab.yaml": LAB.encode(), "state/table.yaml": STATE.encode()}
@@ -441,4 +442,5 @@ TYPE_EDITS: tuple[tuple[str, str], ...] = (
     ("grasp: {height: 100, width: 30, yaws: [0, 90]}", "grasp: {width: 30}"),
     ("grasp: {height: 100, width: 30, yaws: [0, 90]}", "grasp: {height: 100, width: 30, yaws: []}"),
     ("geometry:\n", "geometri:\n"),
+    ("unit: mm, range", "unit: mmm, range"),
 )

@@ -75,5 +75,8 @@ def test_a_number_carried_twice_or_unknown_to_the_dictionary_is_an_error() -> No
 def test_injected_errors_have_their_ranges() -> None:
     sim = "sim: {errors: {lost_frames: 1.5, camera_position: 0.2}}\n"
     assert found(f"  top: {OVERHEAD}", sim=sim) == ["error sim.errors.lost_frames is 1.5"]
+    dark = "sim: {errors: {light: {dim: 0, defocus: -1}}}\n"
+    wrong = ["error sim.errors.light.dim is 0", "error sim.errors.light.defocus is -1"]
+    assert found(f"  top: {OVERHEAD}", sim=dark) == wrong
     arm = "sim: {errors: {arm: {backlash: -0.1, encoder_noise: 0.01}}}\n"
     assert found(f"  top: {OVERHEAD}", sim=arm) == ["error sim.errors.arm.backlash is -0.1"]

@@ -82,15 +82,41 @@ def test_a_duplicate_names_both_places() -> None:
 
 
 @pytest.mark.parametrize(
-    ("first", "second", "columns"),
-    [("   m1", "  p2", "4, this one in column 3"), ("  m1", " p2", "3, this one in column 2")],
+    ("first", "second", "said"),
+    [
+        ("   m1", "  p2", "line 5 begins in column 4, this one in column 3: one of them is askew"),
+        ("  m1", " p2", "line 5 begins in column 3, this one in column 2: one of them is askew"),
+        ("  m1", "     p2", "it begins in column 6: bring it below line 5 (column 3), or below line 6 (column 7)"),
+    ],
 )
-def test_of_lines_that_stand_askew_both_are_named(first: str, second: str, columns: str) -> None:
+def test_of_lines_that_stand_askew_both_are_named(first: str, second: str, said: str) -> None:
     head = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: bench}\ncomponents:\n"
     text = f"{head}{first}:\n      slot: storage/a1\n  # about p2\n\n{second}:\n      slot: storage/a2\n"
     (found,) = load_files(GOOD | {"state/table.yaml": text.encode()}).diagnostics[:1]
     assert found.source is not None and found.source.start.line == 9
-    assert found.detail == f"line 5 begins in column {columns}: one of them is askew"
+    assert found.detail == said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ("  p2:", "    p2:", "`p2` is a component: begin it in the column of the others"),
+        ("  p2:", "p2:", "`p2` is a component: begin it in the column of the others"),
+        ("    angle: 90.0", "  angle: 90.0", "`angle` is a tunable, of p1 for example: indent it"),
+        ("    angle: 90.0", "      angle: 90.0", "`angle` is a tunable of p1: bring it back"),
+        (
+            "    slot: storage/a2\n    angle: 1",
+            "    angle: 1\n  slot: storage/a2",
+            "`slot` says where a component is: indent",
+        ),
+        ("    angle: 90.0", "\tangle: 90.0", "indent with spaces"),
+        ("x: 290", "x: 290,5", "decimals are written with a point, `290.5`"),
+    ],
+)
+def test_of_what_is_indented_wrongly_it_is_said_where_it_belongs(old: str, new: str, hint: str) -> None:
+    assert STATE.count(old) >= 1
+    found = load_files(GOOD | {"state/table.yaml": STATE.replace(old, new, 1).encode()}).diagnostics
+    assert any(hint in f"{one.summary} {one.hint}" for one in found), found
 
 
 def test_more_than_200_components_in_a_file_are_warned_about() -> None:

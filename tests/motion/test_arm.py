@@ -6,10 +6,13 @@ import mujoco
 import numpy as np
 import pytest
 from oracles.inverse import ik
+from outline import OUTLINE
 from test_kinematics import SAMPLES
 
 from pico.model.lab import Fingers, Gripper, Mount, Robot
 from pico.motion.arm import FINGERS, attach_arm, build_arm
+from pico.motion.hulls import of_shapes
+from pico.motion.shapes import LINKS
 from pico.motion.xarm7 import LIMITS
 
 ROBOT = Robot(mount=Mount(x=480, y=760, z=12, yaw=-90))
@@ -80,7 +83,7 @@ def test_reaching_into_its_own_shoulder_it_notices(model):
     joints = ik(Robot(mount=Mount(x=0, y=0)), 90, 0, 100, 90)[0]
     data = posed(model, joints)
     met = {model.body(model.geom_bodyid[g]).name for contact in data.contact for g in contact.geom}
-    assert {"link1", "gripper"} <= met
+    assert {"link1", "link7"} <= met
 
 
 def test_the_jaws_press_with_28_newton_a_pad():
@@ -117,3 +120,22 @@ def test_fingers_have_the_size_that_the_lab_declares():
     model = build_arm(robot).compile()
     assert model.geom("left_pad").size[:2] == pytest.approx((0.015, 0.004))
     assert model.joint("left_slide").range[1] == pytest.approx(0.030)
+
+
+def test_the_shapes_that_collide_enclose_the_vendors_outline():
+    """Of every link; 0.2 mm is what the figures are rounded and measured to."""
+    for number, (points, shapes) in enumerate(zip(OUTLINE, LINKS, strict=True)):
+        hulls = of_shapes(f"link{number}", shapes, 0.0)
+        for point in points:
+            out = min(outside(hull, np.array(point) / 1000) for hull in hulls) * 1000
+            assert out < 0.2, (number, point, out)
+
+
+def outside(hull, point):
+    """How far a point is out of a hull [m], negative inside."""
+    x, y, z = hull.turn.T @ (point - hull.center)
+    r, _, h = hull.half
+    if hull.kind == "capsule":
+        return math.hypot(x, y, max(abs(z) - h, 0.0)) - r
+    over = (math.hypot(x, y) - r, abs(z) - h) if hull.kind == "cylinder" else np.abs((x, y, z)) - np.array(hull.half)
+    return max(over)

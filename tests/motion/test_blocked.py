@@ -41,7 +41,7 @@ def test_the_carried_part_keeps_out_of_a_zone_that_the_empty_hand_passes_over():
 
 def test_a_zone_across_the_whole_way_is_named_with_its_depth():
     there = ik(ARM, START.x, START.y, 250, START.yaw)[0]
-    lamp = KeepOut(area=Box2(x=(470, 480), y=(0, 575)), z=(145, 1000))
+    lamp = KeepOut(area=Box2(x=(470, 480), y=(0, 510)), z=(145, 1000))
     wall = KeepOut(area=Box2(x=(200, 760), y=(930, 1100)))  # else the arm turns the other way around
     motion = ArmMotion(bench(keep_out={"lamp": lamp, "wall": wall}))
     blocked = refused(motion.move("arm1", "a", START, GOAL, 0, ALONE, there))
@@ -96,8 +96,16 @@ def test_the_other_arm_stands_where_it_is_said_to_stand():
     ("pose", "kind", "help"),
     [
         (Pose(500, 885), "table_edge", "place it 15 mm farther in"),
-        (Pose(1000, 220), "reach", "place it nearer to arm1's base, or use another arm"),
-        (Pose(480, 720), "reach", "place it farther from arm1's base, or use another arm"),
+        (
+            Pose(1000, 220),
+            "reach",
+            "place it 77 mm nearer to arm1's base, which stands at (480, 760), or use another arm",
+        ),
+        (
+            Pose(480, 720),
+            "reach",
+            "place it 46 mm farther from arm1's base, which stands at (480, 760), or use another arm",
+        ),
     ],
 )
 def test_a_place_that_is_none_says_where_there_would_be_one(pose, kind, help):

@@ -33,7 +33,7 @@ from pico.motion.stability import EDGE, check_stability
 from pico.motion.sweep import Leg, march
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 from pico.motion.xarm7 import LIMITS
-from pico.motion.zones import ARM_RADIUS, HAND, _clipped, _shadow, shared_zones
+from pico.motion.zones import HAND, WIDTHS, _clipped, _shadow, shared_zones
 
 GANTRY = Robot(model="gantry", mount=Mount(x=0, y=0), speed=1.0)
 ASKEW = Column(0.3, 0.2, 2000.0, 0, 172.0)
@@ -243,7 +243,7 @@ def test_a_hit_on_itself_names_both_parts_and_how_deep() -> None:
     folded = (-0.096, -1.644, -3.936, 0.036, 1.225, 2.604, -3.562)
     assert hit_of(scene, folded) == ("base", "arm1 gripper", "self")
     scene.hold(PART)
-    over = (1.455, 1.278, -4.946, 0.362, 6.099, 2.684, -3.986)
+    over = (1.298, 0.904, -4.925, 0.653, 5.922, 2.708, -4.259)
     assert hit_of(scene, over) == ("held", "arm1 link2", "self")
     scene.hold(None)
     assert hit_of(scene, over) != ("held", "arm1 link2", "self")
@@ -466,7 +466,7 @@ def test_the_shadow_of_an_arm_begins_at_its_base_and_ends_with_its_hand() -> Non
     shadow = list(_shadow(ARM, joints, HAND))
     assert (shadow[0].x, shadow[0].y) == pytest.approx((480, 760), abs=1e-9)
     assert (shadow[-1].x, shadow[-1].y, shadow[-1].radius) == pytest.approx((620, 420, HAND), abs=1e-6)
-    assert {round(d.radius, 6) for d in shadow[:-1]} == {ARM_RADIUS + 9}
+    assert {d.radius for d in shadow[:-1]} == set(WIDTHS)
     assert all(math.dist((a.x, a.y), (b.x, b.y)) <= 60 for a, b in pairwise(shadow))
     for k in (4, 6, 7):
         x, y, _ = joint_at(joints, k)

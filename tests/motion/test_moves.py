@@ -13,7 +13,7 @@ from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import fk, tool_pose
-from pico.motion.types import MovePath
+from pico.motion.types import Blocked, MovePath
 
 TRANSIT_DIP = 0.5
 """No swing comes lower than this below the transit height [mm]."""
@@ -158,18 +158,22 @@ def test_the_other_arm_in_the_way_is_named():
     assert (blocked.kind, blocked.obstacle) == ("collision", "arm2")
 
 
-def test_mirrored_tables_have_mirrored_answers():
-    rng = random.Random(7)
+@pytest.mark.parametrize("neighbor", [PART, WIDE])
+def test_mirrored_tables_have_mirrored_answers(neighbor):
+    """Where only the hand comes near to what stands there: links bulge to one side of the arm's plane."""
+    rng, seen = random.Random(7), set()
     for _ in range(10):
         start, goal = (Pose(480 + rng.uniform(-300, 300), rng.uniform(250, 480)) for _ in range(2))
-        post = Pose(480 + rng.uniform(-200, 200), rng.uniform(300, 480))
+        beside = Pose(480 + rng.uniform(-200, 200), rng.uniform(300, 480))
         answers = []
         for side in (1, -1):
-            a, b, p = (Pose(480 + side * (q.x - 480), q.y) for q in (start, goal, post))
-            answers.append(MOTION.move("arm1", "a", a, b, 0, stands(at={"a": (PART, a), "post": (TALL, p)})))
+            a, b, p = (Pose(480 + side * (q.x - 480), q.y) for q in (start, goal, beside))
+            answers.append(MOTION.move("arm1", "a", a, b, 0, stands(at={"a": (PART, a), "b": (neighbor, p)})))
         assert type(answers[0]) is type(answers[1])
+        seen.add(type(answers[0]))
         if isinstance(answers[0], MovePath):
             assert answers[0].seconds == pytest.approx(answers[1].seconds, rel=1e-6)
+    assert seen == {MovePath, Blocked}
 
 
 @pytest.mark.parametrize("count", [4, pytest.param(12, marks=pytest.mark.slow)])

@@ -29,7 +29,7 @@ def test_within_reach_there_is_nothing_to_say():
 @pytest.mark.parametrize(
     ("pose", "text"),
     [
-        (Pose(1000, 220), "a at (1000, 220, 0°) is 750 mm from arm1's base; it reaches 716 mm at 100 mm height"),
+        (Pose(1000, 220), "a at (1000, 220, 0°) is 750 mm from arm1's base; it reaches 673 mm at 250 mm height"),
         (Pose(500, 80), "a at (500, 80, 0°) is 681 mm from arm1's base; it reaches 673 mm at 250 mm height"),
         (Pose(480, 720), "a at (480, 720, 0°) is 40 mm from arm1's base; it comes no nearer than 86 mm at 100 mm height"),  # noqa: E501
     ],

@@ -50,8 +50,7 @@ def test_links_are_where_mujoco_has_them():
         for link, name in enumerate(["base", *(f"link{i}" for i in range(1, 8)), "gripper"]):
             body = data.body(f"arm1/{name}")
             assert spin[0] @ origins[0, link] + base == pytest.approx(body.xpos, abs=1e-9)
-            if link:  # the base does not turn with joint 1, and is round
-                assert spin[0] @ turns[0, link] == pytest.approx(body.xmat.reshape(3, 3), abs=1e-9)
+            assert spin[0] @ turns[0, link] == pytest.approx(body.xmat.reshape(3, 3), abs=1e-9)
 
 
 @pytest.mark.parametrize("carrying", [False, True])

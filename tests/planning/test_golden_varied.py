@@ -125,7 +125,7 @@ def arms() -> Iterator[tuple[str, Plan]]:
     swap: tuple[Places, Places] = {"a": (380, 400), "b": (600, 400)}, {"a": (600, 400), "b": (380, 400)}
     apart: tuple[Places, Places] = {"a": (290, 480), "b": (680, 320)}, {"a": (320, 540, 90), "b": (640, 260)}
     far: tuple[Places, Places] = {"a": (380, 400), "b": (600, 400)}, {"a": (60, 60), "b": (600, 400)}
-    zone = KeepOut(area=Box2(x=(470, 490), y=(0, 480)), z=(150, 500), reason="shelf")
+    zone = KeepOut(area=Box2(x=(470, 490), y=(0, 480)), z=(150, 300), reason="shelf")
     for title, more in (
         ("one arm", {"robots": {"arm1": arm}}),
         ("a shelf between", {"robots": {"arm1": arm}, "keep_out": {"shelf": zone}}),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,7 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.model.event import Event
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement
-from pico.model.observation import Observation, Uncertainty
+from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.motion.deferred import DeferredMotion
@@ -85,7 +86,21 @@ class SimDevice:
             from pico.backends.sight import require_trusted
 
             return require_trusted(self._by_sight().observation)
-        return observe(self._world(), "sim", self._clock())
+        return self._felt(observe(self._world(), "sim", self._clock()))
+
+    def _felt(self, seen: Observation) -> Observation:
+        """Return what was seen, with what hands hold as a run by sight feels it: one that was killed while the fingers
+        closed has hold of a part that still stands."""
+        if not self.setup.lab.sim.runs_by_sight(self.fidelity):
+            return seen
+        from pico.backends.last_seen import recall_hands
+        from pico.backends.sim.senses import sensed
+
+        felt = sensed(self.setup, self._world(), recall_hands(self.root), seen.backend, seen.observed_at)
+        full = {name for name, robot in felt.robots.items() if robot.holding and not seen.robots[name].holding}
+        held = {n: felt.components[n] for n in (felt.robots[name].holding for name in full) if n}
+        robots = {name: felt.robots[name] if name in full else robot for name, robot in seen.robots.items()}
+        return replace(seen, robots=robots, components={**seen.components, **held})
 
     async def look(self) -> Look:
         """Return what the cameras see of the table, whatever the lab says; raises PicoError where there are none."""
@@ -150,17 +165,18 @@ class SimDevice:
         return result
 
     def _note_placed(self, operation: Operation, result: OperationResult) -> None:
-        """Remember where an arm put a part down, for it may hide it from the cameras."""
-        from pico.backends.last_seen import LastSeen
+        """Remember where an arm put a part down, for it may hide it from the cameras; also after a kill."""
+        from pico.backends.last_seen import LastSeen, recall, remember, repeated
 
         after, name, time = result.after, operation.component, result.ended
         if after and after.pose and after.how in ("stereo", "known height", "in hand"):
             self._placed[name] = LastSeen(pose=after.pose, uncertainty=after.uncertainty, time=time)
-            return
-        repeatability = self.setup.type_of(name).repeatability
-        sigma = Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
-        pose = Pose(**operation.arguments["to"]["pose"])
-        self._placed[name] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
+        else:
+            pose = Pose(**operation.arguments["to"]["pose"])
+            sigma = repeated(self.setup, name)
+            self._placed[name] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
+        if self.setup.lab.sim.runs_by_sight(self.fidelity):
+            remember(self.root, {**recall(self.root), **self._placed})
 
     async def halt(self) -> None:
         """Wait until what is under way has reached a safe end."""

@@ -7,12 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from pico.backends.last_seen import Taken, recall_hands, remember_hands
+from pico.backends.last_seen import Taken, recall_hands, remember_hands, repeated
 from pico.backends.sim.mover import MoveFailed, WorldMover
 from pico.backends.sim.senses import sensed
 from pico.backends.sim.world import World, observe
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, Uncertainty
+from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
 from pico.motion.kinematics import tool_of
 from pico.motion.types import MovePath
@@ -122,9 +122,7 @@ class BySight:
             return seen.components[component]
         found = self._again(component, near) or self._let_go(component)
         if found is None and self._hidden(component, near):
-            repeatability = self._setup.type_of(component).repeatability
-            sigma = Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
-            found = ObservedComponent(pose=near, uncertainty=sigma, how="placed")
+            found = ObservedComponent(pose=near, uncertainty=repeated(self._setup, component), how="placed")
         if found is None:
             self._look_at_all()
         else:

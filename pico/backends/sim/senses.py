@@ -9,7 +9,12 @@ from pico.backends.last_seen import Taken
 from pico.backends.sim.world import World
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot
-from pico.motion.kinematics import tool_of
+from pico.model.pose import Pose
+from pico.motion.kinematics import tool_of, tool_pose
+from pico.motion.reach import grasp_height
+
+_LOW = 30.0
+"""A hand so near to the height of its grasp goes straight up or down [mm]."""
 
 
 def sensed(setup: Setup, world: World, taken: Mapping[str, Taken], backend: str, observed_at: str) -> Observation:
@@ -32,6 +37,20 @@ def sensed(setup: Setup, world: World, taken: Mapping[str, Taken], backend: str,
         robots=robots,
         person=world.person,
     )
+
+
+def let_go(setup: Setup, seen: Observation, taken: Mapping[str, Taken]) -> dict[str, Pose]:
+    """Return where hands that are open and low have what they took last: between their fingers, where they let go of
+    it, or had not closed on it yet."""
+    found = {}
+    for name, robot in seen.robots.items():
+        arm, took = setup.lab.robots[name], taken.get(name)
+        if took is None or robot.holding or not robot.joints or arm.model != "xarm7":
+            continue
+        geometry = setup.type_of(took.component).geometry if took.component in setup.lab.inventory else None
+        if geometry and geometry.grasp and tool_pose(arm, robot.joints)[2] < grasp_height(arm, geometry) + _LOW:
+            found[took.component] = tool_of(arm, robot.joints).compose(took.pose)
+    return found
 
 
 def _felt(setup: Setup, world: World, name: str, taken: Taken | None) -> ObservedRobot:

@@ -7,11 +7,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.backends.last_seen import LastSeen, recall_hands
+from pico.backends.last_seen import LastSeen, recall_hands, repeated
 from pico.backends.sight import Look, look, no_cameras
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.cameras import eyes_of
-from pico.backends.sim.senses import sensed
+from pico.backends.sim.senses import let_go, sensed
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
@@ -36,11 +36,16 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
         raise no_cameras(setup)
     eyes = Posed(setup, world, known_arms(root)).eyes(world)
     pictures = [exposed(partial(eyes.frame, name)) for name in names]
+    taken = recall_hands(root)
     if setup.lab.sim.observe == "sight":
-        told = sensed(setup, world, recall_hands(root), backend, observed_at)
+        told = sensed(setup, world, taken, backend, observed_at)
     else:
         told = observe(world, backend, observed_at)
-    return look(setup, pictures, read_calibration(root), told, last)
+    placed = {
+        name: LastSeen(pose=pose, uncertainty=repeated(setup, name), time=world.clock, placed=True)
+        for name, pose in let_go(setup, told, taken).items()
+    }
+    return look(setup, pictures, read_calibration(root), told, {**last, **placed})
 
 
 def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:

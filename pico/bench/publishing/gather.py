@@ -29,7 +29,9 @@ def gather(folder: LabFolder, store: Store, revision: str, runs: Sequence[str], 
     """
     commit = replace(folder.history().resolve(revision), refs=())  # names come and go, a commit gives the same bytes
     setup, state = folder.historic(commit.id)
-    chosen = chosen_runs(folder, commit.id, state.digest(), runs)
+    chosen = led = chosen_runs(folder, commit.id, state.digest(), ())
+    if runs:
+        chosen = chosen_runs(folder, commit.id, state.digest(), runs)
     files_of_runs, with_it = files_of(folder, store, chosen), tuple(run for run, _ in chosen)
     before = _state_before(folder, setup, commit.parents)
     changes = folder.entry(commit).changes
@@ -46,7 +48,7 @@ def gather(folder: LabFolder, store: Store, revision: str, runs: Sequence[str], 
         commit=commit,
         setup=setup,
         state=state.digest(),
-        evidence=_evidence(with_it, state.digest()),
+        evidence=_evidence((run for run, _ in led), state.digest()),
         changes=changes,
         runs=with_it,
         files=tuple(sorted(files, key=lambda f: f.path)),

@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 
 from pico.bench.publishing.parts import File, file
 from pico.content.store import Store, missing
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import (
     RunPlace,
@@ -18,6 +18,7 @@ from pico.history.runs.committed import (
     read_carried,
     runs_added,
 )
+from pico.history.runs.loading import load_run
 from pico.model.run import Artifact, Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import intact
@@ -35,13 +36,26 @@ def chosen_runs(folder: LabFolder, commit: str, digest: str, names: Sequence[str
         added = {run.id for run in runs_added(repository, commit, folder.root)}
         return [(r, places[r.id]) for r in there.values() if r.id in added or r.state_after == digest]
     folded = places_folded(repository, places.values())
-    names = [folded[name].id if name in folded else name for name in names]
-    unknown = [name for name in names if name not in there]
-    if unknown:
-        hint = did_you_mean(unknown[0], there) or "`pico runs list` shows the runs"
-        text = f"the commit {commit[:7]} holds no run {', '.join(unknown)}"
-        raise PicoError((error("unknown-run", text, hint=hint), *damaged))
-    return [(run, places[name]) for name, run in there.items() if name in names]
+    named = {folded[name].id if name in folded else name if name in there else _called(folder, name) for name in names}
+    wrong = [_elsewhere(folder, commit, name) for name in sorted(named - there.keys())]
+    if wrong:
+        raise PicoError((*wrong, *damaged))
+    return [(run, places[name]) for name, run in there.items() if name in named]
+
+
+def _called(folder: LabFolder, word: str) -> str:
+    """Return the id of the run that a word begins or ends; raises PicoError where there is none."""
+    return load_run(folder, word)[0].document.id
+
+
+def _elsewhere(folder: LabFolder, commit: str, name: str) -> Diagnostic:
+    """Return that a commit does not hold a run, and which does."""
+    carries = load_run(folder, name)[1]
+    if carries is None:
+        hint = "`pico commit` takes it; then this goes"
+        return error("unknown-run", f"no commit has the run {name} yet", hint=hint)
+    text = f"{carries.short} carries the run {name}, the commit {commit[:7]} does not hold it"
+    return error("unknown-run", text, hint=f"`pico runs export {carries.short} --run {name}`")
 
 
 def files_of(folder: LabFolder, store: Store, chosen: Iterable[tuple[Run, RunPlace]]) -> list[File]:

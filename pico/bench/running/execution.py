@@ -41,17 +41,18 @@ class Execution:
         resumes: str | None = None,
         stop_on_error: bool = False,
         wait: float = 0.0,
+        speed: float | None = None,
     ) -> None:
         """`thread`: where the edge lives. `named`: what the goal is called once the run is over. `recording`: gets what
-        a film of it shows. `resumes`: the run that goes on under its id. `stop_on_error`, `wait`: see
-        `pico.edge.protocol.Job`.
+        a film of it shows. `resumes`: the run that goes on under its id. `stop_on_error`, `wait`,
+        `speed`: see `pico.edge.protocol.Job`.
         """
         self.plan, self.id = plan, resumes or new_run_id()
         self._edge, self._thread, self._recording = edge, thread, recording
         self._named = named or (lambda: plan.target.name)
         self._job = Job(
             plan=plan, holder=holder, resumes=resumes is not None, stop_on_error=stop_on_error,
-            filmed=recording is not None, wait=wait,
+            filmed=recording is not None, wait=wait, speed=speed,
         )  # fmt: skip
         self._queue: queue.SimpleQueue[Event | RunReport | BaseException] = queue.SimpleQueue()
         self._report: RunReport | None = None

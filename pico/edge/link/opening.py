@@ -11,6 +11,7 @@ from pico.attachment import bench_folder
 from pico.model.lab import Setup
 
 if TYPE_CHECKING:
+    from pico.backends.device import Capabilities
     from pico.edge.protocol import Edge, OwnLab
     from pico.runs.memory import Memory
 
@@ -50,6 +51,17 @@ def own_lab(root: Path) -> OwnLab | None:
 
     found: OwnLab | None = Line(socket).call("lab")
     return found
+
+
+def served_fidelity(root: Path) -> str | None:
+    """Return the fidelity in which the bench of the lab in `root` is served; None where it is not."""
+    socket = _served(root)
+    if socket is None:
+        return None
+    from pico.edge.link.client import Line
+
+    able: Capabilities = Line(socket).call("describe")
+    return able.fidelity
 
 
 @contextmanager

@@ -38,6 +38,7 @@ class Server:
 
     def __init__(self, edge: LocalEdge) -> None:
         self._edge = edge
+        edge.served()
         self._path = place.make(edge.root)
         self._arrays: Arrays = {}
         self._server: asyncio.Server | None = None
@@ -183,6 +184,11 @@ def edge_of(root: Path, backend: str, fidelity: str) -> LocalEdge:
     return embedded(own_lab.setup_of(lab), root, backend, fidelity, lab)
 
 
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
+
+
 def main() -> int:
     """Serve the bench of a lab."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -193,7 +199,10 @@ def main() -> int:
     try:
         edge = edge_of(given.lab, given.backend, given.fidelity)
         with suppress(KeyboardInterrupt):
-            asyncio.run(serve(edge))
+            asyncio.run(
+                serve(edge, lambda: _say(f"{given.lab.resolve().name} is served ({given.fidelity}); Ctrl-C ends that"))
+            )
+            _say(f"{given.lab.resolve().name} is served no more")
     except PicoError as exc:
         sys.stderr.write(f"{exc}\n")
         return int(exc.exit_code)

@@ -19,7 +19,7 @@ slots:                      # storage: fingers need 90 mm from one to the next f
   storage/a3: {x: 560, y: 260}
 robots:
   arm1:
-    model: xarm7            # reaches 0.12 to 0.67 m from its base
+    model: xarm7            # reaches 0.10 to 0.67 m from its base
     mount: {x: 480, y: 760, yaw: -90}   # yaw: where it faces; -90 is the front edge
 inventory:                  # every part that this bench owns; `pico catalog list` names the types
   laser:

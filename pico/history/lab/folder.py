@@ -375,9 +375,10 @@ def _kept(root: Path) -> OwnLab | None:
 
 def _proposal(own: Setup, described: Setup, read: Manifests) -> Diagnostic:
     """Return that the working tree describes another bench than this one keeps as its own."""
-    text = f"this bench is not the one that the lab's files describe: {', '.join(edited_lab(own, described))}"
+    edited = edited_lab(own, described)
+    text = f"this bench is not the one that the lab's files describe: {', '.join(edited)}"
     hint = "it counts as it is; `pico bench update` shows the difference, and lets the bench adopt it"
-    source = read.source("name") or read.source("inventory")
+    source = read.source(edited[0].split()[0]) if edited else None
     return warning(BENCH_LAB, text, hint=hint, source=source)
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from difflib import get_close_matches
 
-from pico.content.store import Store, store_in
+from pico.content.store import Store, store_in, store_of
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
@@ -28,6 +30,8 @@ from pico.runs.folding import unfolded
 from pico.runs.reading import read_events
 from pico.runs.states import state_seen
 
+A_SLIP = 0.95
+"""So much alike are ids that differ by a slip; those of one day are not far from it, whichever run they are of."""
 LARGEST = 256 << 20
 """Bytes above which no packed file of a run is unpacked."""
 
@@ -38,6 +42,13 @@ def load_run(folder: LabFolder, word: str | None = None) -> tuple[RecordedRun, C
 
     Raises PicoError for one that there is not, for a word that fits several, and for a document that is damaged.
     """
+    run, commit = _loaded(folder, word)
+    store, wanted = store_of(folder.root), {a.sha256 for a in run.document.artifacts}
+    stored = {one: os.path.relpath(store.path(one), folder.root) for one in wanted if store.has(one)}
+    return replace(run, stored=stored, missing=frozenset(wanted - stored.keys())), commit
+
+
+def _loaded(folder: LabFolder, word: str | None) -> tuple[RecordedRun, Commit | None]:
     wrong: list[Diagnostic] = []
     own = {run.document.id: run for run in unrecorded(folder, wrong)}
     places = places_in_history(folder.repository, folder.root) if folder.repository else {}
@@ -82,7 +93,7 @@ def _chosen(word: str, names: Sequence[str], folded: Sequence[str]) -> str:
     if found:
         some = ", ".join(f"`{name}`" for name in found[:4])
         raise PicoError(error("run", f"{len(found)} runs begin or end with `{word}`", hint=f"write more of it: {some}"))
-    inside = [name for name in names if word and word in name]
+    inside = [name for name in names if word and word in name] or get_close_matches(word, names, cutoff=A_SLIP)[:1]
     hint = f"did you mean `{inside[-1]}`?" if inside else "`pico runs list --all` shows them"
     raise PicoError(error("run", f"there is no run `{word[:60]}`", hint=hint))
 
@@ -105,7 +116,6 @@ def _carried(folder: LabFolder, place: RunPlace, wrong: list[Diagnostic]) -> tup
         after=_after(folder.setup, measurements),
         trace=trace,
         measurements=measurements,
-        missing=frozenset(a.sha256 for a in document.artifacts if not store.has(a.sha256)),
         diagnostics=tuple(wrong),
     )
     return run, repository.commits([place.commit])[place.commit]

@@ -20,6 +20,7 @@ from pico.history.runs.committed import CACHE, RunPlace, files_at, places_in_his
 from pico.model.proof import Standing, Verdict
 from pico.model.run import STRENGTH, Run
 from pico.runs.files import intact
+from pico.runs.reading import members
 
 
 @dataclass(frozen=True)
@@ -99,10 +100,11 @@ class Standings:
         for run in self.runs.get(state, ()):
             place = self._places.get(run.id)
             if place is None or intact(run, files_at(self.folder.history(), place), wrong):
+                led = _leading(run, state)
                 return Standing(
-                    verdict="verified", commit=commit.id, state=state, evidence=run.evidence, run=run.id,
-                    at=run.ended_at, carried=place.commit if place else None,
-                    why=f"the run {run.id} led to exactly this state", diagnostics=tuple(wrong),
+                    verdict="verified", commit=commit.id, state=state, evidence=led.evidence, run=led.id,
+                    at=led.ended_at, carried=place.commit if place else None,
+                    why=f"the run {led.id} {_led(led)} exactly this state", diagnostics=tuple(wrong),
                 )  # fmt: skip
         if wrong:
             why = f"the run {self.runs[state][0].id} led to it, but its files are damaged: they prove nothing"
@@ -111,6 +113,16 @@ class Standings:
         carries = len(commit.parents) > 1 and bool(self.runs)
         claim = CommitClaim(commit.id, state, commit.message, tuple(d.id for d in added), len(commit.parents), carries)
         return unproven(claim, tuple(wrong))
+
+
+def _leading(run: Run, state: str) -> Run:
+    """Return the one of the runs that are folded into one, or that itself, that led to a state."""
+    return next((one for one in members(run) if run.state_after != state == one.state_after), run)
+
+
+def _led(run: Run) -> str:
+    """Return that a run led to a state, or that it came to its end there before it had done all."""
+    return "led to" if run.outcome == "done" else f"({run.outcome}) left"
 
 
 def unproven(claim: CommitClaim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:

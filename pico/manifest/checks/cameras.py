@@ -147,6 +147,10 @@ def _errors(document: Document, lab: Lab) -> Iterator[Diagnostic]:
     wrong = [(("errors", key), getattr(errors, key), hint) for key, right, hint in rules if not right]
     arm = [(("errors", "arm", f.name), getattr(errors.arm, f.name)) for f in fields(errors.arm)] if errors.arm else []
     wrong += [(path, value, "zero or more") for path, value in arm if value < 0]
+    if light := errors.light:
+        wrong += [(("errors", "light", "dim"), light.dim, "a share, above 0 to 1")] if not 0 < light.dim <= 1 else []
+        rest = (("defocus", light.defocus), ("scatter", light.scatter), ("glare", light.glare))
+        wrong += [(("errors", "light", key), value, "zero or more") for key, value in rest if value < 0]
     for path, value, hint in wrong:
         source = where(document, "sim", *path)
         yield error("value", f"sim.{'.'.join(path)} is {value:g}", hint=f"expected {hint}", source=source)

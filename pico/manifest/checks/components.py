@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from pico.diagnostics import Diagnostic, did_you_mean, error
+from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
@@ -41,6 +41,11 @@ def _primitives(document: Document, kind: ComponentType) -> Iterator[Diagnostic]
             hint = did_you_mean(name[:40], known()) or f"known: {', '.join(known())}; plug-ins bring more"
             at = where(document, "primitives", number)
             yield error("unknown-primitive", f"there is no primitive `{name[:40]}`", hint=hint, source=at)
+    settable = [name for name, tunable in kind.tunables.items() if tunable.mover in ("motor", "electronics")]
+    if settable and "set" not in kind.primitives:
+        text = f"`{settable[0]}` of {kind.name} can be set, and its `primitives` do not say so: `pico set` refuses it"
+        hint = f"expected `primitives: [{', '.join([*kind.primitives, 'set'])}]`"
+        yield warning("unset", text, hint=hint, source=where_key(document, "primitives"))
 
 
 def _tunable(document: Document, name: str, tunable: Tunable) -> Iterator[Diagnostic]:

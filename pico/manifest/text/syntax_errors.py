@@ -18,8 +18,8 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ),
     (
         "could not find expected ':'",
-        "a key without `:`",
-        "write `name: value`, and check the indentation",
+        "a key without `: `",
+        "write `name: value`, a blank behind the colon, and check the indentation",
     ),
     (
         "did not find expected key",
@@ -45,6 +45,7 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("found unexpected document indicator", "a quoted text does not end", "close the quote"),
     ("found unknown escape character", "an unknown escape in a quoted text", "use single quotes, or double the `\\`"),
     ("block sequence entries are not allowed", "a list item stands where none can be", "begin it on a line of its own"),
+    ("found a tab character", "a tab in the indentation", "indent with spaces"),
     ("found undefined tag handle", "an unknown tag", "remove the tag; quote text that begins with `!`"),
     ("found incompatible YAML document", "another YAML version", "remove the `%YAML` line; manifests are YAML 1.2"),
     ("did not find expected node content", "a value is missing", "quote text that begins with `,`, `?` or `%`"),
@@ -61,7 +62,7 @@ def conflict(source: Source) -> Diagnostic | None:
     found = _CONFLICT.search(source.content)
     if found is None:
         return None
-    hint = "keep the values that you want, take the marker lines out, then `git add` the file and `pico commit`"
+    hint = "keep the values that you want without the markers, `git add` the file; `git status` says what ends it"
     return error("merge-conflict", "a merge left a conflict here", hint=hint, source=source.range(*found.span(1)))
 
 
@@ -73,7 +74,7 @@ def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:
     summary, hint = _meaning(source, index, problem)
     opened = getattr(exc, "context_mark", None)
     detail = ""
-    if opened is not None and index >= len(source.content.rstrip()):
+    if opened is not None and (index >= len(source.content.rstrip()) or "expected ':'" in problem):
         index = opened.index  # what never ends is shown where it begins, not at the end of the file
     elif opened is not None and mark is not None and opened.line != mark.line:
         detail = _askew(source, index) or f"it began in line {opened.line + 1}"
@@ -94,7 +95,10 @@ def _askew(source: Source, index: int) -> str:
                 beside = number, column
     if beside is None or column == at.column:
         return ""
-    return f"line {beside[0]} begins in column {beside[1]}, this one in column {at.column}: one of them is askew"
+    if column == 1:
+        return f"line {beside[0]} begins in column {beside[1]}, this one in column {at.column}: one of them is askew"
+    inner, outer = f"line {beside[0]} (column {beside[1]})", f"line {number} (column {column})"
+    return f"it begins in column {at.column}: bring it below {outer}, or below {inner}"
 
 
 def _meaning(source: Source, index: int, problem: str) -> tuple[str, str]:

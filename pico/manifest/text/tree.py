@@ -273,12 +273,16 @@ class _Builder:
         if key.text not in parent.entries:
             return False
         first = self.source.position(parent.entries[key.text][0].start)
+        empty = [k for k, value in parent.entries.values() if isinstance(value, Scalar) and value.start == value.end]
+        hint = "keep one of the two"
+        if empty and self.source.position(empty[-1].start).line > first.line:
+            hint += f"; or this is part of `{_shown(empty[-1].text)}:` above, which is indented too far"
         self.found.append(
             error(
                 "duplicate",
                 f"`{_shown(key.text)}` is given twice",
                 detail=f"first at {self.source.path}:{first.line}:{first.column}",
-                hint="keep one of the two",
+                hint=hint,
                 label=f"first given in line {first.line}",
                 source=self.source.range(key.start, key.end),
             )

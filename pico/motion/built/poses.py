@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Robot
+from pico.model.lab import Mount, Robot
 from pico.model.pose import Pose
 from pico.motion.xarm7 import ORIGINS, ROLLS
 from pico.vision.arm import NOMINAL, ArmOffsets
@@ -31,29 +32,46 @@ class Reached:
         """Return what a joint that turns does to the tool (n, 6, 7): shift [mm/rad], and turn."""
         import numpy as np
 
-        shifts = np.cross(self.axes, self.tools[:, None, :3, 3] - self.origins)
-        return np.concatenate((shifts, self.axes), axis=2).swapaxes(1, 2)
+        a, b, c = self.axes.transpose(2, 0, 1)
+        x, y, z = (self.tools[:, None, :3, 3] - self.origins).transpose(2, 0, 1)
+        return np.stack(
+            (b * z - c * y, c * x - a * z, a * y - b * x, a, b, c), axis=1
+        )  # np.cross takes ten times as long
 
 
 def reached(robot: Robot, joints: Array, offsets: ArmOffsets = NOMINAL) -> Reached:
     """Return where an arm with `offsets` is whose encoders read `joints` (n, 7) [rad]."""
     import numpy as np
 
-    mount = upright(Pose(robot.mount.x, robot.mount.y, robot.mount.yaw), robot.mount.z)
-    base = moved(mount, np.concatenate((offsets.shift, np.radians(offsets.turn))))
     turned = joints + np.radians(offsets.zeros)
-    cosines, sines = np.cos(turned), np.sin(turned)
-    pose, axes, origins = np.broadcast_to(base, (len(joints), 4, 4)), [], []
-    for i, (origin, roll) in enumerate(zip(ORIGINS, ROLLS, strict=True)):
-        link = motion(rotation(np.array((math.radians(roll), 0.0, 0.0))), np.array(origin))
-        turn = np.tile(np.eye(4), (len(joints), 1, 1))
-        turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1] = (
-            cosines[:, i], -sines[:, i], sines[:, i], cosines[:, i],
-        )  # fmt: skip
-        pose = pose @ link @ turn
-        axes.append(pose[:, :3, 2])
-        origins.append(pose[:, :3, 3])
+    turns = np.zeros((7, len(joints), 4, 4))
+    turns[:, :, 0, 0] = turns[:, :, 1, 1] = np.cos(turned).T
+    turns[:, :, 1, 0] = np.sin(turned).T
+    turns[:, :, 0, 1] = -turns[:, :, 1, 0]
+    turns[:, :, 2, 2] = turns[:, :, 3, 3] = 1.0
+    pose, tool = _ends(robot.mount, robot.gripper.tool, offsets)
+    poses = np.empty_like(turns)
+    for i, link in enumerate(_links()):
+        pose = poses[i] = pose @ link @ turns[i]
+    return Reached(pose @ tool, poses[:, :, :3, 2].swapaxes(0, 1), poses[:, :, :3, 3].swapaxes(0, 1))
+
+
+@lru_cache(maxsize=16)
+def _ends(mount: Mount, tool: float, offsets: ArmOffsets) -> tuple[Array, Array]:
+    """The pose (4, 4) of an arm's base, and that of its tool `tool` [mm] before its flange, in the frame of this."""
+    import numpy as np
+
+    nominal = upright(Pose(mount.x, mount.y, mount.yaw), mount.z)
     x, y, z = offsets.tool
     flange = motion(np.diag((-1.0, -1.0, 1.0)), np.zeros(3))  # the gripper is mounted half a turn about its axis
-    tools = pose @ (flange @ motion(np.eye(3), np.array((x, y, robot.gripper.tool + z))))
-    return Reached(tools, np.stack(axes, axis=1), np.stack(origins, axis=1))
+    base = moved(nominal, np.concatenate((offsets.shift, np.radians(offsets.turn))))
+    return base, flange @ motion(np.eye(3), np.array((x, y, tool + z)))
+
+
+@cache
+def _links() -> tuple[Array, ...]:
+    """The motions (4, 4) from one joint to the next."""
+    import numpy as np
+
+    rolled = (rotation(np.array((math.radians(roll), 0.0, 0.0))) for roll in ROLLS)
+    return tuple(motion(turn, np.array(origin)) for turn, origin in zip(rolled, ORIGINS, strict=True))

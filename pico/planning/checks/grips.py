@@ -1,8 +1,7 @@
-"""Types that no gripper of the lab can hold, and slots that no arm reaches: told of the files, before any plan. mm."""
+"""Types that no gripper of the lab can hold, and places that no arm reaches: told of the files, before any plan. mm."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from pico.diagnostics import Diagnostic, SourceRange, error, warning
@@ -11,9 +10,9 @@ from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.model.body import Body
 from pico.model.catalog import ComponentType, Geometry, Grasp
-from pico.model.lab import Gripper, Setup
+from pico.model.lab import Gripper
 from pico.model.pose import Pose
-from pico.motion.kinematics import span
+from pico.motion.reach import out_of_reach
 
 _TOUCHING = 0.5
 """How far a body may reach into the fingers' place: they press on it."""
@@ -79,20 +78,20 @@ def _place(read: Manifests, kind: ComponentType) -> SourceRange | None:
     return read.source(f"inventory.{next(n for n, p in sorted(setup.lab.inventory.items()) if p.type == kind.name)}")
 
 
-def check_slots(setup: Setup, read: Manifests) -> Iterator[Diagnostic]:
-    """Yield a warning for each slot that no arm reaches, at the height at which it carries."""
+def check_reach(read: Manifests) -> Iterator[Diagnostic]:
+    """Yield a warning for each slot, and each place at which an arm should put a part, that no arm reaches."""
+    setup, state = read.require()
     arms = [robot for _, robot in sorted(setup.lab.robots.items()) if robot.model == "xarm7"]
     if not arms or len(arms) < len(setup.lab.robots):
         return
-    reach = [(arm.mount, *span(arm, arm.transit_height)) for arm in arms]
     for name, slot in sorted(setup.lab.slots.items()):
-        away = [math.hypot(slot.x - mount.x, slot.y - mount.y) for mount, _, _ in reach]
-        if any(near <= d <= far for d, (_, near, far) in zip(away, reach, strict=True)):
+        if far := out_of_reach(arms, slot.x, slot.y):
+            hint = "nothing can be put there by an arm; `pico render --view top` draws the reach"
+            yield warning("slot-reach", f"no arm reaches {name}: {far}", hint=hint, source=read.source(f"slots.{name}"))
+    for name, part in sorted(state.components.items()):
+        if part.pose is None or name not in setup.lab.inventory or not setup.movable(name):
             continue
-        bounds = " or ".join(sorted({f"{near:.0f} to {far:.0f} mm" for _, near, far in reach}))
-        text = f"no arm reaches {name}: it is {min(away):.0f} mm from the nearest base, and they reach {bounds}"
-        yield warning(
-            "slot-reach", text,
-            hint="nothing can be put there by an arm; `pico render --view top` draws the reach",
-            source=read.source(f"slots.{name}"),
-        )  # fmt: skip
+        if far := out_of_reach(arms, part.pose.x, part.pose.y, setup.type_of(name).geometry):
+            hint = "an arm can't bring it there; `pico render --view top` draws the reach"
+            text = f"no arm reaches {name} at {part.pose}: {far}"
+            yield warning("reach", text, hint=hint, source=read.source(f"{name}.pose.x"), address=name)

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from pico.diagnostics import Diagnostic, SourceRange, error
 from pico.geometry import Grid, Shape, conflict, fits, moved, outline, overhang, placed, reaches, separation
 from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.motion.reach import out_of_reach
 from pico.planning.parts.movers import Mover, Obstacle, Place
+from pico.planning.parts.phrases import listed
 
 Source = Callable[[str], SourceRange | None]
 
@@ -35,16 +38,21 @@ def no_source(_: str) -> SourceRange | None:
     return None
 
 
-def located(source: Source, mover: Mover) -> SourceRange | None:
+def located(source: Source, mover: Mover, axis: str = "x") -> SourceRange | None:
     """Return where a manifest says where a mover belongs."""
-    return source(f"{mover.name}.slot" if mover.goal.slot else f"{mover.name}.pose.x")
+    return source(f"{mover.name}.slot" if mover.goal.slot else f"{mover.name}.pose.{axis}")
 
 
 def check_target(
-    setup: Setup, movers: Sequence[Mover], obstacles: Sequence[Obstacle], source: Source = no_source
+    setup: Setup,
+    movers: Sequence[Mover],
+    obstacles: Sequence[Obstacle],
+    source: Source = no_source,
+    *,
+    alone: bool = False,
 ) -> list[Diagnostic]:
     """Return an error for each mover that can't stand at its goal, whatever the order: beside what stays and the
-    goals of the others, on the table, outside of keep-outs, in its slot."""
+    goals of the others, on the table, outside of keep-outs, in its slot. `alone`: where nothing else is to move."""
     ends = {o.name: Standpoint(o.name, o.shape, False) for o in obstacles}
     ends |= {m.name: Standpoint(m.name, goal_shape(m, m.goal), True) for m in movers}
     grid = Grid.of({name: end.shape for name, end in ends.items()})
@@ -55,7 +63,7 @@ def check_target(
         for other in _overlaps(setup, mover, grid):
             if frozenset((mover.name, other)) not in told:
                 told.add(frozenset((mover.name, other)))
-                found.append(_overlap(setup, mover, ends[other], grid, source))
+                found.append(_overlap(setup, mover, ends[other], grid, source, alone))
     return found
 
 
@@ -76,7 +84,7 @@ def _overlaps(setup: Setup, mover: Mover, grid: Grid[str]) -> list[str]:
     return fewest or []
 
 
-def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], source: Source) -> Diagnostic:
+def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], source: Source, alone: bool) -> Diagnostic:
     margin = setup.lab.margins.body
     shape = goal_shape(mover, mover.goal)
     gap = separation(shape, other.shape)
@@ -90,7 +98,7 @@ def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], sou
         what = f"it would come within {gap:.3g} mm of {other.name}, and {margin:.3g} mm must stay free"
     return error(
         "impossible", f"{mover.name} cannot stand at {_spot(mover.goal)}: {what}", detail=f"{where}; {need}",
-        hint=_way_out(setup, mover, other, grid), address=f"{mover.name}.pose", label=f"{where}; {need}",
+        hint=_way_out(setup, mover, other, grid, alone), address=f"{mover.name}.pose", label=f"{where}; {need}",
         source=located(source, mover),
     )  # fmt: skip
 
@@ -114,19 +122,27 @@ def room_between(a: Shape, b: Shape, margin: float) -> tuple[float, str]:
     return round(high, 2), axis
 
 
-def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str]) -> str:
+def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], alone: bool) -> str:
     ways = []
     if mover.goal.slot:
-        ways.append("choose a free slot")
+        free_ones = _free_slots(setup, mover, grid)
+        ways.append(f"choose a free slot: {listed(free_ones, 'or')}" if free_ones else "no slot is free for it")
     elif free := nearest_free(setup, mover, grid):
         ways.append(f"nearest free place {_place_text(mover.goal.pose, free)}")
-    if other.moves:
-        ways.append(f"move {other.name} elsewhere")
-    elif other.name not in setup.lab.inventory:
+    if other.name not in setup.lab.inventory:
         ways.append(f"take {other.name} away by hand")
+    elif other.moves or (setup.movable(other.name) and not alone):
+        ways.append(f"give {other.name} another place")
     elif setup.movable(other.name):
         ways.append(f"move {other.name} first")
     return "; or ".join(ways)
+
+
+def _free_slots(setup: Setup, mover: Mover, grid: Grid[str]) -> list[str]:
+    """Return the nearest slots in which a mover would touch nothing, three at most."""
+    slots, footprint, goal = setup.lab.slots, mover.geometry.footprint, mover.goal.pose
+    near = sorted(slots, key=lambda name: (slots[name].pose.distance(goal), name))
+    return list(islice((n for n in near if _free(setup, mover, placed(footprint, slots[n].pose), grid)), 3))
 
 
 def _place_text(pose: Pose, free: tuple[float, float]) -> str:
@@ -154,7 +170,15 @@ def _free(setup: Setup, mover: Mover, shape: Shape, grid: Grid[str]) -> bool:
     if overhang(setup.lab.table, shape) > 0 or _forbidden(setup, mover, shape):
         return False
     margin = setup.lab.margins.body
-    return all(n == mover.name for n in grid.conflicts(shape, margin))
+    return all(n == mover.name for n in grid.conflicts(shape, margin)) and _reached(setup, mover, shape)
+
+
+def _reached(setup: Setup, mover: Mover, shape: Shape) -> bool:
+    """Whether a hand that may move it gets there."""
+    robots = [setup.lab.robots[hold.robot] for hold in mover.holds if hold.robot]
+    if len(robots) < len(mover.holds) or any(robot.model != "xarm7" for robot in robots):
+        return True
+    return not out_of_reach(robots, shape.x, shape.y, mover.geometry)
 
 
 def _forbidden(setup: Setup, mover: Mover, shape: Shape) -> list[str]:
@@ -173,9 +197,12 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
     out = 0.0 if setup.lab.beside_table(mover.goal.slot) else overhang(setup.lab.table, shape)
     if out > 0:
         width, depth = setup.lab.table.size
+        inside = moved(shape, min(max(shape.x, shape.radius), width - shape.radius) - shape.x, 0.0)
+        axis = "y" if overhang(setup.lab.table, inside) > 0 else "x"
         found.append(error(
             "impossible", f"{name} cannot stand at {spot}: it would stick out {_mm(out)} mm over the table's edge",
-            hint=f"the table ends at x = {width:g} and y = {depth:g}", address=address, source=blame,
+            hint=f"the table ends at x = {width:g} and y = {depth:g}", address=address,
+            source=located(source, mover, axis),
         ))  # fmt: skip
     for zone in _forbidden(setup, mover, shape):
         why = setup.lab.keep_out[zone].reason

@@ -67,14 +67,17 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     mover = table.movers[i]
     place = mover.places[places[0]]
     where = f"{mover.name} can't be {verb} at {place}"
-    address, blame = f"{mover.name}.pose", located(source, mover)
+    stands = verb == "picked up"
+    slot = source(f"slots.{place.slot}") if stands and place.slot else None
+    address, blame = f"{mover.name}.pose", slot or located(source, mover)
     hits = [(h, hit) for p in places for h in mover.holds for hit in finger_hits(table, i, p, h)]
     reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
     free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
     if reach and (free or not hits):
         return error(
             "unreachable", f"{where}: {reach[0].text}",
-            hint=reach[0].help or "bring it nearer to the arm, or turn it", address=address, source=blame,
+            hint=("by hand: " if stands else "") + (reach[0].help or "bring it nearer to the arm, or turn it"),
+            address=address, source=blame,
         )  # fmt: skip
     if not hits:
         return error("blocked", f"{where}: a keep-out leaves no room for the fingers", address=address, source=blame)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from pico.geometry import disc, polygon, separation
-from pico.motion.zones import ARM_RADIUS, HAND, Zone, shared_zones
+from pico.motion.zones import HAND, WIDTHS, Zone, shared_zones
 from pico.planning.ordering.arm_times import ArmWork, soonest, timed
 from pico.planning.ordering.clock import Clock
 from pico.planning.ordering.conflicts import Conflicts
@@ -79,5 +79,5 @@ def _near(table: Conflicts, zone: Zone, step: OrderedMove, at: int) -> bool:
     mount, area = table.setup.lab.robots[robot].mount, polygon(zone.corners)
     hand = disc(pose.x, pose.y, max(HAND, table.movers[step.mover].geometry.footprint.radius))
     along = [n / 8 for n in range(8)]
-    links = (disc(mount.x + t * (pose.x - mount.x), mount.y + t * (pose.y - mount.y), ARM_RADIUS) for t in along)
+    links = (disc(mount.x + t * (pose.x - mount.x), mount.y + t * (pose.y - mount.y), WIDTHS[1]) for t in along)
     return any(separation(shape, area) <= 0.0 for shape in (hand, *links))

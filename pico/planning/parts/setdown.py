@@ -10,7 +10,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry import Grid, fits, placed
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedRobot
+from pico.model.observation import Observation, ObservedRobot, astray
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
 from pico.motion.types import Blocked, Motion, MovePath, StandingObject
@@ -155,28 +155,6 @@ def parked_first(setup: Setup, seen: Observation, rest: Sequence[Operation], mot
     count, last = len(parks), str(len(parks) - 1)
     waits = [replace(o, after=tuple(str(int(e) + count) for e in o.after)) for o in rest]
     return [*parks, *(replace(o, after=(last, *o.after)) if o.robot else o for o in waits)]
-
-
-def left_standing(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Diagnostic]:
-    """Yield a warning for each arm with an empty hand that stands away from its park pose and that no operation uses:
-    one that was stopped on its way, where nothing is left to move."""
-    used = {o.robot for o in operations}
-    for name in astray(setup, seen):
-        if name not in used:
-            hint = "mind the beam and your hands; `pico recover` parks it, and so does `pico apply`, where it has a way"
-            yield warning(
-                "not-parked", f"{name} stands where it was stopped, not at its park pose", hint=hint, address=name
-            )
-
-
-def astray(setup: Setup, seen: Observation) -> Iterator[str]:
-    """Yield the arms with an empty hand that stand away from their park pose."""
-    for name, state in sorted(seen.robots.items()):
-        arm = setup.lab.robots.get(name)
-        if arm is None or arm.model != "xarm7" or not state.joints or state.holding:
-            continue
-        if not arm.is_parked(state.joints):
-            yield name
 
 
 def _park_path(setup: Setup, seen: Observation, robot: str, motion: Motion | None) -> MovePath | Blocked | None:

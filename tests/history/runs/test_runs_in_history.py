@@ -145,6 +145,14 @@ def test_what_was_folded_is_blamed_and_undone_as_what_it_was(lab: Path) -> None:
         assert [run.id for run, _ in bench.history.runs(components=["p2"])][:1] == [f"{runs[0]}-fold"]
 
 
+def test_a_commit_is_verified_by_the_one_of_folded_runs_that_led_to_its_state(lab: Path) -> None:
+    write(lab, "p2", 7)
+    git(lab, "commit", "-qam", "by hand")
+    runs = [turn(lab, *one) for one in (("p2", 8), ("p2", 7), ("p1", 9))]
+    commit(lab, "elsewhere", "capture")
+    assert (standing(lab, "HEAD~1").run, standing(lab).run) == (runs[1], f"{runs[0]}-fold")
+
+
 def test_trials_stay_with_the_bench_and_are_in_no_commit(lab: Path) -> None:
     first = turn(lab, "p1", 5)
     with Bench.open(lab) as bench:
@@ -476,6 +484,7 @@ def test_a_run_that_was_killed_is_carried_as_what_it_was(lab: Path) -> None:
     assert found.observed is not None
     assert not found.observed.looked
     assert (found.evidence, found.cause.kind, found.operator) == ("kinematic", "", "")
+    assert standing(lab, made).why == "the run r1 (killed) left exactly this state"
 
 
 def test_a_run_that_goes_on_is_not_carried_yet(lab: Path) -> None:

@@ -24,7 +24,7 @@ def test_an_overlap_names_both_the_depth_and_the_nearest_free_place() -> None:
     assert found.code == "impossible" and made.errored and made.operations == ()
     assert found.summary == "lx cannot stand at (505, 420, 0°): it would overlap p2 by 45 mm"
     assert found.label == "p2 stands at (520, 420); the bases need 62 mm between centers along x"
-    assert found.hint == "nearest free place along x is x = 458; or move p2 first"
+    assert found.hint == "nearest free place along x is x = 458; or give p2 another place"
     assert found.source is line and set(asked) == {"lx.pose.x"}
 
 

@@ -9,7 +9,7 @@ import pytest
 from planning_benches import bench, planned, see, want
 
 from pico.model.lab import Robot
-from pico.model.observation import ObservedRobot
+from pico.model.observation import ObservedRobot, left_standing
 
 SETUP = bench({"a": "block"})
 NAME = next(iter(SETUP.lab.robots))
@@ -30,3 +30,4 @@ def test_an_arm_that_was_stopped_on_its_way_is_parked_by_the_next_plan(off: floa
     assert not made.errored
     assert [o for o in made.operations if o.primitive == "park"] == list(made.operations[-1:])[:parks]
     assert not [d for d in made.diagnostics if d.code == "not-parked"]
+    assert [d.code for d in left_standing(SETUP, seen)] == ["not-parked"] * parks
