@@ -9,7 +9,7 @@ trials with the most information per second that one is best after which always 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 PROMISING = 12
@@ -66,14 +66,22 @@ class NextCommit:
 def choices(
     suspects: Suspects, first: Callable[[int], float], between: Callable[[int, int], float], measure: float
 ) -> list[NextCommit]:
-    """Return the commits worth trying next, the best first.
+    """Return the commits worth trying next, the best first; none whose result is certain, as it tells nothing.
 
     `first(c)`: how long the bench needs from where it stands to commit c; `between(a, b)`: from a to b; `measure`: how
     long a measurement takes [s].
     """
+    suspects = replace(suspects, testable=_telling(suspects))
     ways = _exact if suspects.linear and len(suspects.parents) <= MOST else _promising
     found = ways(suspects, first, between, measure)
     return sorted(found, key=lambda c: (c.score(), c.index))
+
+
+def _telling(suspects: Suspects) -> frozenset[int]:
+    """Return the trials that may turn out either way; all of them where nothing tells one commit from another."""
+    might = sum(1 << n for n, weight in enumerate(suspects.weight) if weight > 0)
+    before = suspects.ancestors()
+    return frozenset(n for n in suspects.testable if not might or 0 < before[n] & might < might)
 
 
 def halfway(suspects: Suspects) -> int | None:
