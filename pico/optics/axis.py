@@ -9,7 +9,7 @@ whoever asks knows what is shut.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -91,16 +91,19 @@ class Axis:
 
 
 @dataclass(frozen=True, slots=True)
-class _Ray:
+class Ray:
+    """A ray from a point [mm] in a direction of length 1, `begun` [mm] from its source, that leaves a component;
+    `before`: the number of the leg that it goes on from."""
+
     at: Vector
-    towards: Vector  # of length 1
+    towards: Vector
     begun: float
     leaves: str
-    before: int | None
+    before: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class _Optic:
+class Optic:
     """A component as a ray finds it: its outline on the table and its height; center, normal and radius of its
     aperture, None where nothing passes."""
 
@@ -120,12 +123,12 @@ def axis_of(setup: Setup, poses: Mapping[str, Pose], source: str, values: Values
     and the `opening` of an iris, wide open where unknown.
     """
     known = values or {}
-    optics = [_optic(setup.type_of(n), n, pose, known.get(n, {})) for n, pose in poses.items()]
+    optics = [optic_of(setup.type_of(n), n, pose, known.get(n, {})) for n, pose in poses.items()]
     frame = setup.type_of(source).frames.optical
     own = poses[source]
     x, y = own.apply(*frame[:2])
     turned = math.radians(own.yaw)
-    rays = [_Ray((x, y, frame[2]), (math.cos(turned), math.sin(turned), 0.0), 0.0, source, None)]
+    rays = [Ray((x, y, frame[2]), (math.cos(turned), math.sin(turned), 0.0), 0.0, source, None)]
     legs: list[Leg] = []
     for ray in rays:
         if len(legs) == LEGS:
@@ -143,11 +146,12 @@ def beams(setup: Setup, poses: Mapping[str, Pose], values: Values | None = None)
             yield axis_of(setup, poses, name, values)
 
 
-def _optic(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]) -> _Optic:
+def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]) -> Optic:
     geometry, element = kind.geometry, kind.optics.element
     aperture = _aperture(kind) if element not in ("block", "source") else None
     center = aperture.center if aperture else (0.0, 0.0, 0.0)
-    x, y = pose.apply(*center[:2])
+    ahead, left, up = (_shift(kind, values, key) for key in ("stage_x", "stage_y", "stage_z"))
+    x, y = pose.apply(center[0] + ahead, center[1] + left)
     tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if element == "mirror" else (0.0, 0.0)
     opening = values.get("opening") if element == "iris" else None
     if element == "beam_splitter":
@@ -156,12 +160,12 @@ def _optic(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]
         tip = math.radians((90.0 if fold is None else fold) / 2 + 90.0)
     facing = math.radians(pose.yaw) + tip + (math.pi if element == "mirror" else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
-    where = (x, y, center[2]) if aperture else None
+    where = (x, y, center[2] + up) if aperture else None
     shape = placed(geometry.footprint, pose)
     width = aperture.diameter if aperture else 0.0
     if isinstance(opening, int | float):
         width = min(width, float(opening))
-    return _Optic(name, element, shape, geometry.height, where, normal, width / 2)
+    return Optic(name, element, shape, geometry.height, where, normal, width / 2)
 
 
 def _aperture(kind: ComponentType) -> ClearAperture | None:
@@ -178,7 +182,25 @@ def _turn(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
     return float(value) * _RADIANS[kind.tunables[key].unit or "rad"] if isinstance(value, int | float) else 0.0
 
 
-def _leg(table: tuple[float, float], optics: list[_Optic], ray: _Ray) -> tuple[Leg, _Optic | None]:
+def first_met(table: tuple[float, float], optics: Sequence[Optic], ray: Ray) -> tuple[Optic | None, Event, float]:
+    """Return what a ray meets first, what becomes of it there by geometry alone, and how far ahead that is [mm]; None
+    where it leaves the table."""
+    length = _to_edge(table, ray)
+    found = [(far, o.name, o, event) for o in optics if (hit := _hit(ray, o)) for far, event in [hit] if far <= length]
+    if not found:
+        return None, "left", length
+    far, _, optic, event = min(found, key=lambda f: f[:2])
+    return optic, event, far
+
+
+def _shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
+    """Return by how much a stage has moved an optic along an axis of the component [mm]."""
+    value = values.get(key)
+    moves = kind.tunables[key].unit == "mm" if key in kind.tunables else False
+    return float(value) if moves and isinstance(value, int | float) else 0.0
+
+
+def _leg(table: tuple[float, float], optics: list[Optic], ray: Ray) -> tuple[Leg, Optic | None]:
     """Return the leg that a ray runs, and what bends or divides it at its end."""
     length = _to_edge(table, ray)
     found = sorted((far, o.name, o, event) for o in optics if (hit := _hit(ray, o)) for far, event in [hit])
@@ -193,7 +215,7 @@ def _leg(table: tuple[float, float], optics: list[_Optic], ray: _Ray) -> tuple[L
     return Leg(ray.at, ray.begun, tuple(met), ray.before), None
 
 
-def _hit(ray: _Ray, optic: _Optic) -> tuple[float, Event] | None:
+def _hit(ray: Ray, optic: Optic) -> tuple[float, Event] | None:
     """Return how far ahead a ray meets a component [mm], and what becomes of it; None where it misses it."""
     if optic.name == ray.leaves:
         return None
@@ -203,7 +225,7 @@ def _hit(ray: _Ray, optic: _Optic) -> tuple[float, Event] | None:
     return None if housing is None else (housing, "blocked")
 
 
-def _through(ray: _Ray, optic: _Optic) -> float | None:
+def _through(ray: Ray, optic: Optic) -> float | None:
     """Return where a ray meets the plane of an optic within its clear aperture [mm ahead], None where it does not.
 
     A splitter is as open on each side of its cube, so there the distance to the ray counts, too, and the coating is as
@@ -222,7 +244,7 @@ def _through(ray: _Ray, optic: _Optic) -> float | None:
     return far if far > _NEAR and square <= optic.radius**2 else None
 
 
-def _housing(ray: _Ray, optic: _Optic) -> float | None:
+def _housing(ray: Ray, optic: Optic) -> float | None:
     """Return where a ray comes above the outline of a component, lower than its top [mm ahead], or None."""
     entered = _entry(ray, optic.shape)
     if entered is None or not 0.0 <= _along(ray, entered)[2] <= optic.height:
@@ -230,7 +252,7 @@ def _housing(ray: _Ray, optic: _Optic) -> float | None:
     return entered
 
 
-def _entry(ray: _Ray, shape: Shape) -> float | None:
+def _entry(ray: Ray, shape: Shape) -> float | None:
     """Return where a ray, seen from above, enters a disc or a convex polygon [mm ahead, along the ray in space]."""
     (px, py, _), (dx, dy, _) = ray.at, ray.towards
     if not shape.vertices:
@@ -253,17 +275,17 @@ def _entry(ray: _Ray, shape: Shape) -> float | None:
     return first if last > max(first, _NEAR) else None
 
 
-def _onward(ray: _Ray, leg: Leg, optic: _Optic | None, number: int) -> list[_Ray]:
+def _onward(ray: Ray, leg: Leg, optic: Optic | None, number: int) -> list[Ray]:
     """Return the rays that go on from the end of a leg."""
     last = leg.met[-1]
     if optic is None or last.event not in ("reflected", "divided"):
         return []
     turned = _minus(ray.towards, _times(optic.normal, 2 * _dot(ray.towards, optic.normal)))
     ways = [ray.towards, turned] if last.event == "divided" else [turned]
-    return [_Ray(last.at, way, last.length, optic.name, number) for way in ways]
+    return [Ray(last.at, way, last.length, optic.name, number) for way in ways]
 
 
-def _to_edge(table: tuple[float, float], ray: _Ray) -> float:
+def _to_edge(table: tuple[float, float], ray: Ray) -> float:
     """Return how far ahead a ray leaves the space over the table: over its edge, or into its top [mm]."""
     ways = [
         ((size if step > 0 else 0.0) - at) / step
@@ -275,7 +297,7 @@ def _to_edge(table: tuple[float, float], ray: _Ray) -> float:
     return max(0.0, min(ways, default=0.0))
 
 
-def _along(ray: _Ray, far: float) -> Vector:
+def _along(ray: Ray, far: float) -> Vector:
     x, y, z = (p + far * d for p, d in zip(ray.at, ray.towards, strict=True))
     return x, y, z
 

@@ -1,0 +1,30 @@
+"""A beam splitter cube: a coating that passes one part of a beam and sends another to the side."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from pico.optics.beam import Beam, beyond
+from pico.optics.part import Met, Part, arrived, clipped
+from pico.optics.rays import Surface
+
+
+def meet(part: Part, beam: Beam) -> Met:
+    """Divide a beam at the coating. `transmittance` and `reflectance` are shares of the power, of a polarizing one of p
+    and s; there `extinction` is by how much less of s passes. What is reflected comes a quarter of a wave later, from
+    either side, as a coating without loss must have it."""
+    normal = np.array(part.optic.normal)
+    came = arrived(part, beam, normal=normal)
+    passed, lost = clipped(part, came, part.optic.radius)
+    coating = Surface(part.center, normal)
+    through, back = part.number("transmittance", "", 0.5), part.number("reflectance", "", 0.5)
+    polarizing = part.kind.parameters.get("polarizing")
+    shares = (through, through), (back, back)
+    if polarizing is not None and polarizing.value is True:
+        shares = (through / part.number("extinction", "", math.inf), through), (back, 1 - through)
+    (t_s, t_p), (r_s, r_p) = ((math.sqrt(s), math.sqrt(max(p, 0.0))) for s, p in shares)
+    on = beyond(passed, coating, amplitudes=lambda _: (t_s, t_p))
+    sent = beyond(passed, coating, reflect=True, amplitudes=lambda _: (1j * r_s, 1j * r_p))
+    return Met(came, tuple(b for b in (on, sent) if b is not None and b.waves), lost)

@@ -1,0 +1,85 @@
+"""A lens: its two surfaces where its type gives them, else a thin one of its focal length."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from pico.optics import gaussian
+from pico.optics.beam import Beam, beyond, level, scaled
+from pico.optics.part import Met, Part, arrived, clipped
+from pico.optics.polarization import Vector, carried, joined, plane_of_incidence, split
+from pico.optics.rays import Surface
+
+
+def surfaces(part: Part) -> tuple[Surface, ...]:
+    """Return the two surfaces of a lens, that with the lesser local x first; none where its type does not tell
+    `radius_of_curvature`, `center_thickness` and `refractive_index`.
+
+    The parameter is the radius of the side that light along local +x meets first, above 0 where that bulges towards it;
+    `radius_of_curvature_back` that of the other, above 0 where that bulges away, flat where it is not given.
+    """
+    given = [part.kind.number(name, unit) for name, unit in _REAL]
+    if any(number is None for number in given) or "cylinder_axis" in part.kind.parameters:
+        return ()
+    radius, thickness, index = (number or 0.0 for number in given)
+    back = part.kind.number("radius_of_curvature_back", "mm")
+    along, edge = part.axes[0], part.optic.radius
+    half = thickness / 2 * along
+    return (
+        Surface(part.center - half, along, 1 / radius if radius else 0.0, edge, 1.0, index),
+        Surface(part.center + half, along, -1 / back if back else 0.0, edge, index, 1.0),
+    )
+
+
+_REAL = (("radius_of_curvature", "mm"), ("center_thickness", "mm"), ("refractive_index", ""))
+
+
+def meet(part: Part, beam: Beam) -> Met:
+    """Bend a beam, after the edge has stopped what is beside it."""
+    came = arrived(part, beam)
+    passed, lost = clipped(part, came, part.optic.radius)
+    share = math.sqrt(part.number("transmission", "", 1.0))
+    ways = surfaces(part)
+    if not ways:
+        return Met(came, (scaled(thin(passed, part.center, part.axes[0], power(part)), share),), lost)
+    behind: Beam | None = scaled(beam, math.sqrt(1 - lost) * share)
+    for surface in ways if beam.along @ part.axes[0] > 0 else ways[::-1]:
+        behind = beyond(behind, surface) if behind is not None else None
+    if behind is None:
+        return Met(came, clipped=lost, event="blocked")
+    return Met(came, (replace(behind, unknown=passed.unknown),), lost)
+
+
+def power(part: Part) -> Vector:
+    """Return the refractive power (3, 3) [1/mm] of a thin lens: what its change of slope is per distance from its axis.
+    One with the parameter `cylinder_axis` has it only across that line, which is level at 0 deg."""
+    _, left, up = part.axes
+    strength = 1 / part.number("focal_length", "mm", math.inf)
+    line = part.kind.number("cylinder_axis", "deg")
+    if line is None:
+        return strength * (np.outer(left, left) + np.outer(up, up))
+    across = math.cos(math.radians(line)) * up - math.sin(math.radians(line)) * left
+    return strength * np.outer(across, across)
+
+
+def thin(came: Beam, center: Vector, axis: Vector, bends: Vector) -> Beam:
+    """Return a beam at the plane of a thin lens of a refractive power (3, 3), bent by it."""
+    normal = axis if came.along @ axis > 0 else -axis
+    facing = float(came.along @ normal)
+    along = came.along / facing - bends @ (came.at - center)
+    along = along / np.linalg.norm(along)
+    s = plane_of_incidence(came.along, normal, came.up)
+    across = level(along, carried(came.across, came.along, along, s))
+    axes = np.stack([s, np.cross(normal, s)])
+    before, after = came.frame @ axes.T, np.stack([across, np.cross(along, across)]) @ axes.T
+    flat = np.zeros((2, 2))
+    mapped = gaussian.through(came.curvature, before, np.eye(2), (1, 1), (1, 1), flat) - axes @ bends @ axes.T
+    curvature = gaussian.through(mapped, np.eye(2), after, (1, 1), (1, 1), flat)
+    back = np.linalg.inv(after).T @ before.T
+    waves = tuple(
+        replace(w, field=joined(*split(w.field, came.along, s), along, s), shift=back @ w.shift) for w in came.waves
+    )
+    return replace(came, along=along, across=across, curvature=curvature, waves=waves)

@@ -1,0 +1,34 @@
+"""A mirror: it sends a beam back from its face, s and p each with an amplitude of its own."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+
+from pico.optics.beam import Amplitudes, Beam, beyond
+from pico.optics.part import Met, Part, arrived, clipped
+from pico.optics.polarization import fresnel
+from pico.optics.rays import Surface
+
+
+def meet(part: Part, beam: Beam) -> Met:
+    """Reflect a beam."""
+    normal = np.array(part.optic.normal)
+    came = arrived(part, beam, normal=normal)
+    passed, lost = clipped(part, came, part.optic.radius)
+    sent = beyond(passed, Surface(part.center, normal), reflect=True, amplitudes=amplitudes(part))
+    return Met(came, (sent,) if sent else (), lost)
+
+
+def amplitudes(part: Part) -> Amplitudes:
+    """Return r_s and r_p for the cosine of incidence: of a metal where the type gives `refractive_index` and
+    `extinction_coefficient`; else of its `reflectance`, with `retardance` of p after s [deg]."""
+    n, k = (part.kind.number(name, "") for name in ("refractive_index", "extinction_coefficient"))
+    if n is not None and k is not None:
+        metal = complex(n, k)
+        return lambda cosine: fresnel(1.0, metal, cosine)[:2]
+    size = math.sqrt(part.number("reflectance", "", 1.0))
+    late = cmath.exp(1j * math.radians(part.number("retardance", "deg", 0.0)))
+    return lambda cosine: (-size, size * late)

@@ -1,0 +1,32 @@
+"""What a laser emits, by its type and by what it is set to."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from pico.optics import gaussian
+from pico.optics.beam import Beam, Wave
+from pico.optics.part import Part
+
+
+def emit(part: Part) -> Beam:
+    """Return the beam at the exit: from the parameters `wavelength`, `power`, `waist_radius`, `waist_position` (of the
+    waist, ahead of the exit), `quality` (M2), `polarization`, `polarization_ratio`, of which a tunable of the same name
+    wins. What is polarized across does not interfere with the rest."""
+    wavelength = part.value("wavelength", "nm", part.number("wavelength", "nm", 632.8)) * 1e-6
+    power = part.value("power", "mW", part.number("power", "mW", 1.0))
+    waist, quality = part.number("waist_radius", "mm", 0.5), part.number("quality", "", 1.0)
+    angle = math.radians(part.number("polarization", "deg", 0.0))
+    across = part.number("polarization_ratio", "", math.inf)
+    weak = 0.0 if math.isinf(across) else power / (1 + across)
+    along, left, up = part.axes
+    fields = [
+        math.sqrt(power - weak) * (math.cos(angle) * left + math.sin(angle) * up),
+        math.sqrt(weak) * (math.cos(angle) * up - math.sin(angle) * left),
+    ]
+    waves = (Wave(f.astype(complex), np.zeros(2, dtype=complex), n) for n, f in enumerate(fields) if f.any())
+    behind = -part.number("waist_position", "mm", 0.0)
+    curvature = gaussian.from_waist(waist, wavelength * quality, behind)
+    return Beam(part.name, wavelength, part.origin, along, left, curvature, tuple(waves), quality)

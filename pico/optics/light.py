@@ -1,0 +1,210 @@
+"""Light on the table: each source's beam through all that it meets, with radius, power and polarization.
+
+It meets what `pico.optics.axis` says that a ray meets next, and what an element makes of it is for the file of
+`pico.optics.elements` that bears its name. So decentred lenses bend a beam, plates walk it, splitters divide it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.optics.axis import Event, Optic, Ray, Values, first_met, optic_of
+from pico.optics.beam import Beam, forward, moments
+from pico.optics.emission import emit
+from pico.optics.part import Element, Met, Part
+
+FOLDER = "pico.optics.elements"
+FAINT = 1e-10
+"""The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
+MOST = 256
+"""Stretches after which a beam that goes round and round is followed no more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """A beam that comes to a component: as it arrives (`beam`), what becomes of it, its `power` before and after [mW],
+    and which share an edge stopped. `component` is empty where it leaves the table; `before`: the number of the
+    crossing that it comes from, None for the first."""
+
+    component: str
+    event: Event
+    beam: Beam
+    power: float
+    onward: float
+    clipped: float
+    before: int | None
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """The light of all sources: crossings in the order in which they were followed. `endless`: sources whose beam goes
+    round and round, and was not followed to its end."""
+
+    crossings: tuple[Crossing, ...]
+    parts: Mapping[str, Part]
+    endless: tuple[str, ...] = ()
+
+    def at(self, component: str) -> tuple[Arrival, ...]:
+        """Return what of the light a detector takes."""
+        mine = (c for c in self.crossings if c.component == component and c.event == "detected")
+        return tuple(Arrival(c.beam, self.parts[component]) for c in mine)
+
+    def way(self, number: int) -> tuple[Crossing, ...]:
+        """Return the crossings from the source to one of them, that the last."""
+        crossing = self.crossings[number]
+        return (*(() if crossing.before is None else self.way(crossing.before)), crossing)
+
+
+@dataclass(frozen=True, eq=False)
+class Arrival:
+    """A beam on a detector. Its plane has the axes y, to the left of who looks along the component's x, and z, up, from
+    where the optical axis meets it [mm]."""
+
+    beam: Beam
+    part: Part
+
+    @property
+    def wavelength(self) -> float:
+        """In vacuum [nm]."""
+        return self.beam.wavelength * 1e6
+
+    @property
+    def power(self) -> float:
+        """The power [mW]."""
+        return self.beam.power
+
+    @property
+    def center(self) -> tuple[float, float]:
+        """The centroid (y, z) on the detector [mm]."""
+        _, left, up = self.part.axes
+        ahead = self.beam.at - self.part.origin + moments(self.beam)[1] @ self.beam.frame
+        return float(ahead @ left), float(ahead @ up)
+
+    def field(self, y: NDArray[np.float64], z: NDArray[np.float64]) -> dict[int, NDArray[np.complex128]]:
+        """Return the field (len(z), len(y), 3) [sqrt(mW)/mm] of each group that may interfere, its phase included."""
+        return _field(self.beam, self.part, y, z)
+
+    def irradiance(self, y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the irradiance (len(z), len(y)) [mW/mm2] of this beam alone."""
+        return irradiance((self,), y, z)
+
+
+def irradiance(arrivals: tuple[Arrival, ...], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the irradiance (len(z), len(y)) [mW/mm2] of beams on one detector; those of one source interfere."""
+    total = np.zeros((len(z), len(y)))
+    found: dict[tuple[str, int], NDArray[np.complex128]] = {}
+    for arrival in arrivals:
+        for group, field in arrival.field(y, z).items():
+            key = arrival.beam.source, group
+            found[key] = found[key] + field if key in found else field
+    for field in found.values():
+        total += (field.real**2 + field.imag**2).sum(axis=2)
+    return total
+
+
+def _field(beam: Beam, part: Part, y: NDArray[np.float64], z: NDArray[np.float64]) -> dict[int, NDArray[np.complex128]]:
+    _, left, up = part.axes
+    frame, k = beam.frame, beam.wave_number
+    start = part.origin - beam.at
+    # r = a0 + y a1 + z a2 in the beam's frame, and how far on along it, both linear in y and z
+    a0, a1, a2 = frame @ start, frame @ left, frame @ up
+    d0, d1, d2 = (float(v @ beam.along) for v in (start, left, up))
+    rows, columns = z[:, None], y[None, :]
+    first, second = (a0[n] + columns * a1[n] + rows * a2[n] for n in (0, 1))
+    m = beam.curvature
+    shape = 0.5j * k * (m[0, 0] * first**2 + 2 * m[0, 1] * first * second + m[1, 1] * second**2)
+    true = 2 * np.pi * beam.index / beam.wavelength
+    shape = shape + 1j * true * (d0 + columns * d1 + rows * d2)
+    size = np.sqrt(k * np.sqrt(np.linalg.det(np.imag(m))) / np.pi * abs(float(beam.along @ part.axes[0])))
+    size = size * np.exp(2j * np.pi * (beam.path % beam.wavelength) / beam.wavelength)
+    found: dict[int, NDArray[np.complex128]] = {}
+    for wave in beam.waves:
+        scalar = size * np.exp(shape + 1j * k * (wave.shift[0] * first + wave.shift[1] * second))
+        field = scalar[:, :, None] * wave.field
+        found[wave.group] = found[wave.group] + field if wave.group in found else field
+    return found
+
+
+@cache
+def element(name: str) -> Element:
+    """Return what an element does; raises ModuleNotFoundError where no file bears its name."""
+    return cast(Element, import_module(f"{FOLDER}.{name}"))
+
+
+def light_of(
+    setup: Setup, poses: Mapping[str, Pose], values: Values | None = None, *, lit: Callable[[str], bool] | None = None
+) -> Light:
+    """Return the light of the sources among what stands at `poses`.
+
+    `values`: tunables by component, in the units of the catalog; those of shutters, stages, mirrors, irises, polarizers
+    and wave plates count. `lit`: which sources shine; without, all that `values` do not say are off or shut.
+    """
+    known = values or {}
+    parts = {name: _part(setup, name, pose, known) for name, pose in poses.items()}
+    shines = lit or (lambda name: not _dark(known.get(name, {})))
+    crossings: list[Crossing] = []
+    endless: list[str] = []
+    for name in sorted(parts):
+        if parts[name].kind.optics.element == "source" and shines(name):
+            begun = len(crossings)
+            follow = _followed(setup.lab.table.size, parts, name, begun)
+            for crossing in follow:
+                if len(crossings) - begun == MOST:
+                    endless.append(name)
+                    break
+                crossings.append(crossing)
+    return Light(tuple(crossings), parts, tuple(endless))
+
+
+def _dark(laser: Mapping[str, object]) -> bool:
+    return laser.get("emission") is False or laser.get("shutter") == "closed"
+
+
+def _part(setup: Setup, name: str, pose: Pose, values: Values) -> Part:
+    own, kind = values.get(name, {}), setup.type_of(name)
+    # an iris stops what is beside its opening itself: its leaves are no housing
+    seen = {key: value for key, value in own.items() if key != "opening"}
+    return Part(name, kind, own, pose, optic_of(kind, name, pose, seen))
+
+
+def _followed(table: tuple[float, float], parts: Mapping[str, Part], source: str, begun: int) -> Iterator[Crossing]:
+    """Yield the crossings of a source's beam, breadth first; the first has the number `begun`."""
+    optics = [part.optic for part in parts.values()]
+    first = emit(parts[source])
+    least, number = FAINT * first.power, begun
+    rays: list[tuple[Beam, str, int | None]] = [(first, source, None)]
+    for beam, leaves, before in rays:
+        crossing, onward = _crossing(table, parts, optics, beam, leaves, before)
+        yield crossing
+        rays += [(b, crossing.component, number) for b in onward if b.power > least]
+        number += 1
+
+
+def _crossing(
+    table: tuple[float, float], parts: Mapping[str, Part], optics: list[Optic], beam: Beam, leaves: str,
+    before: int | None,
+) -> tuple[Crossing, tuple[Beam, ...]]:  # fmt: skip
+    """Return what a beam comes to next, and the beams that go on from there."""
+    ray = Ray(_point(beam.at), _point(beam.along), beam.length, leaves)
+    optic, event, far = first_met(table, optics, ray)
+    if optic is None or event == "blocked":
+        met = Met(forward(beam, far))
+    else:
+        met = element(optic.element).meet(parts[optic.name], beam)
+    onward = sum(b.power for b in met.onward)
+    name = optic.name if optic else ""
+    return Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, before), met.onward
+
+
+def _point(vector: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z

@@ -1,0 +1,139 @@
+"""A component as light finds it, and what an element makes of a beam: what `pico.optics.elements` share."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from pico.model.catalog import ComponentType
+from pico.model.pose import Pose
+from pico.model.quantities import QuantityError, convert
+from pico.optics.axis import Event, Optic
+from pico.optics.beam import Beam, forward, scaled
+from pico.optics.polarization import Vector
+from pico.optics.rays import Surface
+
+SPOT = 0.9
+"""The share that must pass an edge for the spot behind it to be taken as Gaussian still: a circle of radius 1.07 w."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A component that stands on the table: its type, tunables in the units of the catalog, pose, and its optic."""
+
+    name: str
+    kind: ComponentType
+    values: Mapping[str, Any]
+    pose: Pose
+    optic: Optic
+
+    @property
+    def axes(self) -> tuple[Vector, Vector, Vector]:
+        """The component's own directions in the table frame: ahead, left, up."""
+        turned = math.radians(self.pose.yaw)
+        c, s = math.cos(turned), math.sin(turned)
+        return np.array([c, s, 0.0]), np.array([-s, c, 0.0]), np.array([0.0, 0.0, 1.0])
+
+    @property
+    def center(self) -> Vector:
+        """The middle of its clear aperture (3,) [mm]; of its optical frame where it has none."""
+        return self.origin if self.optic.center is None else np.array(self.optic.center)
+
+    @property
+    def origin(self) -> Vector:
+        """Where its optical axis meets it (3,) [mm]."""
+        x, y, z = self.kind.frames.optical
+        return np.array([*self.pose.apply(x, y), z])
+
+    def number(self, parameter: str, unit: str, otherwise: float) -> float:
+        """Return a parameter in a unit, or what holds where its type does not say."""
+        found = self.kind.number(parameter, unit)
+        return otherwise if found is None else found
+
+    def word(self, parameter: str, otherwise: str) -> str:
+        """Return a parameter that is a word."""
+        found = self.kind.parameters.get(parameter)
+        return otherwise if found is None else str(found.value)
+
+    def value(self, tunable: str, unit: str, otherwise: float) -> float:
+        """Return a tunable in a unit; what holds otherwise where nobody knows it, or there is none."""
+        found, kind = self.values.get(tunable), self.kind.tunables.get(tunable)
+        if kind is None or isinstance(found, bool | str) or found is None:
+            return otherwise
+        try:
+            return float(found) if kind.unit in ("", unit) else convert(f"{found} {kind.unit}", unit)
+        except QuantityError:
+            return otherwise
+
+    def plane(self, ahead: float = 0.0, *, before: float = 1.0, after: float = 1.0) -> Surface:
+        """Return the plane across its axis, so far ahead of its center [mm]."""
+        along = self.axes[0]
+        return Surface(self.center + ahead * along, along, before=before, after=after)
+
+
+@dataclass(frozen=True, eq=False)
+class Met:
+    """What became of a beam at an element: `came`, as it arrives at its plane; those that go on; which share of the
+    power its edge stopped; `event` where that is not what geometry alone says."""
+
+    came: Beam
+    onward: tuple[Beam, ...] = ()
+    clipped: float = 0.0
+    event: Event | None = None
+
+
+class Element(Protocol):
+    """A file of `pico.optics.elements`, named after the element."""
+
+    def meet(self, part: Part, beam: Beam) -> Met:
+        """Return what becomes of a beam that comes to a component within its clear aperture."""
+        ...
+
+
+def arrived(part: Part, beam: Beam, *, at: Vector | None = None, normal: Vector | None = None) -> Beam:
+    """Return a beam where its chief ray meets the plane of an element: that across its axis through its center."""
+    across = part.axes[0] if normal is None else normal
+    middle = part.center if at is None else at
+    return forward(beam, float((middle - beam.at) @ across) / float(beam.along @ across))
+
+
+def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = None) -> tuple[Beam, float]:
+    """Return a beam behind a round edge of a radius [mm], seen along the beam, and the share that it stops.
+
+    What passes is the Gaussian's part within the edge; where that is less than SPOT of it, its spot is not Gaussian any
+    more and becomes unknown: diffraction would have to tell.
+    """
+    middle = part.center if center is None else center
+    passed = within(came, came.frame @ (middle - came.at), radius)
+    if passed >= 1.0:
+        return came, 0.0
+    behind = scaled(came, math.sqrt(passed))
+    if passed < SPOT and not came.unknown:
+        text = f"{part.name} lets only {100 * passed:.2g} % of the beam through, and its spot is diffraction's then"
+        behind = replace(behind, unknown=text)
+    return behind, 1.0 - passed
+
+
+def within(beam: Beam, middle: Vector, radius: float) -> float:
+    """Return the share of a Gaussian that lies within a circle around `middle` (2,) [mm] from its chief ray.
+
+    Along one principal axis by the error function, along the other by Gauss and Legendre, to 1e-9.
+    """
+    wide, narrow, angle = beam.widths
+    turned = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]]) @ middle
+    if radius - float(np.hypot(*middle)) > 4 * wide:
+        return 1.0
+    nodes, weights = np.polynomial.legendre.leggauss(96)
+    low, high = max(turned[0] - radius, -3.5 * wide), min(turned[0] + radius, 3.5 * wide)
+    if low >= high:
+        return 0.0
+    x = (high + low) / 2 + (high - low) / 2 * nodes
+    half = np.sqrt(np.maximum(radius**2 - (x - turned[0]) ** 2, 0.0))
+    root = math.sqrt(2) / narrow
+    strip = [(math.erf(root * (turned[1] + h)) - math.erf(root * (turned[1] - h))) / 2 for h in half]
+    density = math.sqrt(2 / math.pi) / wide * np.exp(-2 * (x / wide) ** 2)
+    return min(1.0, float((high - low) / 2 * (weights * density * strip).sum()))
