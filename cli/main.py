@@ -48,10 +48,10 @@ def _at_once(words: list[str]) -> str | None:
         from .at_once.complete import candidates
 
         return "\n".join(candidates(words))
-    if words in ([], ["--help"], ["-h"], ["help"]):
+    if words in ([], ["--help"], ["-h"], ["help"], ["help", "all"]):
         from .at_once.help import help_text
 
-        return help_text()
+        return help_text(every=words[1:] == ["all"])
     if words in (["--version"], ["-V"]):
         from pico import __version__
 

@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "beam": "the light on the table",
     "measure": "measurements of the beam",
     "optimize": "closed-loop alignment",
     "teleop": "moving the arm by hand",
@@ -43,6 +42,12 @@ RESERVED = {
     "token": "programs at a served bench",
     "gui": "PICO in a browser",
 }
+
+SELDOM = {
+    "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
+    "stash",
+}  # fmt: skip
+"""Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 
 
 def instead(name: str) -> str:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from ..commands import summary
+from ..names import SELDOM
 
+MORE = "More, for what is set up once or asked for seldom: `pico help all`."
 LAST = """\
 What moves something or lets light out asks first, unless told --yes (or -y).
 Every command takes -C DIR (work as if started there), --json, --debug (show
 tracebacks) and --backend sim|hardware. `pico help COMMAND` explains one."""
 
 
-def help_text() -> str:
-    """Return what `pico --help` prints."""
+def help_text(*, every: bool = False) -> str:
+    """Return what `pico --help` prints; with `every` command what `pico help all` does."""
     lines = ["Version control for the optical table. Start: pico init --example shel bench", ""]
     for title, commands in summary().items():
-        lines += [f"{title}:", *(f"  {name:<11} {line}" for name, line in commands.items()), ""]
-    return "\n".join([*lines, LAST])
+        shown = {name: line for name, line in commands.items() if every or name not in SELDOM}
+        lines += [f"{title}:", *(f"  {name:<11} {line}" for name, line in shown.items()), ""]
+    return "\n".join([*lines, *([] if every else [MORE]), LAST])

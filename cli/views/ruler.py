@@ -13,8 +13,10 @@ if TYPE_CHECKING:
 _WIDTH = 10
 
 
-def text(found: Measured) -> str:
-    """Return both ends, and the distances in columns with their units."""
+def text(found: Measured, *, along_beam: bool = False) -> str:
+    """Return both ends, and the distances in columns with their units; or those `along_beam` alone."""
+    if along_beam:
+        return "\n".join(_by_light(found))
     names = max(len(found.a.name), len(found.b.name))
     lines = [_end(end, names) for end in (found.a, found.b)]
     head = "".join(f"{word:>{_WIDTH}}" for word in ("distance", "dx", "dy", "dz", "angle"))
@@ -72,7 +74,7 @@ def _by_light(found: Measured) -> list[str]:
     return rows
 
 
-def data(found: Measured) -> dict[str, Any]:
+def data(found: Measured, *, along_beam: bool = False) -> dict[str, Any]:
     """Return schema `pico.ruler/v1`: both ends, `centers`, `surfaces`, `beam` and `ways`; mm and deg."""
     surfaces, beam = found.surfaces, found.beam
     return {

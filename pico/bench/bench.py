@@ -17,6 +17,7 @@ from pico.model.state import LabState
 if TYPE_CHECKING:
     from pico.bench.cameras import Cameras
     from pico.bench.commits import CommitMode, Commits
+    from pico.bench.light import Lights
     from pico.bench.measurements import Measurements
     from pico.bench.moves import Moves
     from pico.bench.pictures import Pictures
@@ -69,6 +70,13 @@ class Bench(Opened):
         from pico.bench.pictures import Pictures
 
         return Pictures(self)
+
+    @cached_property
+    def light(self) -> Lights:
+        """Where beams run, and what they are like."""
+        from pico.bench.light import Lights
+
+        return Lights(self)
 
     @cached_property
     def cameras(self) -> Cameras:

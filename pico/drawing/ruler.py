@@ -8,18 +8,22 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.drawing.beams import Place, standing
 from pico.drawing.dimensions import Dimension
 from pico.drawing.picture import placed, posed_model
 from pico.model.lab import Setup
-from pico.model.pose import short
+from pico.model.pose import Pose, short
 from pico.motion.types import Joints
-from pico.optics.axis import Axis, Values, beams
+from pico.optics.axis import Values
 from pico.twin.placement import Placement
+
+if TYPE_CHECKING:
+    from pico.optics.light import Light
 
 Vector = tuple[float, float, float]
 SNAPS = ("optical", "base", "hole")
@@ -136,25 +140,35 @@ def measure(
     if not (a.component and b.component and a.component != b.component):
         return Measured(a, b, Span(a.at, b.at), None, _along(places, a, b))
     between = _surfaces(setup, places, joints, a.component, b.component)
-    axes = list(beams(setup, standing(poses), values))
-    ways = [*_ways(axes, a.component, b.component), *_ways(axes, b.component, a.component)]
+    light = _light(setup, standing(poses), values or {})
+    ways = [*_ways(light, a.component, b.component), *_ways(light, b.component, a.component)]
     shortest = tuple(sorted(ways, key=lambda way: way.length))
     return Measured(a, b, Span(a.at, b.at), between, _along(places, a, b), shortest)
 
 
-def _ways(axes: Iterable[Axis], first: str, then: str) -> Iterator[ByLight]:
+def _light(setup: Setup, poses: Mapping[str, Pose], values: Values) -> Light:
+    """Return the light with all shutters open."""
+    from pico.optics.light import light_of
+
+    opened = {name: {k: v for k, v in own.items() if k != "shutter"} for name, own in values.items()}
+    return light_of(setup, poses, opened, lit=lambda _: True)
+
+
+def _ways(light: Light, first: str, then: str) -> Iterator[ByLight]:
     """Yield each way of a beam from one component to another."""
-    for axis in axes:
-        known = set()
-        for way in axis.ways(then):
-            starts = [n for n, met in enumerate(way[:-1]) if met.component == first]
-            if not starts and axis.source != first:
-                continue
-            after, begun = (starts[-1] + 1, way[starts[-1]].length) if starts else (0, 0.0)
-            over = tuple(met.component for met in way[after:-1] if met.event != "passed")
-            if (over, way[-1].length - begun) not in known:
-                known.add((over, way[-1].length - begun))
-                yield ByLight(axis.source, over, way[-1].length - begun)
+    known = set()
+    for number, crossing in enumerate(light.crossings):
+        if crossing.component != then or crossing.event == "blocked" or crossing.beam.ghost:
+            continue
+        way = light.way(number)
+        starts = [n for n, met in enumerate(way[:-1]) if met.component == first]
+        if not starts and crossing.beam.source != first:
+            continue
+        after, begun = (starts[-1] + 1, way[starts[-1]].beam.length) if starts else (0, 0.0)
+        over = tuple(met.component for met in way[after:-1] if met.event != "passed")
+        if (over, crossing.beam.length - begun) not in known:
+            known.add((over, crossing.beam.length - begun))
+            yield ByLight(crossing.beam.source, over, crossing.beam.length - begun)
 
 
 def end_of(setup: Setup, places: Mapping[str, Placement], word: str) -> End:

@@ -91,13 +91,14 @@ def drawn(
     height: int | None,
     ghosts: Mapping[str, Pose],
     labels: bool,
-    beams: bool,
+    beams: bool | Sequence[tuple[Point, Point]],
     values: Values | None = None,
     marks: Sequence[Mark] = (),
     steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
 ) -> Canvas:
-    """Return the canvas with everything on it but the list of the steps."""
+    """Return the canvas with everything on it but the list of the steps. `beams`: those of the sources, or these lines
+    [mm]."""
     canvas, size = new_canvas(setup, width, height), letters(width, height)
     _draw_table(canvas, setup)
     _draw_areas(canvas, setup)
@@ -105,10 +106,11 @@ def drawn(
     for robot in setup.lab.robots.values():
         if robot.model == "xarm7":
             _draw_reach(canvas, setup, robot)
-    if beams:
-        for _, start, end in beam_paths(setup, poses, values):
-            canvas.line((start[:2], end[:2]), _BEAM, 1.2)
-            canvas.occupy_line(start[:2], end[:2])
+    if isinstance(beams, bool):
+        beams = [(start[:2], end[:2]) for _, start, end in beam_paths(setup, poses, values)] if beams else ()
+    for start, end in beams:
+        canvas.line((start, end), _BEAM, 1.2)
+        canvas.occupy_line(start, end)
     places = flat(poses)
     for name, pose in sorted(places.items()):
         _draw_component(canvas, setup, name, pose)

@@ -17,10 +17,11 @@ def stray_beams(setup: Setup, state: LabState) -> tuple[Diagnostic, ...]:
     poses = {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
     values = {name: part.values for name, part in state.components.items()}
     on = (axis for axis in beams(setup, poses, values) if values.get(axis.source, {}).get("emission") is True)
-    return tuple(found for axis in on for end in axis.meetings for found in _stray(setup, axis.source, end))
+    return tuple(found for axis in on for end in axis.meetings for found in stray(setup, axis.source, end))
 
 
-def _stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
+def stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
+    """Yield a warning where what a beam of a laser meets is no place for it to end."""
     x, y, _ = (short(v) for v in end.at)
     hint = "end it in a beam block or on a detector"
     if end.event == "left":

@@ -150,7 +150,7 @@ def light_of(
     """
     known = values or {}
     parts = {name: _part(setup, name, pose, known) for name, pose in poses.items()}
-    shines = lit or (lambda name: not _dark(known.get(name, {})))
+    shines = lit or (lambda name: not is_dark(known.get(name, {})))
     crossings: list[Crossing] = []
     endless: list[str] = []
     for name in sorted(parts):
@@ -165,7 +165,8 @@ def light_of(
     return Light(tuple(crossings), parts, tuple(endless))
 
 
-def _dark(laser: Mapping[str, object]) -> bool:
+def is_dark(laser: Mapping[str, object]) -> bool:
+    """Return whether a laser with these tunables lets no light out."""
     return laser.get("emission") is False or laser.get("shutter") == "closed"
 
 

@@ -26,6 +26,9 @@ TYPES = {
     "lens": "plano_convex_100", "detector": "beam_camera", "block": "beam_block", "shutter": "shutter",
 }  # fmt: skip
 
+SENSOR = 27.0
+"""How far behind its aperture a camera has its sensor, to which the ruler measures [mm]."""
+
 
 @pytest.fixture(scope="module")
 def names() -> dict[str, list[str]]:
@@ -142,7 +145,7 @@ def test_the_ruler_and_pictures_know_how_mirrors_are_tipped(setup: Setup) -> Non
     straight = {"mirror0": {"tip": -math.radians(2) * 1000}}
     assert measure(setup, poses, {}, "source0", "detector0").ways == ()
     (way,) = measure(setup, poses, {}, "source0", "detector0", straight).ways
-    assert way.length == pytest.approx(600 - 60 + 300 - 27, abs=1)
+    assert way.length == pytest.approx(600 - 60 + 300, abs=1)
     assert beam_paths(setup, poses, straight)[-1][2] == pytest.approx((700, 573, 70), abs=0.1)
     for dark in ({"emission": False}, {"shutter": "closed"}):
         assert beam_paths(setup, poses, {"source0": dark}) == []
@@ -176,7 +179,8 @@ def test_picture_planner_policy_and_ruler_tell_the_same(setup: Setup) -> None:
     assert reaches("source0", "detector0") and not reaches("source0", "detector1")
     for name in ("shutter0", "mirror1", "detector0"):
         (way,) = measure(setup, poses, {}, name, "source0").ways
-        assert way.length == axis.ways(name)[0][-1].length
+        behind = SENSOR if name == "detector0" else 0.0
+        assert way.length == axis.ways(name)[0][-1].length + behind
     for wrong, said in ((("mirror0", "detector0"), "no source"), (("source0", "cam"), "no component")):
         with pytest.raises(ValueError, match=said):
             reaches(*wrong)
@@ -210,7 +214,7 @@ def test_the_ruler_tells_the_difference_of_two_arms(setup: Setup) -> None:
         ("beam_splitter0", "mirror0", "beam_splitter0"), ("beam_splitter0", "mirror1", "beam_splitter0"),
     )  # fmt: skip
     (way,) = measure(setup, poses, {}, "mirror0", "detector0").ways
-    assert way.length == pytest.approx(200 + 400 - 27)
+    assert way.length == pytest.approx(200 + 400)
 
 
 @pytest.mark.parametrize(

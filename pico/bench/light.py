@@ -1,0 +1,85 @@
+"""The light on a bench: of what stands there, of a revision, of the manifest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.bench.opened import Opened
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+
+if TYPE_CHECKING:
+    from pico.drawing.picture import Image
+    from pico.model.lab import Setup
+    from pico.model.pose import Pose
+    from pico.optics.axis import Values
+    from pico.optics.beam_table import BeamRow
+    from pico.optics.light import Light
+
+
+@dataclass(frozen=True)
+class Beams:
+    """The beams of what was asked for, `goal` in words: rows of `pico.optics.beam_table`; the sources that are `dark`
+    as set, and were followed all the same; what is wrong."""
+
+    goal: str
+    rows: tuple[BeamRow, ...]
+    dark: tuple[str, ...]
+    diagnostics: tuple[Diagnostic, ...]
+
+
+class Lights:
+    """The light of one bench."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened, self.folder = opened, opened.folder
+
+    def beams(self, revision: str | None = None, *, manifest: bool = False, source: str | None = None) -> Beams:
+        """Return where the beams run, with radius, power and polarization: of the bench as it is, or as a revision or
+        the manifest wants it; of one source, or of all. A source that is off or shut is followed as if it shone.
+        Raises PicoError."""
+        from pico.optics.beam_table import rows, troubles
+
+        setup, poses, values, goal = self._standing(revision, manifest)
+        light, dark = self._traced(setup, poses, values, source)
+        return Beams(goal, rows(light), dark, troubles(setup, light))
+
+    def picture(
+        self, revision: str | None = None, *, manifest: bool = False, source: str | None = None, out: Path | None = None
+    ) -> Image:
+        """Return a picture (height, width, 3) from above with the beams as they run; raises PicoError."""
+        from pico.drawing.light import render_light
+        from pico.drawing.picture import write_png
+
+        setup, poses, values, _ = self._standing(revision, manifest)
+        image = render_light(setup, poses, self._traced(setup, poses, values, source)[0])
+        if out is not None:
+            write_png(image, out)
+        return image
+
+    def _standing(self, revision: str | None, manifest: bool) -> tuple[Setup, dict[str, Pose], Values, str]:
+        from pico.bench.picture_contents import places, standing, wanted, with_strangers
+        from pico.drawing.beams import standing as upright
+
+        setup = self.folder.setup
+        if revision or manifest:
+            state = self.folder.state_at(revision) if revision else self.folder.state
+            goal = self.opened.history.name_of(revision) if revision else "the manifest"
+            return setup, upright(standing(setup, state)), wanted(state), goal
+        seen = self.opened.observe()
+        setup = with_strangers(setup, seen)
+        return setup, upright(places(setup, seen, {})), seen.known_values, "the bench as it is"
+
+    def _traced(
+        self, setup: Setup, poses: dict[str, Pose], values: Values, source: str | None
+    ) -> tuple[Light, tuple[str, ...]]:
+        from pico.optics.light import is_dark, light_of
+
+        sources = sorted(n for n in poses if setup.type_of(n).optics.element == "source")
+        if source is not None and source not in sources:
+            hint = did_you_mean(source, sources) or f"sources here: {', '.join(sources) or 'none'}"
+            raise PicoError(error("no-source", f"{source} is no source of light on this bench", hint=hint))
+        asked = [source] if source else sources
+        light = light_of(setup, poses, values, lit=lambda name: name in asked)
+        return light, tuple(name for name in asked if is_dark(values.get(name, {})))

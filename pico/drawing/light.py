@@ -1,0 +1,102 @@
+"""Beams in a picture from above, as they run through lenses and plates, with their radius along the way below it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from pico.drawing.beams import Place
+from pico.drawing.topview import drawn, letters
+from pico.model.lab import Setup
+from pico.twin.lettering import write
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pico.optics.light import Crossing, Light
+
+WIDTH = 960
+_BEAM = (224, 36, 36)
+_PAPER, _INK, _FAINT, _RULE = (252, 252, 253), (34, 40, 49), (126, 134, 146), (206, 211, 218)
+_SAMPLES = 24
+"""Points of a leg at which the radius is drawn."""
+
+
+def render_light(setup: Setup, poses: Mapping[str, Place], light: Light, *, width: int = WIDTH) -> NDArray[np.uint8]:
+    """Return the picture (height, width, 3), sRGB: the bench from above, and a strip for each source."""
+    import numpy as np
+
+    lines = [_ends(light, number) for number in range(len(light.crossings))]
+    canvas = drawn(setup, poses, {}, width=width, height=None, ghosts={}, labels=True, beams=lines)
+    strips = [_strip(light, source, width) for source in dict.fromkeys(c.beam.source for c in light.crossings)]
+    return np.vstack([canvas.finished(), *strips])
+
+
+def _ends(light: Light, number: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    crossing = light.crossings[number]
+    away = crossing.beam.length - _begun(light, crossing)
+    start = crossing.beam.at - away * crossing.beam.along
+    return (float(start[0]), float(start[1])), (float(crossing.beam.at[0]), float(crossing.beam.at[1]))
+
+
+def _begun(light: Light, crossing: Crossing) -> float:
+    return 0.0 if crossing.before is None else light.crossings[crossing.before].beam.length
+
+
+def _strip(light: Light, source: str, width: int) -> NDArray[np.uint8]:
+    """Return the radius along the brightest way of a source (height, width, 3)."""
+    import cv2
+    import numpy as np
+
+    size = letters(width, None)
+    height, left, right, top, foot = round(15 * size), 5 * size, width - 2 * size, 3.4 * size, 3.6 * size
+    panel = np.full((height, width, 3), _PAPER, np.uint8)
+    way = _brightest(light, source)
+    far = way[-1].beam.length
+    points = [(c, s, _radius(c, _begun(light, c), s)) for c in way for s in np.linspace(0.0, 1.0, _SAMPLES)]
+    most = _rounded(max(r for _, _, r in points))
+    floor = height - foot
+
+    def pixel(length: float, radius: float) -> tuple[int, int]:
+        return round(left + (right - left) * length / far), round(floor - (floor - top) * radius / most)
+
+    write(panel, f"radius of {source} [mm] on its brightest way", (left, 1.6 * size), size, _INK, weight=600)
+    for part in (0.0, 0.5, 1.0):
+        u, v = pixel(0.0, part * most)
+        cv2.line(panel, (u, v), (round(right), v), _RULE, 1)
+        write(panel, f"{part * most:.3g}", (left - 0.5 * size, v + 0.35 * size), 0.9 * size, _FAINT, align="right")
+    line = np.array([pixel(_begun(light, c) + s * (c.beam.length - _begun(light, c)), r) for c, s, r in points])
+    cv2.polylines(panel, [line.reshape(-1, 1, 2)], False, _BEAM, 2, cv2.LINE_AA)
+    used = -math.inf
+    for crossing in way:
+        u, _ = pixel(crossing.beam.length, 0.0)
+        cv2.line(panel, (u, round(top)), (u, round(floor)), _RULE, 1)
+        row = 1.3 if u - used > 4.5 * size else 2.6
+        used = u if row == 1.3 else used
+        write(panel, crossing.component or "edge", (u, floor + row * size), 0.9 * size, _INK, align="center")
+    return panel
+
+
+def _brightest(light: Light, source: str) -> tuple[Crossing, ...]:
+    """Return the way on which most of the light is detected; where none is, the longest."""
+    mine = [n for n, c in enumerate(light.crossings) if c.beam.source == source and not c.beam.ghost]
+    last = max(mine, key=lambda n: (light.crossings[n].event == "detected", light.crossings[n].power, n))
+    if light.crossings[last].event != "detected":
+        last = max(mine, key=lambda n: light.crossings[n].beam.length)
+    return light.way(last)
+
+
+def _radius(crossing: Crossing, begun: float, share: float) -> float:
+    from pico.optics.beam import forward
+
+    back = (1 - share) * (crossing.beam.length - begun)
+    radius: float = forward(crossing.beam, -back).widths[0]
+    return radius
+
+
+def _rounded(value: float) -> float:
+    """Return a round number that is not less."""
+    step = 10.0 ** math.floor(math.log10(value))
+    return next(m * step for m in (1, 1.5, 2, 3, 5, 7.5, 10) if m * step >= value)

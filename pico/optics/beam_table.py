@@ -1,0 +1,200 @@
+"""The path of each beam as a table, and what is wrong with it: missed, clipped, sent back, too strong to be seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pico.diagnostics import Diagnostic, warning
+from pico.model.lab import Setup
+from pico.model.pose import short
+from pico.optics.axis import Event, Meeting
+from pico.optics.beam import Beam, moments
+from pico.optics.ends import stray
+from pico.optics.gaussian import front
+from pico.optics.light import Crossing, Light, irradiance
+from pico.optics.part import Part
+
+CLIPPED = 0.01
+"""The share of a beam that an edge may stop before anybody is told."""
+_FLAT = 1e-7  # 1/mm: a wavefront flatter than this is called flat
+
+
+@dataclass(frozen=True)
+class BeamRow:
+    """A beam where it comes to a component.
+
+    `number`: of this row, `before`: of the one that it comes from. `length`: geometrical, from the source [mm].
+    `radii`: 1/e^2, the larger first [mm], with the direction `axis` of that [deg]; `front`: of the wavefront [mm],
+    above 0 where it diverges, None where it is flat. `power` before and `onward` after it [mW]; `clipped`: the share
+    that its edge stops. `angle` of the polarization from level, counter-clockwise looking into the beam [deg], its
+    `ellipticity` S3/S0 (+1 turns counter-clockwise looking into the beam) and `degree`. `offset`: of the beam from the
+    middle of the component, to the left of and above it [mm]; `incidence` on its plane [deg]. `unknown`: why its spot
+    is not known.
+    """
+
+    source: str
+    number: int
+    before: int | None
+    component: str
+    element: str
+    event: Event
+    at: tuple[float, float, float]
+    length: float
+    radii: tuple[float, float]
+    axis: float
+    front: tuple[float | None, float | None]
+    power: float
+    onward: float
+    clipped: float
+    angle: float
+    ellipticity: float
+    degree: float
+    offset: tuple[float, float]
+    incidence: float
+    unknown: str
+    ghost: bool
+
+
+def rows(light: Light) -> tuple[BeamRow, ...]:
+    """Return a row for each place that a beam comes to."""
+    return tuple(_row(light, number, crossing) for number, crossing in enumerate(light.crossings))
+
+
+def _row(light: Light, number: int, crossing: Crossing) -> BeamRow:
+    beam, part = crossing.beam, light.parts.get(crossing.component)
+    wide, narrow, axis = beam.widths
+    s0, s1, s2, s3 = beam.stokes
+    x, y, z = beam.at.tolist()
+    one, two = (None if abs(c) < _FLAT else 1 / c for c in front(beam.curvature))
+    return BeamRow(
+        source=beam.source, number=number, before=crossing.before, component=crossing.component,
+        element=part.kind.optics.element if part else "", event=crossing.event, at=(x, y, z), length=beam.length,
+        radii=(wide, narrow), axis=math.degrees(axis), front=(one, two), power=crossing.power, onward=crossing.onward,
+        clipped=crossing.clipped, angle=math.degrees(0.5 * math.atan2(s2, s1)), ellipticity=s3 / s0 if s0 else 0.0,
+        degree=math.sqrt(s1**2 + s2**2 + s3**2) / s0 if s0 else 0.0, offset=_offset(beam, part),
+        incidence=_incidence(beam, part), unknown=beam.unknown, ghost=beam.ghost,
+    )  # fmt: skip
+
+
+def _offset(beam: Beam, part: Part | None) -> tuple[float, float]:
+    if part is None:
+        return 0.0, 0.0
+    middle = part.origin if part.kind.optics.element == "detector" else part.center
+    left, up = beam.frame @ (beam.at - middle) + moments(beam)[1]
+    return float(left), float(up)
+
+
+def _incidence(beam: Beam, part: Part | None) -> float:
+    if part is None or part.optic.center is None:
+        return 0.0
+    return math.degrees(math.acos(min(1.0, abs(float(beam.along @ np.array(part.optic.normal))))))
+
+
+def troubles(setup: Setup, light: Light) -> tuple[Diagnostic, ...]:
+    """Return a warning for each thing that is wrong with the light."""
+    return tuple(_troubles(setup, light))
+
+
+def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
+    for crossing in light.crossings:
+        name, beam = crossing.component, crossing.beam
+        x, y, z = beam.at.tolist()
+        if not beam.ghost:
+            yield from stray(setup, beam.source, Meeting(name, crossing.event, (x, y, z), beam.length))
+        if crossing.clipped > CLIPPED and crossing.event != "blocked":
+            left, up = _offset(beam, light.parts[name])
+            text = f"{name} stops {100 * crossing.clipped:.2g} % of the beam of {beam.source}, of radius"
+            text = f"{text} {beam.widths[0]:.3g} mm, {_aside(left, up)} of its middle"
+            yield warning("clipped", text, hint="move it into the beam, or take a wider one", address=name)
+    for name in sorted({c.component for c in light.crossings if c.event == "detected"}):
+        yield from _too_strong(light, light.parts[name])
+    lit = {c.component for c in light.crossings if c.event == "detected"}
+    for name, part in sorted(light.parts.items()):
+        if part.kind.optics.element == "detector" and name not in lit and light.crossings and _stands(setup, part):
+            yield warning("dark", f"no light comes to {name}", hint=f"`pico ruler --along-beam SOURCE {name}` "
+                          "says where it ends", address=name)  # fmt: skip
+    for source in light.endless:
+        yield warning("endless", f"the beam of {source} goes round and round, and is not followed to its end",
+                      hint="turn a mirror, or end it in a beam block", address=source)  # fmt: skip
+
+
+def _stands(setup: Setup, part: Part) -> bool:
+    wide, deep = setup.lab.table.size
+    return 0 <= part.pose.x <= wide and 0 <= part.pose.y <= deep
+
+
+def _aside(left: float, up: float) -> str:
+    across = f"{short(abs(left))} mm to the {'left' if left > 0 else 'right'}"
+    return f"{across} and {short(abs(up))} mm {'above' if up > 0 else 'below'}"
+
+
+def _too_strong(light: Light, part: Part) -> Iterator[Diagnostic]:
+    found = exposed(light, part)
+    if found and found.times > 1:
+        text = f"{part.name} is saturated {found.times:.2g} times over{found.at}"
+        yield warning("saturated", text, hint=found.hint, address=part.name)
+
+
+@dataclass(frozen=True)
+class Exposed:
+    """How strong the light on a detector is, in `times` of what it can tell; at which setting; what would be right."""
+
+    times: float
+    at: str
+    hint: str
+
+
+def exposed(light: Light, part: Part) -> Exposed | None:
+    """Return how strong the light on a detector is; None where its type does not say what it can tell.
+
+    A camera's brightest pixel against its full well, a meter's power against `greatest_power`, a photodiode's voltage
+    against `saturation` [V].
+    """
+    arrivals = light.at(part.name)
+    power = sum(a.power for a in arrivals)
+    if (well := part.kind.number("full_well", "")) is not None:
+        exposure = part.value("exposure", "ms", 1.0)
+        times = _brightest(arrivals) * (part.number("pixel_size", "um", 1.0) * 1e-3) ** 2 * exposure
+        times *= electrons(arrivals[0].wavelength, part.number("quantum_efficiency", "", 1.0)) / well
+        least = (part.kind.tunables["exposure"].range or (0.0, 0.0))[0] if "exposure" in part.kind.tunables else 0.0
+        enough = exposure / times if times else exposure
+        hint = f"expose for {enough:.2g} ms, or weaken the beam with a filter"
+        if enough < least:
+            hint = (
+                f"its shortest exposure is {least:g} ms: weaken the beam with a filter, by {least / enough:.2g} or more"
+            )
+        return Exposed(times, f" at {exposure:g} ms", hint)
+    if (greatest := part.kind.number("greatest_power", "mW")) is not None:
+        return Exposed(power / greatest, f" by {power:.3g} mW", "weaken the beam with a filter")
+    if (volts := part.kind.number("saturation", "V")) is not None:
+        gain = 10 ** (_decibel(part.values) / 20)
+        signal = power * 1e-3 * part.number("responsivity", "A/W", 1.0) * part.number("transimpedance", "V/A", 1.0)
+        return Exposed(signal * gain / volts, f" by {power:.3g} mW", "lower its gain, or weaken the beam with a filter")
+    return None
+
+
+def electrons(wavelength: float, efficiency: float) -> float:
+    """Return the photo-electrons of one mW for one ms, at a wavelength [nm]: efficiency / (h c / wavelength)."""
+    planck, light = 6.62607015e-34, 299792458.0
+    return efficiency * 1e-6 * wavelength * 1e-9 / (planck * light)
+
+
+def _brightest(arrivals: tuple[Any, ...]) -> float:
+    """Return the greatest irradiance [mW/mm2], looked for around the brightest beam."""
+    bright = max(arrivals, key=lambda a: a.power / (a.beam.widths[0] * a.beam.widths[1]))
+    (y, z), reach = bright.center, 2 * bright.beam.widths[0]
+    line = np.linspace(-reach, reach, 81)
+    return float(irradiance(arrivals, y + line, z + line).max())
+
+
+def _decibel(values: Mapping[str, Any]) -> float:
+    word = str(values.get("gain", "0 dB")).split()
+    try:
+        return float(word[0])
+    except (ValueError, IndexError):
+        return 0.0

@@ -1,0 +1,46 @@
+"""`pico beam`: a row for each component that a beam comes to, and what is wrong with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from commanding import Pico, edit
+
+
+def test_the_case_study_has_a_row_for_each_part_in_its_beam(shel: Path, pico: Pico) -> None:
+    found = pico("beam", "e1", "--json").data
+    assert found["schema"] == "pico.beam/v1" and found["dark"] == []
+    rows = {row["component"]: row for row in found["rows"]}
+    assert [*rows] == ["hwp", "p1", "lx_125", "p2", "ly_150", "cam"]
+    # a waist of 0.315 mm at the exit, 215 mm before the first lens: w0 sqrt(1 + (z / z_R)^2)
+    assert rows["lx_125"]["radii"] == pytest.approx([0.3437, 0.3437], abs=1e-4)
+    assert rows["p1"]["power"] == pytest.approx(2 * 0.99)
+    assert rows["cam"]["event"] == "detected" and [d["code"] for d in found["diagnostics"]] == ["saturated"]
+    said = pico("beam", "e1")
+    assert "lx_125" in said.out and "cam is saturated" in said.err
+
+
+def test_a_laser_that_is_off_is_followed_and_called_off(shel: Path, pico: Pico) -> None:
+    answer = pico("beam")
+    assert answer.code == 0 and "it is off or shut, and shown as if it shone" in answer.out
+    assert pico("beam", "--json").data["dark"] == ["laser"]
+
+
+def test_what_is_clipped_missed_and_dark_is_told(shel: Path, pico: Pico) -> None:
+    state = shel / "state" / "table.yaml"
+    edit(state, "  p2:\n    pose:\n      x: 520\n      y: 420", "  p2:\n    pose:\n      x: 520\n      y: 430.9")
+    clipped = pico("beam", "--manifest")
+    assert "p2 stops" in clipped.err and "10.9 mm to the right and 0 mm" in clipped.err
+    assert "radius unknown" in clipped.out.lower() or "unknown" in clipped.out
+    edit(state, "y: 430.9", "y: 445")
+    missed = pico("beam", "--manifest")
+    assert "ends on the housing of p2" in missed.err and "no light comes to cam" in missed.err
+
+
+def test_a_picture_and_what_cannot_be(shel: Path, pico: Pico) -> None:
+    assert pico("beam", "e1", "--picture", "e1.png").code == 0
+    assert (shel / "e1.png").read_bytes().startswith(b"\x89PNG")
+    assert "known: `laser`" in pico("beam", "--source", "lx_125").err
+    assert pico("beam", "e1", "--manifest").code == 1
+    assert pico("beam", "nosuch").code == 1
