@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from pico.manifest.checks.elements import own
 from pico.manifest.text.kinds import API, KINDS, METADATA, NAME, PATH_NAME
 from pico.resources import schemas_dir
 
@@ -50,6 +51,8 @@ def _of(record: type) -> dict[str, Any]:
 
     schema = TypeAdapter(record).json_schema(ref_template="#/definitions/{model}")
     result: dict[str, Any] = _draft_07(schema)
+    if "OpticalElement" in result.get("definitions", {}):
+        result["definitions"]["OpticalElement"]["properties"]["element"]["enum"] = list(own())
     return result
 
 

@@ -232,16 +232,13 @@ class Frames:
 
 @record
 class OpticalElement:
-    """What a component does to light; by how much its type's parameters say.
+    """What a component does to light, by the name of an element; by how much its type's parameters say.
 
     `properties`: those parameters once more, as types of the first release have them. They are lifted on load, see
     `lifted`, and nothing reads them but the digest of a lab.
     """
 
-    element: Literal[
-        "source", "lens", "mirror", "polarizer", "waveplate", "beam_splitter", "iris", "filter", "shutter",
-        "detector", "block", "none",
-    ]  # fmt: skip
+    element: str
     properties: Mapping[str, Value] = field(default_factory=dict)
 
 
@@ -332,7 +329,7 @@ def as_first_written(kind: ComponentType) -> ComponentType:
     element, written = kind.optics.element, dict(kind.optics.properties)
     alone = {n for n, p in kind.parameters.items() if p.description == LIFTED and n in written}
     if not written:
-        found = {n: kind.parameters[n] for n in _WRITTEN_TWICE[element] if n in kind.parameters}
+        found = {n: kind.parameters[n] for n in _WRITTEN_TWICE.get(element, ()) if n in kind.parameters}
         written = {n: _plain(parameter) for n, parameter in found.items()}
         alone = {n for n in written if (element, n) in _THERE_ALONE}
     own = {n: p for n, p in kind.parameters.items() if n not in alone}

@@ -15,6 +15,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from pico.manifest.checks.elements import module_of
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.optics.axis import Event, Optic, Ray, Values, first_met, optic_of
@@ -22,7 +23,6 @@ from pico.optics.beam import Beam, forward, moments
 from pico.optics.emission import emit
 from pico.optics.part import Element, Met, Part
 
-FOLDER = "pico.optics.elements"
 FAINT = 1e-10
 """The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
 MOST = 256
@@ -137,7 +137,7 @@ def _field(beam: Beam, part: Part, y: NDArray[np.float64], z: NDArray[np.float64
 @cache
 def element(name: str) -> Element:
     """Return what an element does; raises ModuleNotFoundError where no file bears its name."""
-    return cast(Element, import_module(f"{FOLDER}.{name}"))
+    return cast(Element, import_module(module_of(name)))
 
 
 def light_of(

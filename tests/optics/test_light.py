@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +12,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from light_benches import kind, light
 
+from pico.manifest.catalog import read_type
+from pico.manifest.checks.elements import own
+from pico.manifest.files import decode
+from pico.manifest.text.tree import parse
 from pico.model.pose import Pose
+from pico.optics import elements
 from pico.optics.beam import Beam, forward, moments
 from pico.optics.light import Light, irradiance
+from pico.resources import catalog_dir
 
 LASER = Pose(100, 400)  # its exit at x = 160
 
@@ -207,3 +215,34 @@ def test_what_is_beyond_gaussian_beams_is_said_to_be_unknown() -> None:
     kinds = {"laser": kind("hene_laser", waist_radius=0.005), "p": kind("linear_polarizer"), "cam": kind("beam_camera")}
     (arrival,) = light(kinds, {"laser": LASER, "p": Pose(260, 400, 45), "cam": Pose(400, 400)}).at("cam")
     assert "polarizer" in arrival.beam.unknown
+
+
+def test_a_new_element_is_one_new_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plate that turns polarization by 90 deg, whatever it is."""
+    (tmp_path / "rotator.py").write_text(
+        "import numpy as np\nfrom dataclasses import replace\nfrom pico.optics.part import Met, arrived\n\n\n"
+        "def meet(part, beam):\n    came = arrived(part, beam)\n"
+        "    turned = (replace(w, field=np.cross(beam.along, w.field)) for w in came.waves)\n"
+        "    return Met(came, (replace(came, waves=tuple(turned)),))\n"
+    )
+    monkeypatch.setattr(elements, "__path__", [*elements.__path__, str(tmp_path)])
+    own.cache_clear()
+    try:
+        base = kind("half_wave_plate")
+        rotator = replace(base, optics=replace(base.optics, element="rotator"))
+        found = light({"laser": kind("hene_laser"), "r": rotator, "cam": kind("beam_camera")}, row("r", "cam"))
+        assert found.at("cam")[0].beam.stokes == pytest.approx((1, -1, 0, 0))
+        assert "rotator" in own() and not unknown_elements("rotator")
+    finally:
+        monkeypatch.undo()
+        own.cache_clear()
+    assert unknown_elements("rotator") and unknown_elements("polarizr") == ["did you mean `polarizer`?"]
+
+
+def unknown_elements(name: str) -> list[str]:
+    """What is said of a type of that element."""
+    text = (catalog_dir() / "half_wave_plate.yaml").read_text().replace("element: waveplate", f"element: {name}")
+    source, _ = decode("own.yaml", text.encode())
+    assert source
+    (document,), _ = parse(source)
+    return [d.hint or "" for d in read_type(document)[1] if d.code == "unknown-element"]

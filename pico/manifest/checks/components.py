@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
+from pico.manifest.checks.elements import own
+from pico.manifest.checks.elements import plugged_in as more_elements
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
@@ -32,7 +34,16 @@ def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
         found += _tolerances(document, kind)
     found += _sizes(document, kind)
     found += _primitives(document, kind)
+    found += _element(document, kind.optics.element)
     return found
+
+
+def _element(document: Document, name: str) -> Iterator[Diagnostic]:
+    if name not in own() and name not in more_elements():
+        elements = (*own(), *sorted(more_elements()))
+        hint = did_you_mean(name[:40], elements) or f"known: {', '.join(elements)}; plug-ins bring more"
+        text = f"there is no optical element `{name[:40]}`"
+        yield error("unknown-element", text, hint=hint, source=where(document, "optics", "element"))
 
 
 def _primitives(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:
