@@ -174,7 +174,9 @@ def by_optiland(case: dict[str, Any]) -> list[Any]:
     ones = np.ones(at.shape[1])
     optic.surfaces.trace(RealRays(*at, *along, ones, 0.6328 * ones))
     group = optic.surfaces
-    return np.stack([np.asarray(getattr(group, name))[1:] for name in ("x", "y", "z", "L", "M", "N", "opd")], -1).tolist()
+    return np.stack(
+        [np.asarray(getattr(group, name))[1:] for name in ("x", "y", "z", "L", "M", "N", "opd")], -1
+    ).tolist()
 
 
 def by_finesse(case: dict[str, Any]) -> list[Any]:
@@ -265,7 +267,7 @@ def main() -> None:
         unit = "mm" if name == "optiland" else "of q"
         print(f"against {golden['source']}, golden figures" + (f", and {name} {here} live:" if here else ":"))
         for case in golden["cases"]:
-            line = f"  {case['name']:50} {apart(name, ours(case), case['figures']):.1e} {unit}"
+            line = f"  {case['name']:53} {apart(name, ours(case), case['figures']):.1e} {unit}"
             print(line + (f"   {apart(name, ours(case), ask(case)):.1e} {unit}" if here else ""))
         if not here:
             print(f"  {name} is not installed here, so nothing was compared with the program itself")

@@ -35,6 +35,7 @@ SMALLEST = {
     "motion": "--moves 4 --parts 6",
     "mutants": "--seed 1 --count 4 --rooms policy --tests tests/policy",
     "omissions": "--cases 30",
+    "optics_references": "",
     "pick_and_place": "--moves 1 --sight exact",
     "planning_fuzz": "--cases 5 --most 8",
     "planted_bugs": "--seeds 500 --only start",

@@ -7,7 +7,6 @@ installed. Nothing here imports one.
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,7 +81,9 @@ def _stepped(beam: Beam, step: dict[str, Any]) -> Beam:
         return forward(beam, step["length"])
     if step["kind"] == "lens":
         left, up = beam.frame
-        return thin(beam, beam.at, beam.along, np.outer(left, left) / step["level"] + np.outer(up, up) / step["upright"])
+        return thin(
+            beam, beam.at, beam.along, np.outer(left, left) / step["level"] + np.outer(up, up) / step["upright"]
+        )
     turn = math.radians(step["incidence"])
     normal = math.cos(turn) * beam.along + math.sin(turn) * beam.across
     radius = step["radius_of_curvature"]
