@@ -32,7 +32,7 @@ def behind(jones: Jones, y: Array, z: Array, tilt: float, substrate: Literal["fi
     its s as it was and its p turned along, and out again.
     """
     along = np.stack([np.sqrt(1 - y**2 - z**2), y, z], axis=-1)
-    frame = [np.array(e) - (along + [1.0, 0, 0]) * dot(np.array(e), along) / (1 + along[..., :1])
+    frame = [np.array(e) - (along + np.array([1.0, 0, 0])) * dot(np.array(e), along) / (1 + along[..., :1])
              for e in ([0, 1.0, 0], [0, 0, 1.0])]  # fmt: skip
     field = jones[..., :1] * frame[0] + jones[..., 1:] * frame[1]
     normal = np.array([math.cos(tilt), math.sin(tilt), 0.0])
