@@ -28,6 +28,7 @@ SMALLEST = {
     "eyes": "--scenes 1 --renderer raycast",
     "identical": "",
     "kills": "--kills 50 --applies 1 --git 9",
+    "light": "--repeat 1",
     "links": "--kills 1",
     "locks": "--trials 1",
     "makespan": "--labs shel",

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from pico.optics import gaussian
 from pico.optics.gaussian import Matrix
-from pico.optics.polarization import Field, Vector, carried, joined, plane_of_incidence, split, stokes
+from pico.optics.polarization import Field, Vector, carried, joined, plane_of_incidence, product, split, stokes
 from pico.optics.rays import Rays, Surface, cross, rays
 
 _SAME = 1e-15  # 1/mm: shifts of waves that do not differ
@@ -63,7 +63,7 @@ class Beam:
     @property
     def up(self) -> Vector:
         """The second transverse axis (3,)."""
-        return np.cross(self.along, self.across)
+        return product(self.along, self.across)
 
     @property
     def frame(self) -> NDArray[np.float64]:
@@ -161,8 +161,8 @@ def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: A
     index = beam.index if reflect else surface.after if facing >= 0 else surface.before
     s = plane_of_incidence(beam.along, normal, came.up)
     across = level(along, carried(came.across, beam.along, along, s))
-    axes = np.stack([s, np.cross(normal, s)])
-    before, after = came.frame @ axes.T, np.stack([across, np.cross(along, across)]) @ axes.T
+    axes = np.stack([s, product(normal, s)])
+    before, after = came.frame @ axes.T, np.stack([across, product(along, across)]) @ axes.T
     # a sphere of curvature c has the curvature c along any axis of its tangent plane
     curvature = gaussian.through(
         came.curvature, before, after, (beam.index, index), (facing, float(along @ normal)),
@@ -179,7 +179,7 @@ def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: A
 
 def level(along: Vector, otherwise: Vector) -> Vector:
     """Return the level direction to the left of a beam; where it runs straight up or down, `otherwise`."""
-    across = np.cross(UP, along)
+    across = product(UP, along)
     size = float(np.linalg.norm(across))
     return across / size if size > 1e-6 else otherwise
 

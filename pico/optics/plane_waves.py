@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.optics.beam import Beam, Wave, merged
-from pico.optics.polarization import Vector, fresnel, joined, plane_of_incidence, split
+from pico.optics.polarization import Vector, fresnel, joined, plane_of_incidence, product, split
 
 Substrate = Literal["film", "ar_glass", "glass"]
 HOLDS = (0.03, math.radians(60))
@@ -99,12 +99,12 @@ def _carried(vector: Vector, before: Vector, after: Vector) -> Vector:
 def _passing(along: Vector, normal: Vector, axis: Vector, substrate: Substrate, index: float) -> Vector:
     """Return the direction of the field of a plane wave of which most passes, before the plate."""
     if substrate == "film":
-        passing: Vector = np.cross(along, axis)
+        passing: Vector = product(along, axis)
         return np.asarray(passing / np.linalg.norm(passing))
     cosine = float(along @ normal)
     inside = along / index + (math.sqrt(1 - (1 - cosine**2) / index**2) - cosine / index) * normal
     s = plane_of_incidence(along, normal, _any_across(along))
-    within: Any = np.cross(inside, axis)
+    within: Any = product(inside, axis)
     s_part, p_part = split(within / np.linalg.norm(within), inside, s)
     if substrate == "glass":  # the film's axis, seen back through a face that passes p better than s
         _, _, t_s, t_p = fresnel(1.0, index, cosine)
@@ -114,7 +114,7 @@ def _passing(along: Vector, normal: Vector, axis: Vector, substrate: Substrate, 
 
 
 def _any_across(along: Vector) -> Vector:
-    across: Vector = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
+    across: Vector = product(along, np.eye(3)[int(np.argmin(np.abs(along)))])
     return np.asarray(across / np.linalg.norm(across))
 
 

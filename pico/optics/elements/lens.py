@@ -10,7 +10,7 @@ import numpy as np
 from pico.optics import gaussian
 from pico.optics.beam import Beam, beyond, level, scaled
 from pico.optics.part import Met, Part, arrived, clipped
-from pico.optics.polarization import Vector, carried, joined, plane_of_incidence, split
+from pico.optics.polarization import Vector, carried, joined, plane_of_incidence, product, split
 from pico.optics.rays import Surface
 
 
@@ -73,8 +73,8 @@ def thin(came: Beam, center: Vector, axis: Vector, bends: Vector) -> Beam:
     along = along / np.linalg.norm(along)
     s = plane_of_incidence(came.along, normal, came.up)
     across = level(along, carried(came.across, came.along, along, s))
-    axes = np.stack([s, np.cross(normal, s)])
-    before, after = came.frame @ axes.T, np.stack([across, np.cross(along, across)]) @ axes.T
+    axes = np.stack([s, product(normal, s)])
+    before, after = came.frame @ axes.T, np.stack([across, product(along, across)]) @ axes.T
     flat = np.zeros((2, 2))
     mapped = gaussian.through(came.curvature, before, np.eye(2), (1, 1), (1, 1), flat) - axes @ bends @ axes.T
     curvature = gaussian.through(mapped, np.eye(2), after, (1, 1), (1, 1), flat)

@@ -11,7 +11,7 @@ import numpy as np
 from pico.optics.beam import Beam, scaled
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.plates import plate
-from pico.optics.polarization import Vector
+from pico.optics.polarization import Vector, product
 
 
 def meet(part: Part, beam: Beam) -> Met:
@@ -31,7 +31,7 @@ def retarded(beam: Beam, fast: Vector, phase: float) -> Beam:
     """Return a beam whose field across the fast axis comes later by a phase [rad]: times exp(i phase)."""
     seen = fast - (fast @ beam.along) * beam.along
     seen = seen / np.linalg.norm(seen)
-    slow = np.cross(beam.along, seen)
+    slow = product(beam.along, seen)
     early, late = cmath.exp(-0.5j * phase), cmath.exp(0.5j * phase)
     parts = ((w, w.field @ seen, w.field @ slow) for w in beam.waves)
     return replace(beam, waves=tuple(replace(w, field=early * a * seen + late * b * slow) for w, a, b in parts))
