@@ -121,19 +121,21 @@ def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = No
 def within(beam: Beam, middle: Vector, radius: float) -> float:
     """Return the share of a Gaussian that lies within a circle around `middle` (2,) [mm] from its chief ray.
 
-    Along one principal axis by the error function, along the other by Gauss and Legendre, to 1e-9.
+    Along the longer principal axis by the error function, along the other by Gauss and Legendre, to 1e-9.
     """
     wide, narrow, angle = beam.widths
-    turned = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]]) @ middle
     if radius - float(np.hypot(*middle)) > 4 * wide:
         return 1.0
-    nodes, weights = np.polynomial.legendre.leggauss(96)
-    low, high = max(turned[0] - radius, -3.5 * wide), min(turned[0] + radius, 3.5 * wide)
+    x = math.cos(angle) * middle[0] + math.sin(angle) * middle[1]
+    y = math.cos(angle) * middle[1] - math.sin(angle) * middle[0]
+    low, high = max(y - radius, -3.5 * narrow), min(y + radius, 3.5 * narrow)
     if low >= high:
         return 0.0
-    x = (high + low) / 2 + (high - low) / 2 * nodes
-    half = np.sqrt(np.maximum(radius**2 - (x - turned[0]) ** 2, 0.0))
-    root = math.sqrt(2) / narrow
-    strip = [(math.erf(root * (turned[1] + h)) - math.erf(root * (turned[1] - h))) / 2 for h in half]
-    density = math.sqrt(2 / math.pi) / wide * np.exp(-2 * (x / wide) ** 2)
-    return min(1.0, float((high - low) / 2 * (weights * density * strip).sum()))
+    # over the angle t in y + radius sin t, in which the edge of the circle has no upright ends
+    first, last = (math.asin(max(-1.0, min(1.0, (end - y) / radius))) for end in (low, high))
+    nodes, weights = np.polynomial.legendre.leggauss(96)
+    t = (last + first) / 2 + (last - first) / 2 * nodes
+    half, root = radius * np.cos(t), math.sqrt(2) / wide
+    strip = [(math.erf(root * (x + h)) - math.erf(root * (x - h))) / 2 for h in half]
+    density = math.sqrt(2 / math.pi) / narrow * np.exp(-2 * ((y + radius * np.sin(t)) / narrow) ** 2)
+    return min(1.0, float((last - first) / 2 * (weights * density * strip * half).sum()))
