@@ -1,4 +1,4 @@
-"""Rays against optiland, Gaussian beams against finesse, by golden figures that those programs made; beams against rays.
+"""Rays against optiland, Gaussian beams against finesse, by golden figures that those made; beams against rays.
 
 `benchmarks/optics_references.py` makes the figures, and compares with the programs where they are installed.
 """
@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -73,3 +74,16 @@ def test_curvatures_are_those_of_rays_around_the_chief_one(
     there, turned = ((x[::2] - x[1::2]).T / (2 * step) for x in (places, slopes))
     assert crossed.alive.all()
     assert behind.curvature.real == pytest.approx(turned @ np.linalg.inv(there), abs=1e-8)
+
+
+@pytest.mark.parametrize(("height", "meets"), [(5.0, True), (9.8, True), (10.2, False), (15.0, False)])
+@pytest.mark.parametrize("turned", [1.0, -1.0])
+def test_the_far_half_of_a_sphere_is_no_lens(height: float, meets: bool, turned: float) -> None:
+    """A face of radius 10 mm with its vertex at the origin is the half up to 10 mm above it; a ray that comes nearly
+    across its axis meets the sphere there or above."""
+    face = Surface(np.zeros(3), np.array([0, 0, turned]), turned / 10, before=1.0, after=1.5 if turned > 0 else 1.0)
+    met = cross(face, rays([[-50.0, 0.0, height]], [[1.0, 0.0, 1e-4]]))
+    assert met.alive[0] == meets
+    if meets:
+        x = -math.sqrt(100 - (10 - met.at[0, 2]) ** 2)
+        assert met.at[0] == pytest.approx([x, 0, height + 1e-4 * (50 + x)], abs=1e-9)
