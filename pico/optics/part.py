@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pico.model.catalog import ComponentType
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
 from pico.optics.axis import Event, Optic
-from pico.optics.beam import Beam, forward, scaled
+from pico.optics.beam import Beam, forward, groups_of, scaled
 from pico.optics.polarization import Vector
 from pico.optics.rays import Surface
 
@@ -104,7 +106,7 @@ def arrived(part: Part, beam: Beam, *, at: Vector | None = None, normal: Vector 
 def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = None) -> tuple[Beam, float]:
     """Return a beam behind a round edge of a radius [mm], seen along the beam, and the share that it stops.
 
-    What passes is the Gaussian's part within the edge; where that is less than SPOT of it, its spot is not Gaussian any
+    What passes is its part within the edge; where that is less than SPOT of it, its spot is not Gaussian any
     more and becomes unknown: diffraction would have to tell.
     """
     middle = part.center if center is None else center
@@ -119,23 +121,47 @@ def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = No
 
 
 def within(beam: Beam, middle: Vector, radius: float) -> float:
-    """Return the share of a Gaussian that lies within a circle around `middle` (2,) [mm] from its chief ray.
-
-    Along the longer principal axis by the error function, along the other by Gauss and Legendre, to 1e-9.
-    """
+    """Return the share of a beam's power that lies within a circle around `middle` (2,) [mm] from its chief ray, all
+    its waves counted: by Gauss and Legendre along both principal axes, to 1e-9."""
     wide, narrow, angle = beam.widths
-    if radius - float(np.hypot(*middle)) > 4 * wide:
+    if radius - float(np.hypot(*middle)) > _WINGS * wide:
         return 1.0
-    x = math.cos(angle) * middle[0] + math.sin(angle) * middle[1]
-    y = math.cos(angle) * middle[1] - math.sin(angle) * middle[0]
-    low, high = max(y - radius, -3.5 * narrow), min(y + radius, 3.5 * narrow)
+    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    x, y = turn @ middle
+    low, high = max(y - radius, -_WINGS * narrow), min(y + radius, _WINGS * narrow)
     if low >= high:
         return 0.0
     # over the angle t in y + radius sin t, in which the edge of the circle has no upright ends
     first, last = (math.asin(max(-1.0, min(1.0, (end - y) / radius))) for end in (low, high))
-    nodes, weights = np.polynomial.legendre.leggauss(96)
+    nodes, weights = _legendre()
     t = (last + first) / 2 + (last - first) / 2 * nodes
-    half, root = radius * np.cos(t), math.sqrt(2) / wide
-    strip = [(math.erf(root * (x + h)) - math.erf(root * (x - h))) / 2 for h in half]
-    density = math.sqrt(2 / math.pi) / narrow * np.exp(-2 * ((y + radius * np.sin(t)) / narrow) ** 2)
-    return min(1.0, float((last - first) / 2 * (weights * density * strip * half).sum()))
+    half = radius * np.cos(t)
+    left, right = np.maximum(x - half, -_WINGS * wide), np.minimum(x + half, _WINGS * wide)
+    reach = np.maximum(right - left, 0.0) / 2
+    at = np.stack(np.broadcast_arrays(((left + right) / 2)[:, None] + reach[:, None] * nodes,
+                                      (y + radius * np.sin(t))[:, None]))  # fmt: skip
+    strip = reach * (_irradiance(beam, np.tensordot(turn.T, at, 1)) @ weights)
+    return min(1.0, float((last - first) / 2 * (weights * strip * half).sum()) / beam.power)
+
+
+_WINGS = 4.0
+"""Radii of a Gaussian beyond which there is nothing, to 1e-13 of it."""
+
+
+@cache
+def _legendre() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    nodes, weights = np.polynomial.legendre.leggauss(96)
+    return nodes, weights
+
+
+def _irradiance(beam: Beam, at: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the irradiance [mW/mm2] at points (2, ...) [mm] of its transverse plane."""
+    k, shape = beam.wave_number, np.imag(beam.curvature)
+    found = np.zeros(at.shape[1:])
+    for group in groups_of(beam):
+        mine = (w for w in beam.waves if w.group == group)
+        field = sum(np.multiply.outer(w.field, np.exp(1j * k * np.tensordot(w.shift, at, 1))) for w in mine)
+        found += (np.abs(field) ** 2).sum(axis=0)
+    spot = np.exp(-k * np.einsum("i...,ij,j...", at, shape, at))
+    whole: NDArray[np.float64] = k * math.sqrt(np.linalg.det(shape)) / math.pi * spot * found
+    return whole

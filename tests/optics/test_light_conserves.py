@@ -11,6 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from light_benches import kind, light
 from numpy.typing import NDArray
+from test_spin_hall import bench
 
 from pico.model.pose import Pose
 from pico.optics.beam import Beam, Wave, beyond, forward
@@ -222,3 +223,16 @@ def test_what_lies_within_a_circle(narrow: float, angle: float, radius: float, o
     density = np.exp(-2 * (shape[0, 0] * x**2 + 2 * shape[0, 1] * x * y + shape[1, 1] * y**2))
     wanted = float((weights * r) @ density.sum(axis=1)) * 2 * radius / (number * narrow)
     assert within(beam, middle, radius) == pytest.approx(wanted, abs=1e-9)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.2, 3.0])
+def test_what_lies_within_a_circle_of_a_spot_of_two_lobes(angle: float) -> None:
+    """Polarizers crossed, or nearly: the middle of the spot is dark. Against the sum over its picture."""
+    (arrival,) = bench(125.0, 150.0, 30.0, angle=angle).at("cam")
+    line = np.linspace(-4, 4, 1601)
+    picture, square = arrival.irradiance(line, line), line[:, None] ** 2
+    for radius, y in ((0.4, 0.0), (0.8, 0.0), (0.6, 0.7), (1.5, -0.3)):
+        inside = square + (line[None, :] - y) ** 2 <= radius**2
+        wanted = float(picture[inside].sum() / picture.sum())
+        assert within(arrival.beam, np.array([y, 0.0]), radius) == pytest.approx(wanted, abs=5e-4)
+    assert (within(arrival.beam, np.zeros(2), 0.4) < 0.1) == (angle == 0.0)
