@@ -150,7 +150,7 @@ _WINGS = 4.0
 
 @cache
 def _legendre() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    nodes, weights = np.polynomial.legendre.leggauss(96)
+    nodes, weights = np.polynomial.legendre.leggauss(64)
     return nodes, weights
 
 
