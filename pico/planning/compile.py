@@ -15,6 +15,7 @@ from pico.model.record import as_json
 from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
+from pico.planning.checks.clearance import beams_in_the_way
 from pico.planning.checks.interlocks import lets_light_out, policy_rules, unguarded, with_interlocks
 from pico.planning.checks.target import Source, check_target, no_source
 from pico.planning.checks.tethers import check_tethers
@@ -95,6 +96,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         done = done_by(operations)
         own = {(c.component, c.tunable) for c in changes if request.only.chosen(c.component, c.tunable)} | done
         changes = tuple(c for c in changes if (c.component, c.tunable) in own)
+    if operations:
+        diagnostics = (*diagnostics, *beams_in_the_way(setup, request.seen, request.wanted, changes, request.source))
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,
