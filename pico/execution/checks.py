@@ -68,7 +68,7 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
 
 def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
     own = sorted(a.partition(".")[2] for a in able.measurables if a.partition(".")[0] == op.component)
-    blind = "no camera over the bench sees it" if op.address.endswith(".pose") else "light is not simulated yet"
+    blind = "no camera over the bench sees it" if op.address.endswith(".pose") else "the simulator has nothing that measures it"
     why = blind if able.simulated else f"{able.name} has nothing that measures it"
     hint = f"of {op.component} it measures: {', '.join(own)}" if own else ""
     return error("unmeasured", f"{op.address} can't be measured: {why}", hint=hint, address=op.address)

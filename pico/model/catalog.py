@@ -312,6 +312,15 @@ _THERE_ALONE = {
     ("block", "diameter"),
     ("none", "clear_diameter"),
 }
+_SINCE: Mapping[tuple[str, str], Value] = {
+    ("polarizer", "substrate"): "film",
+    ("polarizer", "refractive_index"): 1.5,
+    ("polarizer", "thickness"): 2,
+    ("detector", "filter_density"): 1,
+    ("detector", "black_level"): 64,
+    ("detector", "dark_current"): 1,
+}
+"""What types of the catalog say since light is simulated, of parts that are the same as before."""
 _SCALES = {"nW": 1e-6}  # to mW
 
 
@@ -332,8 +341,9 @@ def as_first_written(kind: ComponentType) -> ComponentType:
         found = {n: kind.parameters[n] for n in _WRITTEN_TWICE.get(element, ()) if n in kind.parameters}
         written = {n: _plain(parameter) for n, parameter in found.items()}
         alone = {n for n in written if (element, n) in _THERE_ALONE}
-    own = {n: p for n, p in kind.parameters.items() if n not in alone}
-    return replace(kind, parameters=own, optics=replace(kind.optics, properties=written))
+    own = {n: p for n, p in kind.parameters.items() if n not in alone and _SINCE.get((element, n)) != p.value}
+    measured = {n: m for n, m in kind.measurables.items() if m.kernel is None}  # the rest is computed
+    return replace(kind, parameters=own, measurables=measured, optics=replace(kind.optics, properties=written))
 
 
 def _plain(parameter: Parameter) -> Value:

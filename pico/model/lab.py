@@ -298,14 +298,43 @@ class BadLight:
 
 
 @record
+class SensorErrors:
+    """What is wrong with the sensors of simulated beam cameras. `non_uniformity`: how pixels respond, one standard
+    deviation; `hot_pixels`: the share of them that fill by themselves; `fringes`: of the cover glass, their amplitude;
+    `flicker`: of the light from frame to frame, one standard deviation. Cameras have about 0.01, 1e-5, 0.03, 0.01."""
+
+    non_uniformity: float = 0.0
+    hot_pixels: float = 0.0
+    fringes: float = 0.0
+    flicker: float = 0.0
+
+
+@record
+class Environment:
+    """What the simulated world does by itself, by the bench's clock, and nobody who plans or looks knows.
+
+    `temperature`: how far it drifts about its mean [degC], one standard deviation over a day. `pointing`: how far the
+    beam of a laser walks each way over hours [mrad]; `warm_up`: from where it comes to its way while it warms up [mrad],
+    in a quarter of an hour from when the bench was new; `power`: by which share of it the power walks. `vibration`: how
+    far mirrors move along their normal [nm], one standard deviation at 10 to 100 Hz.
+    """
+
+    temperature: float = 0.3
+    pointing: float = 0.003
+    warm_up: float = 0.02
+    power: float = 0.005
+    vibration: float = 5.0
+
+
+@record
 class SimErrors:
     """What is wrong with the simulated cameras, markers and arms, and not known to what looks through them.
 
     Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
     random axis, and its focal length is wrong by the share `focal_length`, up or down. `marker_height`: sigma by which
     a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
-    `noise`: factor on the sensors' noise. `arm`: what is wrong with arms, `light`: with the light; nothing where they
-    are left out.
+    `noise`: factor on the sensors' noise. `arm`: what is wrong with arms, `light`: with the light, `sensor`: with the
+    sensors of beam cameras; nothing where they are left out.
     """
 
     camera_position: Length = 0.0
@@ -316,6 +345,7 @@ class SimErrors:
     noise: float = 1.0
     arm: ArmErrors | None = None
     light: BadLight | None = None
+    sensor: SensorErrors | None = None
 
 
 @record
@@ -326,7 +356,8 @@ class SimSettings:
     truth (but where the table is looked at by sight), the pictures of the eye in the hand, or nothing; with `pixels` a
     physical run knows only what its cameras saw, of the table, too. `faults`: what goes wrong how often, as
     a share of the operations that it can befall: `drop`, `slip`, `jam`, `camera`, `timeout`, `reading`, `slow`, `all`.
-    `observe`: how the table is looked at, exactly or through the cameras."""
+    `observe`: how the table is looked at, exactly or through the cameras. `environment`: what the world does by itself,
+    as worlds do where it is left out; `none`: nothing."""
 
     fidelity: Literal["kinematic", "physics"] = "kinematic"
     seed: int = 1
@@ -335,6 +366,7 @@ class SimSettings:
     errors: SimErrors = SimErrors()
     sight: Literal["exact", "pixels", "none"] = "exact"
     observe: Literal["exact", "sight"] = "exact"
+    environment: Environment | Literal["none"] | None = None
     faults: Mapping[Literal["drop", "slip", "jam", "camera", "timeout", "reading", "slow", "all"], float] = field(
         default_factory=dict
     )

@@ -136,7 +136,7 @@ def _aside(left: float, up: float) -> str:
 def _too_strong(light: Light, part: Part) -> Iterator[Diagnostic]:
     found = exposed(light, part)
     if found and found.times > 1:
-        text = f"{part.name} is saturated {found.times:.2g} times over{found.at}"
+        text = f"{part.name} is saturated {_two(found.times)} times over{found.at}"
         yield warning("saturated", text, hint=found.hint, address=part.name)
 
 
@@ -160,22 +160,32 @@ def exposed(light: Light, part: Part) -> Exposed | None:
     if (well := part.kind.number("full_well", "")) is not None:
         exposure = part.value("exposure", "ms", 1.0)
         times = _brightest(arrivals) * (part.number("pixel_size", "um", 1.0) * 1e-3) ** 2 * exposure
-        times *= electrons(arrivals[0].wavelength, part.number("quantum_efficiency", "", 1.0)) / well
+        times *= electrons(arrivals[0].wavelength, efficiency(part)) / well
         least = (part.kind.tunables["exposure"].range or (0.0, 0.0))[0] if "exposure" in part.kind.tunables else 0.0
         enough = exposure / times if times else exposure
-        hint = f"expose for {enough:.2g} ms, or weaken the beam with a filter"
+        hint = f"expose for {_two(enough)} ms, or weaken the beam with a filter"
         if enough < least:
             hint = (
-                f"its shortest exposure is {least:g} ms: weaken the beam with a filter, by {least / enough:.2g} or more"
+                f"its shortest exposure is {least:g} ms: weaken the beam with a filter, by {_two(least / enough)} or more"
             )
         return Exposed(times, f" at {exposure:g} ms", hint)
     if (greatest := part.kind.number("greatest_power", "mW")) is not None:
         return Exposed(power / greatest, f" by {power:.3g} mW", "weaken the beam with a filter")
     if (volts := part.kind.number("saturation", "V")) is not None:
-        gain = 10 ** (_decibel(part.values) / 20)
+        gain = 10 ** (decibel(part.values) / 20)
         signal = power * 1e-3 * part.number("responsivity", "A/W", 1.0) * part.number("transimpedance", "V/A", 1.0)
         return Exposed(signal * gain / volts, f" by {power:.3g} mW", "lower its gain, or weaken the beam with a filter")
     return None
+
+
+def _two(number: float) -> str:
+    """Return a number with two digits that count, never as a power of ten."""
+    return f"{float(f'{number:.2g}'):.10g}"
+
+
+def efficiency(part: Part) -> float:
+    """Return how many photo-electrons a detector gives for a photon, its filter included."""
+    return part.number("quantum_efficiency", "", 1.0) * 10 ** -part.number("filter_density", "", 0.0)
 
 
 def electrons(wavelength: float, efficiency: float) -> float:
@@ -192,7 +202,7 @@ def _brightest(arrivals: tuple[Any, ...]) -> float:
     return float(irradiance(arrivals, y + line, z + line).max())
 
 
-def _decibel(values: Mapping[str, Any]) -> float:
+def decibel(values: Mapping[str, Any]) -> float:
     word = str(values.get("gain", "0 dB")).split()
     try:
         return float(word[0])

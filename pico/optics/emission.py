@@ -14,14 +14,23 @@ from pico.optics.part import Part
 def emit(part: Part) -> Beam:
     """Return the beam at the exit: from the parameters `wavelength`, `power`, `waist_radius`, `waist_position` (of the
     waist, ahead of the exit), `quality` (M2), `polarization`, `polarization_ratio`, of which a tunable of the same name
-    wins. What is polarized across does not interfere with the rest."""
+    wins. Its way may be turned by `walk_left` and `walk_up` [mrad], and
+    its power be another by the share `walk_power`: what the world does, and no tunable of a type. What is
+    polarized across does not interfere with the rest."""
     wavelength = part.value("wavelength", "nm", part.number("wavelength", "nm", 632.8)) * 1e-6
-    power = part.value("power", "mW", part.number("power", "mW", 1.0))
+    power = part.value("power", "mW", part.number("power", "mW", 1.0)) * (1 + part.values.get("walk_power", 0.0))
     waist, quality = part.number("waist_radius", "mm", 0.5), part.number("quality", "", 1.0)
     angle = math.radians(part.number("polarization", "deg", 0.0))
     across = part.number("polarization_ratio", "", math.inf)
     weak = 0.0 if math.isinf(across) else power / (1 + across)
     along, left, up = part.axes
+    walked = [float(part.values.get(name, 0.0)) * 1e-3 for name in ("walk_left", "walk_up")]
+    if any(walked):
+        along = along + walked[0] * left + walked[1] * up
+        along /= np.linalg.norm(along)
+        left = np.cross(up, along)
+        left /= np.linalg.norm(left)
+        up = np.cross(along, left)
     fields = [
         math.sqrt(power - weak) * (math.cos(angle) * left + math.sin(angle) * up),
         math.sqrt(weak) * (math.cos(angle) * up - math.sin(angle) * left),

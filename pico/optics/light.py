@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from pico.manifest.checks.elements import module_of
 from pico.model.lab import Setup
@@ -21,6 +21,8 @@ from pico.model.pose import Pose
 from pico.optics.axis import Event, Optic, Ray, Values, first_met, optic_of
 from pico.optics.beam import Beam, forward, moments
 from pico.optics.emission import emit
+from pico.optics.irradiance import Screen
+from pico.optics.irradiance import irradiance as projected
 from pico.optics.part import Element, Met, Part
 
 FAINT = 1e-10
@@ -89,49 +91,19 @@ class Arrival:
         ahead = self.beam.at - self.part.origin + moments(self.beam)[1] @ self.beam.frame
         return float(ahead @ left), float(ahead @ up)
 
-    def field(self, y: NDArray[np.float64], z: NDArray[np.float64]) -> dict[int, NDArray[np.complex128]]:
-        """Return the field (len(z), len(y), 3) [sqrt(mW)/mm] of each group that may interfere, its phase included."""
-        return _field(self.beam, self.part, y, z)
-
-    def irradiance(self, y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+    def irradiance(self, y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.floating]:
         """Return the irradiance (len(z), len(y)) [mW/mm2] of this beam alone."""
         return irradiance((self,), y, z)
 
 
-def irradiance(arrivals: tuple[Arrival, ...], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+def irradiance(
+    arrivals: tuple[Arrival, ...], y: NDArray[np.float64], z: NDArray[np.float64], dtype: DTypeLike = np.float64
+) -> NDArray[np.floating]:
     """Return the irradiance (len(z), len(y)) [mW/mm2] of beams on one detector; those of one source interfere."""
-    total = np.zeros((len(z), len(y)))
-    found: dict[tuple[str, int], NDArray[np.complex128]] = {}
-    for arrival in arrivals:
-        for group, field in arrival.field(y, z).items():
-            key = arrival.beam.source, group
-            found[key] = found[key] + field if key in found else field
-    for field in found.values():
-        total += (field.real**2 + field.imag**2).sum(axis=2)
-    return total
-
-
-def _field(beam: Beam, part: Part, y: NDArray[np.float64], z: NDArray[np.float64]) -> dict[int, NDArray[np.complex128]]:
-    _, left, up = part.axes
-    frame, k = beam.frame, beam.wave_number
-    start = part.origin - beam.at
-    # r = a0 + y a1 + z a2 in the beam's frame, and how far on along it, both linear in y and z
-    a0, a1, a2 = frame @ start, frame @ left, frame @ up
-    d0, d1, d2 = (float(v @ beam.along) for v in (start, left, up))
-    rows, columns = z[:, None], y[None, :]
-    first, second = (a0[n] + columns * a1[n] + rows * a2[n] for n in (0, 1))
-    m = beam.curvature
-    shape = 0.5j * k * (m[0, 0] * first**2 + 2 * m[0, 1] * first * second + m[1, 1] * second**2)
-    true = 2 * np.pi * beam.index / beam.wavelength
-    shape = shape + 1j * true * (d0 + columns * d1 + rows * d2)
-    size = np.sqrt(k * np.sqrt(np.linalg.det(np.imag(m))) / np.pi * abs(float(beam.along @ part.axes[0])))
-    size = size * np.exp(2j * np.pi * (beam.path % beam.wavelength) / beam.wavelength)
-    found: dict[int, NDArray[np.complex128]] = {}
-    for wave in beam.waves:
-        scalar = size * np.exp(shape + 1j * k * (wave.shift[0] * first + wave.shift[1] * second))
-        field = scalar[:, :, None] * wave.field
-        found[wave.group] = found[wave.group] + field if wave.group in found else field
-    return found
+    if not arrivals:
+        return np.zeros((len(z), len(y)), dtype=dtype)
+    part = arrivals[0].part
+    return projected([a.beam for a in arrivals], Screen(part.origin, *part.axes), y, z, dtype)
 
 
 @cache

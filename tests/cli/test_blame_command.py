@@ -26,7 +26,7 @@ def test_the_example_is_blamed_as_its_history_was_written(shel: Path, pico: Pico
     }  # fmt: skip
     assert lines(answer.out)["p1.angle"][:2] == ["1", "deg"]
     assert "tilt of p2" in answer.out
-    assert "15 tunables of 9 components at e3." in answer.out
+    assert "19 tunables of 9 components at e3." in answer.out
     assert all(len(line) <= 100 for line in answer.out.splitlines())
 
 

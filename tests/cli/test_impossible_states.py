@@ -12,9 +12,9 @@ from test_stopping_commands import started
 
 P2 = "  p2:\n    pose:\n      x: 520"
 WRONG = {
-    "off the table": (P2, P2.replace("520", "5200"), "p2 cannot stand at (5200, 420, 0°)", "state/table.yaml:40:10"),
-    "over the edge": (P2, P2.replace("520", "5"), "stick out 25 mm over the table's edge", "state/table.yaml:40:10"),
-    "two parts": (P2, P2.replace("520", "300"), "p1 cannot stand at (290, 420, 0°)", "state/table.yaml:34:10"),
+    "off the table": (P2, P2.replace("520", "5200"), "p2 cannot stand at (5200, 420, 0°)", "state/table.yaml:44:10"),
+    "over the edge": (P2, P2.replace("520", "5"), "stick out 25 mm over the table's edge", "state/table.yaml:44:10"),
+    "two parts": (P2, P2.replace("520", "300"), "p1 cannot stand at (290, 420, 0°)", "state/table.yaml:38:10"),
     "a bolted part": (P2, P2.replace("520", "222"), "it would overlap hwp", "state/table.yaml:"),
 }
 

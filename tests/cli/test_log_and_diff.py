@@ -36,7 +36,7 @@ def commit(message: str, *edits: tuple[str, str], path: str = "state/table.yaml"
         (["--all", "--since", "2026-01-05T18:30Z", "--author", "PICO"], ["E3-2"]),
         (["e1^!"], ["E1-3"]),
         (["--all", "--", "p1.angle"], ["E3-2", "E2-3", "E1-3", "C1"]),
-        (["e1", "--", "ly_150"], ["E1-2"]),
+        (["e1", "--", "ly_150"], ["E1-2", "C1"]),
         (["--graph", "--", "lx_100"], ["E2-1"]),
         (["e1", "--", "state/table.yaml"], ["E1-3", "E1-2", "E1-1", "C3", "C2", "C1"]),
         (["--merges"], []),

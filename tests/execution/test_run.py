@@ -59,13 +59,13 @@ def test_a_plan_with_errors_is_refused_as_impossible(bench: LocalEdge) -> None:
 def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench: LocalEdge) -> None:
     def ask(planned: Plan) -> Plan:
         first, second, third, *rest = planned.operations
-        dark = replace(third, primitive="measure", component="cam", arguments={"measurable": "image"})
+        dark = replace(third, primitive="measure", component="cam", arguments={"measurable": "spectrum"})
         wrong = (replace(first, robot="arm2"), replace(second, primitive="scan"), dark)
         return replace(planned, operations=(*wrong, *rest))
 
     found = refusal(bench, replanned(bench, C3, ask))
     assert [d.code for d in found.diagnostics] == ["capability", "unmeasured", "capability"]
-    assert "cannot scan" in str(found) and "cam.image can't be measured: light is not simulated yet" in str(found)
+    assert "cannot scan" in str(found) and "cam.spectrum can't be measured: the simulator has nothing that measures it" in str(found)
     assert "arm2" in str(found)
 
 

@@ -150,8 +150,8 @@ def refused(operation: Operation) -> MoveFailed:
 
 def not_simulated(component: str, what: str) -> Diagnostic:
     """Return why nothing can be measured."""
-    text = f"{what} of {component} is not simulated yet: light is not traced"
-    hint = "poses, set-points and the frames of the cameras over the bench are"
+    text = f"{what} of {component} is not simulated"
+    hint = "poses, set-points, frames of cameras and powers are, and what kernels make of them"
     return error("not-simulated", text, hint=hint, address=component)
 
 

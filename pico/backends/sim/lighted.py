@@ -1,0 +1,41 @@
+"""The light on the simulated table as it truly is: where parts really stand, with what the world does by itself."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pico.backends.sim.readings import Table
+from pico.model.lab import Setup
+
+if TYPE_CHECKING:
+    from pico.optics.light import Light
+
+LAMP = "illumination"
+"""The tunable of what lights the room."""
+
+
+def detects(setup: Setup, component: str, measurable: str, what: str) -> bool:
+    """Return whether a measurable of that name belongs to a detector of the inventory."""
+    inside = component in setup.lab.inventory and measurable == what
+    return inside and setup.type_of(component).optics.element == "detector"
+
+
+def light_on(table: Table) -> Light:
+    """Return the light on the table now."""
+    from pico.optics.environment import in_the_world
+    from pico.optics.light import light_of
+
+    world = table.world
+    standing = {n: b for n, b in world.components.items() if n in table.setup.lab.inventory and b.presence == "seen"}
+    poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
+    values = {n: {t: v.value for t, v in b.values.items() if v.value is not None} for n, b in standing.items()}
+    return light_of(table.setup, *in_the_world(table.setup, poses, values, world.seed, world.clock))
+
+
+def room_light(table: Table) -> float:
+    """Return the light of the room's lamps on a bare sensor [nW/mm2]: of those that are on."""
+    return sum(
+        table.setup.type_of(name).number("stray_irradiance", "nW/mm2") or 0.0
+        for name, body in table.world.components.items()
+        if name in table.setup.lab.inventory and LAMP in body.values and body.values[LAMP].value in (True, "on")
+    )

@@ -1,0 +1,46 @@
+"""A frame of a beam camera: the light on its sensor, in counts, row 0 at the top."""
+
+from __future__ import annotations
+
+from pico.backends.attempt import Failed
+from pico.backends.sim.lighted import detects, light_on, room_light
+from pico.backends.sim.readings import Reading, Table
+from pico.diagnostics import error
+from pico.model.lab import Setup
+
+
+def measures(setup: Setup, component: str, measurable: str) -> bool:
+    """Whether it is the image of a camera whose type says what its sensor is."""
+    found = detects(setup, component, measurable, "image")
+    return found and setup.type_of(component).number("pixel_size", "um") is not None
+
+
+def read(table: Table, component: str, measurable: str) -> Reading:
+    """Return the frame, with its brightest pixel (`peak`) and its `mean` [counts]."""
+    from pico.optics.beam_table import decibel
+    from pico.optics.instruments import camera_frame, sensor_of
+
+    light = light_on(table)
+    arrivals, part = light.at(component), light.parts.get(component)
+    if part is None:
+        raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    unknown = next((a.beam.unknown for a in arrivals if a.beam.unknown), "")
+    if unknown:
+        text = f"what {component} would see is not known: {unknown}"
+        raise Failed(error("unknown-light", text, hint="`pico beam` shows where", address=component))
+    counts = camera_frame(
+        arrivals, part, stray=room_light(table), errors=table.setup.lab.sim.errors.sensor, seed=table.world.seed,
+        number=round(table.world.clock * 1000),
+    )  # fmt: skip
+    sensor, full = sensor_of(part), int((counts >= sensor_of(part).full_scale).sum())
+    gain = decibel(part.values)
+    return Reading(
+        {"peak": float(counts.max()), "mean": float(counts.mean())},
+        counts,
+        settings={
+            "exposure": part.value("exposure", "ms", 1.0), "gain": gain, "pixel_size": sensor.pitch,
+            "full_scale": sensor.full_scale, "black_level": sensor.black, "read_noise": sensor.read_noise,
+            "electrons_per_count": sensor.electrons_per_count(gain),
+        },
+        saturated=f"{full} of {counts.size} pixels read {sensor.full_scale}" if full else "",
+    )  # fmt: skip

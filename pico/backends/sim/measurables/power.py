@@ -1,0 +1,29 @@
+"""What a power meter reads [mW], and a photodiode behind its amplifier [V]."""
+
+from __future__ import annotations
+
+from pico.backends.attempt import Failed
+from pico.backends.sim.lighted import detects, light_on
+from pico.backends.sim.readings import Reading, Table
+from pico.diagnostics import error
+from pico.model.lab import Setup
+
+
+def measures(setup: Setup, component: str, measurable: str) -> bool:
+    """Whether it is the power or the voltage of a detector."""
+    return any(detects(setup, component, measurable, what) for what in ("power", "voltage"))
+
+
+def read(table: Table, component: str, measurable: str) -> Reading:
+    """Return the reading with its standard deviation."""
+    from pico.optics.instruments import power_reading
+
+    light = light_on(table)
+    part = light.parts.get(component)
+    if part is None:
+        raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    found = power_reading(
+        light.at(component), part, seed=table.world.seed, number=round(table.world.clock * 1000)
+    )  # fmt: skip
+    said = f"{found.value:g} is all that it can tell" if found.saturated else ""
+    return Reading(found.value, sigma=found.sigma, saturated=said)

@@ -1,0 +1,86 @@
+"""What instruments make of the light that arrives: a camera a frame, a power meter and a photodiode a reading."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from pico.model.lab import SensorErrors
+from pico.optics.beam_table import decibel, efficiency, electrons
+from pico.optics.light import Arrival, irradiance
+from pico.optics.part import Part
+from pico.optics.sensor import Counts, Electrons, Sensor, frame
+
+ROOM = 550.0
+"""Wavelength at which light of the room counts [nm]."""
+
+
+def sensor_of(part: Part) -> Sensor:
+    """Return the sensor of a camera, by its type."""
+    return Sensor(
+        size=(round(part.number("pixels_across", "pixel", 0)), round(part.number("pixels_up", "pixel", 0))),
+        pitch=part.number("pixel_size", "um", 1.0), bits=round(part.number("bit_depth", "bit", 12)),
+        full_well=part.number("full_well", "", 1e4), read_noise=part.number("read_noise", "", 0.0),
+        dark_current=part.number("dark_current", "", 0.0), black=part.number("black_level", "count", 0.0),
+        name=part.name,
+    )  # fmt: skip
+
+
+def electrons_of(arrivals: Iterable[Arrival], part: Part, stray: float = 0.0) -> Electrons:
+    """Return the mean photo-electrons (up, across) of a camera in one exposure; `stray`: light of the room on its
+    sensor [nW/mm2]."""
+    sensor, exposure = sensor_of(part), part.value("exposure", "ms", 1.0)
+    per_power = (sensor.pitch * 1e-3) ** 2 * exposure
+    room = stray * 1e-6 * per_power * electrons(ROOM, efficiency(part))
+    total = np.full((sensor.size[1], sensor.size[0]), room, dtype=np.float32)
+    for wavelength, found in groupby(sorted(arrivals, key=lambda a: a.wavelength), key=lambda a: a.wavelength):
+        light = irradiance(tuple(found), sensor.y, sensor.z, np.float32)
+        light *= np.float32(per_power * electrons(wavelength, efficiency(part)))
+        total += light
+    return total
+
+
+def camera_frame(
+    arrivals: Iterable[Arrival], part: Part, *, stray: float = 0.0, errors: SensorErrors | None = None, seed: int = 1,
+    number: int = 0,
+) -> Counts:  # fmt: skip
+    """Return the frame (up, across) of a camera, row 0 at the top; see `pico.optics.sensor.frame`."""
+    mean = electrons_of(arrivals, part, stray)
+    return frame(
+        sensor_of(part), lambda first, last: mean[first:last], exposure=part.value("exposure", "ms", 1.0),
+        gain=decibel(part.values), errors=errors, seed=seed, number=number,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Power:
+    """A reading [mW or V], its standard deviation, and whether it was more than the instrument can tell."""
+
+    value: float
+    sigma: float
+    saturated: bool = False
+
+
+def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, number: int = 0) -> Power:
+    """Return what a power meter reads [mW], or a photodiode behind its amplifier [V].
+
+    A meter has the relative standard deviation `uncertainty` (k = 2 halved), the same for all its readings, and noise of
+    a thousandth of `least_power` besides `least_power` itself, below which it reads nothing surely.
+    """
+    power = sum(a.power for a in arrivals)
+    own = np.random.default_rng([seed, *part.name.encode()]).standard_normal()
+    noise = np.random.default_rng([seed, number, *part.name.encode()]).standard_normal()
+    volts = part.kind.number("saturation", "V")
+    if volts is not None:
+        gain = part.number("transimpedance", "V/A", 1.0) * 10 ** (decibel(part.values) / 20)
+        dark = part.number("noise", "V", 1e-4)
+        signal = power * 1e-3 * part.number("responsivity", "A/W", 1.0) * gain + dark * noise
+        return Power(min(signal, volts), dark, signal >= volts)
+    least, greatest = part.number("least_power", "mW", 0.0), part.number("greatest_power", "mW", math.inf)
+    share = part.number("uncertainty", "", 0.0) / 2
+    read = power * (1 + share * own) + least * noise
+    return Power(min(read, greatest), math.hypot(share * power, least), read >= greatest)

@@ -1,0 +1,140 @@
+"""What beams make on a detector, pixel by pixel: where those of one source meet they interfere.
+
+The field of each wave is exp of a polynomial of second order in the detector's coordinates y and z, so the product of
+two is as well. But for its term in y z that is a column times a row, so a picture of millions of pixels is a sum of
+outer products, and costs as much as one exponential a pixel only where a beam is turned or skew.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from pico.optics.beam import Beam, Wave
+
+Axis = NDArray[np.float64]
+_DARK = 45.0
+"""Where the logarithm of the irradiance is this much below its greatest, nothing is there."""
+_FLAT = 1e-5
+"""A term in y z that stays below this changes nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Screen:
+    """The plane that light falls on: its `origin`, and its axes `left` (y), `up` (z) and `along` its normal, (3,)."""
+
+    origin: NDArray[np.float64]
+    along: NDArray[np.float64]
+    left: NDArray[np.float64]
+    up: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class _Gauss:
+    """A beam on a screen without what tells its waves apart: the polynomial c + l . r + r' q r / 2, r = (y, z), and the
+    beam's transverse coordinates there, offset + turn r. `size`: the amplitude of a wave whose field is 1 [1/mm]."""
+
+    c: complex
+    l: NDArray[np.complex128]  # noqa: E741: the name of the term
+    q: NDArray[np.complex128]
+    offset: NDArray[np.float64]
+    turn: NDArray[np.float64]
+    size: float
+
+
+def irradiance(
+    beams: Sequence[Beam], screen: Screen, y: Axis, z: Axis, dtype: DTypeLike = np.float64
+) -> NDArray[np.floating]:
+    """Return the irradiance (len(z), len(y)) [mW/mm2] of beams at the points of a screen, y and z each in order [mm].
+
+    Waves of one source and group interfere; all else adds up.
+    """
+    total = np.zeros((len(z), len(y)), dtype=dtype)
+    shapes = [_gauss(beam, screen) for beam in beams]
+    for n, one in enumerate(beams):
+        for m in range(n + 1):
+            pairs = list(_pairs(one, beams[m]))
+            if pairs:
+                _add(total, (one, beams[m]), (shapes[n], shapes[m]), pairs, y, z)
+    return np.maximum(total, 0.0, out=total)
+
+
+def _gauss(beam: Beam, screen: Screen) -> _Gauss:
+    k, true = beam.wave_number, 2 * math.pi * beam.index / beam.wavelength
+    start = screen.origin - beam.at
+    offset, turn = beam.frame @ start, beam.frame @ np.stack([screen.left, screen.up], axis=1)
+    ahead = np.array([screen.left @ beam.along, screen.up @ beam.along])
+    m = 1j * k * beam.curvature
+    phase = 2 * math.pi * (beam.path % beam.wavelength) / beam.wavelength + true * float(start @ beam.along)
+    size = math.sqrt(k * math.sqrt(float(np.linalg.det(beam.curvature.imag))) / math.pi)
+    return _Gauss(
+        c=0.5 * offset @ m @ offset + 1j * phase, l=turn.T @ m @ offset + 1j * true * ahead, q=turn.T @ m @ turn,
+        offset=offset, turn=turn, size=size * math.sqrt(abs(float(beam.along @ screen.along))),
+    )  # fmt: skip
+
+
+def _pairs(one: Beam, other: Beam) -> Iterator[tuple[Wave, Wave]]:
+    """Yield the waves that interfere, those of one beam each pair once."""
+    if one.source != other.source:
+        return
+    for n, a in enumerate(one.waves):
+        for m, b in enumerate(other.waves):
+            if a.group == b.group and (one is not other or m <= n):
+                yield a, b
+
+
+def _add(
+    total: NDArray[np.floating], beams: tuple[Beam, Beam], shapes: tuple[_Gauss, _Gauss],
+    pairs: Sequence[tuple[Wave, Wave]], y: Axis, z: Axis,
+) -> None:  # fmt: skip
+    """Add what pairs of waves of two beams make together."""
+    (one, other), (f, g) = beams, shapes
+    q, l, c = f.q + g.q.conj(), f.l + g.l.conj(), f.c + np.conj(g.c)  # noqa: E741
+    peak = np.linalg.solve(-q.real, l.real)
+    c, l = c + l @ peak + 0.5 * peak @ q @ peak, l + q @ peak  # noqa: E741: from its peak on
+    spread = np.sqrt(2 * _DARK * np.abs(np.diagonal(np.linalg.inv(-q.real))))
+    columns, rows = (_window(axis, peak[n], spread[n]) for n, axis in enumerate((y, z)))
+    if columns.start == columns.stop or rows.start == rows.stop:
+        return
+    dy, dz = y[columns] - peak[0], z[rows] - peak[1]
+    if c.real < -300:
+        return
+    terms = [_term(one, other, f, g, a, b, peak) for a, b in pairs]
+    skew = q[0, 1]
+    apart = abs(skew) * np.abs(dy).max() * np.abs(dz).max() > _FLAT
+    column = np.exp(l[1] * dz + (0 if apart else 0.5 * q[1, 1] * dz**2))
+    row = np.exp(l[0] * dy + (0 if apart else 0.5 * q[0, 0] * dy**2))
+    kind = np.complex64 if total.dtype == np.float32 else np.complex128
+    first = np.stack([w * np.exp(c) * column * np.exp(s[1] * dz) for w, s in terms], axis=1).astype(kind)
+    second = np.stack([row * np.exp(s[0] * dy) for _, s in terms]).astype(kind)
+    if not apart:
+        # the real part of a sum of products of complex numbers, as one real product
+        total[rows, columns] += np.hstack([first.real, -first.imag]) @ np.vstack([second.real, second.imag])
+        return
+    real = np.float32 if total.dtype == np.float32 else np.float64
+    size = 0.5 * q[1, 1].real * dz[:, None] ** 2 + skew.real * dz[:, None] * dy + 0.5 * q[0, 0].real * dy**2
+    found = first @ second
+    turned = 0.5 * q[1, 1].imag * dz[:, None] ** 2 + skew.imag * dz[:, None] * dy + 0.5 * q[0, 0].imag * dy**2
+    if np.abs(turned).max() > _FLAT:
+        found = found * np.exp(1j * turned)
+    total[rows, columns] += np.exp(size.astype(real)) * found.real
+
+
+def _term(
+    one: Beam, other: Beam, f: _Gauss, g: _Gauss, a: Wave, b: Wave, peak: NDArray[np.float64]
+) -> tuple[complex, NDArray[np.complex128]]:  # fmt: skip
+    """Return the weight of a pair of waves at the peak, and how its exponent goes on from there along y and z."""
+    i, j = 1j * one.wave_number * a.shift, -1j * other.wave_number * np.conj(b.shift)
+    both = i @ (f.offset + f.turn @ peak) + j @ (g.offset + g.turn @ peak)
+    twice = 1.0 if one is other and a is b else 2.0
+    return twice * f.size * g.size * (a.field @ np.conj(b.field)) * np.exp(both), i @ f.turn + j @ g.turn
+
+
+def _window(axis: Axis, middle: float, reach: float) -> slice:
+    """Return where an axis, rising or falling, is within reach of a point."""
+    near = np.nonzero(np.abs(axis - middle) <= reach)[0]
+    return slice(int(near[0]), int(near[-1]) + 1) if len(near) else slice(0, 0)
