@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "measure": "measurements of the beam",
     "optimize": "closed-loop alignment",
     "teleop": "moving the arm by hand",
     "laser": "arming a laser",

@@ -13,14 +13,16 @@ from ..session import Session
 from ..views import plan as plan_view
 from ..views import report as report_view
 from ..views import verified
+from ..views.run import Progress
 from ..views.style import count, listed
-from .running import execute
+from .running import Screen, execute, watched
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.model.diff import Change
     from pico.model.lab import Setup
     from pico.model.plan import Plan
+    from pico.model.report import RunReport
 
 FEW = 3
 """So many components are named."""
@@ -79,6 +81,22 @@ def single(
         return code
     after = _too(component, sorted({c.component for c in off} - {component}))
     return declined(session, bench, plan, auto_approve) or execute(session, bench, plan, after=after)
+
+
+def measured(session: Session, bench: Bench, plan: Plan, auto_approve: bool, dry_run: bool) -> RunReport | int:
+    """Run a plan that measures, and return what became of it; the exit code where it is not run. The plan is shown only
+    where more than measuring is in it, and asked about where that moves something or lets light out."""
+    more = dry_run or plan.errored or any(op.primitive != "measure" for op in plan.operations)
+    if more and not (session.json and not dry_run and not plan.errored):
+        code = show(session, bench, plan, auto_approve or dry_run, single=True)
+        if code or dry_run:
+            return code
+    if more and (code := declined(session, bench, plan, auto_approve)):
+        return code
+    run = bench.run(plan)
+    screen = Screen(session, Progress(plan))
+    watched(run, screen.show if more and not session.json else lambda _: None)
+    return run.report
 
 
 def _too(component: str, others: list[str]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +11,9 @@ from .style import number, paint
 
 def line(found: Mapping[str, Any]) -> str:
     """Return value, unit and array of a measurement (as JSON), and what of it was not assured."""
-    parts = [value(found.get("value"), found.get("unit", ""))]
+    parts = [value(found.get("value"), found.get("unit", ""), found.get("sigma"))]
+    if found.get("unknown"):
+        parts = [paint("yellow", f"unknown: {found['unknown']}")]
     if array := found.get("array"):
         shape = " x ".join(str(n) for n in array["shape"])
         parts.append(f"array {shape} {array['dtype']} {array['sha256'][:12]}")
@@ -18,13 +21,21 @@ def line(found: Mapping[str, Any]) -> str:
     return ", ".join(part for part in parts if part) + (paint("yellow", f", not assured: {doubts}") if doubts else "")
 
 
-def value(found: Any, unit: str = "") -> str:
-    """Return `x 520 mm, yaw 30 deg`, or what it is; `unit`: one for all, or one for each name."""
+def value(found: Any, unit: str = "", sigma: Any = None) -> str:
+    """Return `x 520 mm, yaw 30 deg`, or what it is; `unit`: one for all, or one for each name; `sigma`: one standard
+    deviation, as the value."""
+    unit = "" if unit == "1" else unit
     if isinstance(found, Mapping):
         units = unit.split(", ")
         each = units if len(units) == len(found) else [unit] * len(found)
-        return ", ".join(f"{name} {value(one, of)}" for (name, one), of in zip(found.items(), each, strict=True))
+        spread = sigma if isinstance(sigma, Mapping) else {}
+        return ", ".join(
+            f"{name} {value(one, of, spread.get(name))}" for (name, one), of in zip(found.items(), each, strict=True)
+        )
     if isinstance(found, bool):
         return str(found).lower()
+    if isinstance(found, int | float) and isinstance(sigma, int | float) and sigma > 0:
+        digits = max(0, 1 - math.floor(math.log10(sigma)))
+        return f"{found:.{digits}f} ± {sigma:.{digits}f} {unit}".strip()
     said = number(found, 3) if isinstance(found, int | float) else str(found or "")
     return f"{said} {unit}".strip()

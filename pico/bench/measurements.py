@@ -31,9 +31,29 @@ class Measurements:
         """
         opened = self.opened
         declared = opened.setup.measurables_of(component).get(tunable or "")
-        if tunable and declared and declared.datatype in ("image", "float"):
+        if tunable and declared and declared.datatype in ("image", "float", "numbers"):
             return {tunable: read_peeked(opened.wait(opened.edge.peek(component, tunable)))}
         return read_values(opened.setup, opened.observe(), component, tunable)
+
+    def computed(self, measurement: Measurement, kernels: str) -> Measurement:
+        """Return what kernels (`image | centroid`) make of a picture that was measured, as a measurement; raises
+        PicoError."""
+        from pico.content.arrays import load_array
+        from pico.content.store import store_of
+        from pico.diagnostics import PicoError, error
+        from pico.kernels.measured import computed, version
+        from pico.kernels.pipeline import parsed
+
+        if measurement.array is None:
+            text = f"{measurement.address} is no picture: kernels have nothing to work on"
+            raise PicoError(error("kernel", text, address=measurement.address))
+        pipeline = parsed(kernels)
+        array = load_array(store_of(self.opened.folder.root), measurement.array)
+        found = computed(pipeline, array, measurement.settings)
+        return replace(
+            measurement, value=found.value, sigma=found.sigma, unit=found.unit, unknown=found.unknown or None,
+            kernel=kernels, kernel_version=version(pipeline),
+        )  # fmt: skip
 
     def _measurables(self) -> frozenset[str]:
         return self.opened.wait(self.opened.edge.describe()).measurables

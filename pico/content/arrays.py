@@ -20,3 +20,11 @@ def keep_array(store: Store, array: NDArray[Any]) -> ArrayRef:
     np.save(file, np.ascontiguousarray(array), allow_pickle=False)
     data = file.getvalue()
     return ArrayRef(sha256=store.put(data), size=len(data), shape=array.shape, dtype=str(array.dtype))
+
+
+def load_array(store: Store, ref: ArrayRef) -> NDArray[Any]:
+    """Return an array that was kept; raises PicoError where it is not here any more."""
+    import numpy as np
+
+    array: NDArray[Any] = np.load(BytesIO(store.get(ref.sha256)), allow_pickle=False)
+    return array

@@ -77,7 +77,9 @@ def _has_value(setup: Setup, operation: Operation, seen: Observation) -> bool:
     if kind is None or live is None or live.status != "known" or live.value is None:
         return False
     home = kind.axis.home if kind.axis else 0.0
-    goal = home if operation.primitive == "home" else operation.arguments["to"]
+    goal = home if operation.primitive == "home" else operation.arguments.get("to")
+    if goal is None:  # found on the way
+        return False
     return value_distance(kind, live.value, goal) <= max(kind.tolerance, 1e-9)
 
 

@@ -68,7 +68,11 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
 
 def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
     own = sorted(a.partition(".")[2] for a in able.measurables if a.partition(".")[0] == op.component)
-    blind = "no camera over the bench sees it" if op.address.endswith(".pose") else "the simulator has nothing that measures it"
+    blind = (
+        "no camera over the bench sees it"
+        if op.address.endswith(".pose")
+        else "the simulator has nothing that measures it"
+    )
     why = blind if able.simulated else f"{able.name} has nothing that measures it"
     hint = f"of {op.component} it measures: {', '.join(own)}" if own else ""
     return error("unmeasured", f"{op.address} can't be measured: {why}", hint=hint, address=op.address)

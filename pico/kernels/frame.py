@@ -1,57 +1,93 @@
-"""What kernels take and give."""
+"""What a kernel is given: a picture with what is known of its camera, or a row of readings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A picture with what is known of the camera that took it.
+    """A picture as a camera gave it.
 
-    `pixels` (h, w), any real type, row 0 at the top [count]; `pixel_size` [um]; `exposure` [ms]; `gain` [dB];
-    `full_scale` and `black_level` [count]; `electrons_per_count` at that gain; `read_noise` [electrons]. `full`: how
-    many pixels could tell no more; `flat`: the background is subtracted already, and with it the black level.
-
-    In results x runs to the right in the picture and y up, from the middle of the sensor [um].
+    `pixels`: (h, w), any real dtype, row 0 at the top [count]. `pixel_size` [um], `exposure` [ms], `gain` [dB: 20 dB
+    are ten times the counts]. `full_scale`: what a saturated pixel reads [count]. `black_level`: what a pixel reads
+    without light [count]; or `dark`, a picture (h, w) of that at the same exposure, in its stead, with its own
+    uncertainty a pixel, `dark_noise` [count]. `electrons_per_count` at this gain. `read_noise` [electrons].
     """
 
     pixels: NDArray[Any]
-    pixel_size: float = 1.0
+    pixel_size: float = 3.45
     exposure: float = 1.0
     gain: float = 0.0
     full_scale: float = 4095.0
     black_level: float = 0.0
+    dark: NDArray[Any] | None = None
+    dark_noise: float = 0.0
     electrons_per_count: float = 1.0
     read_noise: float = 0.0
-    full: int | None = None
-    flat: bool = False
+
+    def __post_init__(self) -> None:
+        if self.pixels.ndim != 2 or min(self.pixels.shape) < 8 or self.pixels.dtype.kind not in "buif":
+            raise ValueError(f"a frame has 8 x 8 real pixels or more, not {self.pixels.shape} of {self.pixels.dtype}")
+        if self.dark is not None and self.dark.shape != self.pixels.shape:
+            raise ValueError(f"the dark frame is {self.dark.shape}, the frame {self.pixels.shape}")
+        if min(self.pixel_size, self.exposure, self.electrons_per_count) <= 0 or self.read_noise < 0:
+            raise ValueError("pixel size, exposure and electrons a count are above zero, noise is not below it")
+
+    @property
+    def signal(self) -> NDArray[np.float32]:
+        """The pixels above black [count], (h, w)."""
+        import numpy as np
+
+        above = self.pixels.astype(np.float32)
+        above -= np.float32(self.black_level) if self.dark is None else self.dark.astype(np.float32)
+        return above
+
+    @property
+    def dark_variance(self) -> float:
+        """The variance of a pixel without light [count^2]: read noise, rounding to whole counts, the dark frame's."""
+        rounding = 0.0 if self.pixels.dtype.kind == "f" else 1 / 12
+        return (self.read_noise / self.electrons_per_count) ** 2 + rounding + self.dark_noise**2
 
     @property
     def saturated(self) -> int:
         """How many pixels read full scale."""
-        return int((self.pixels >= self.full_scale).sum()) if self.full is None else self.full
+        import numpy as np
+
+        return int(np.count_nonzero(self.pixels >= self.full_scale)) if self.pixels.max() >= self.full_scale else 0
+
+    @property
+    def refusal(self) -> str:
+        """Why nothing can be said of the light in this picture; empty where that can be."""
+        import numpy as np
+
+        if self.pixels.dtype.kind == "f" and not np.isfinite(self.pixels).all():
+            return "some pixels are no numbers"
+        full = self.saturated
+        return f"{full} of {self.pixels.size} pixels read {self.full_scale:g}" if full else ""
+
+    def at(self, column: float, row: float) -> tuple[float, float]:
+        """Return a place in pixels (0, 0 is the middle of the pixel at the top left) as x, y [um] from the middle of
+        the sensor, x to the right, y up."""
+        h, w = self.pixels.shape
+        return (column - (w - 1) / 2) * self.pixel_size, ((h - 1) / 2 - row) * self.pixel_size
 
 
 @dataclass(frozen=True)
-class Result:
-    """What a kernel found: numbers by name, one standard deviation of each, and their units. `unknown`: why there are
-    none, or none that could be believed."""
+class Readings:
+    """Powers that were read one after the other, in any one unit: `values`, one standard deviation each, and `angles`
+    [deg] or `names` of the settings that they were read at."""
 
-    values: Mapping[str, float] = field(default_factory=dict)
-    sigma: Mapping[str, float] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
-    unknown: str = ""
+    values: tuple[float, ...]
+    sigma: tuple[float, ...]
+    names: tuple[str, ...] = ()
+    angles: tuple[float, ...] = ()
 
-
-def spoilt(frame: Frame) -> Result | None:
-    """Return that nothing can be said of a saturated frame; None where it is not."""
-    full = frame.saturated
-    if not full:
-        return None
-    return Result(unknown=f"{full} of {frame.pixels.size} pixels read {frame.full_scale:g}")
+    def __post_init__(self) -> None:
+        if any(len(row) not in (0, len(self.values)) for row in (self.names, self.angles, self.sigma)):
+            raise ValueError("readings have as many sigmas, names and angles as values")

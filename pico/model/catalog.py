@@ -102,10 +102,11 @@ class Measurable:
     """An observable. Never set, never restored, only acquired.
 
     `needs`: tunables with the values that a measurement wants, such as `shutter: open` or `gain: 0 dB`: those of the
-    component itself, else of whatever has them. Afterwards they are set back.
+    component itself, else of whatever has them. Afterwards they are set back. `kernel`: what computes it of another
+    measurable, `image | centroid`; with it `numbers` are several by name, in units that the kernel says.
     """
 
-    datatype: Literal["image", "float", "pose", "setpoint"]
+    datatype: Literal["image", "float", "numbers", "pose", "setpoint"]
     unit: str = ""
     kernel: str | None = None
     needs: Mapping[str, Value] = field(default_factory=dict)
@@ -342,8 +343,11 @@ def as_first_written(kind: ComponentType) -> ComponentType:
         written = {n: _plain(parameter) for n, parameter in found.items()}
         alone = {n for n in written if (element, n) in _THERE_ALONE}
     own = {n: p for n, p in kind.parameters.items() if n not in alone and _SINCE.get((element, n)) != p.value}
-    measured = {n: m for n, m in kind.measurables.items() if m.kernel is None}  # the rest is computed
-    return replace(kind, parameters=own, measurables=measured, optics=replace(kind.optics, properties=written))
+    measured = {n: m for n, m in kind.measurables.items() if m.kernel is None and n != "dark"}  # the rest is computed
+    can = tuple(p for p in kind.primitives if p != "auto_range")
+    return replace(
+        kind, parameters=own, measurables=measured, primitives=can, optics=replace(kind.optics, properties=written)
+    )  # fmt: skip
 
 
 def _plain(parameter: Parameter) -> Value:

@@ -314,8 +314,8 @@ class Environment:
     """What the simulated world does by itself, by the bench's clock, and nobody who plans or looks knows.
 
     `temperature`: how far it drifts about its mean [degC], one standard deviation over a day. `pointing`: how far the
-    beam of a laser walks each way over hours [mrad]; `warm_up`: from where it comes to its way while it warms up [mrad],
-    in a quarter of an hour from when the bench was new; `power`: by which share of it the power walks. `vibration`: how
+    beam of a laser walks each way over hours [mrad]; `warm_up`: from where it comes to its way in the first quarter of
+    an hour of a bench [mrad]; `power`: by which share of it the power walks. `vibration`: how
     far mirrors move along their normal [nm], one standard deviation at 10 to 100 Hz.
     """
 

@@ -32,7 +32,8 @@ class Measurement:
     """One measurement of a `measurable` of a component, or of a camera over the bench.
 
     `value`: a number, a word, numbers by name (of a pose, of an image), or None; `array`: where there is more than goes
-    into a line. `unit`; where numbers by name have several, in their order. `sigma`: one standard deviation, as the
+    into a line. `unit`; where numbers by name have several, in their order. `unknown`: why there is no value,
+    though it was measured. `sigma`: one standard deviation, as the
     value. `settings`: what it depends on, such as exposure, gain and background. `time` on the bench's clock [s], `at`
     by the wall, UTC. `kernel` and its version: what made the value of what a device gave. `assured`: what was seen to
     hold; `not_assured`: what was not, and why.
@@ -44,6 +45,7 @@ class Measurement:
     value: Value | Mapping[str, Value] | None = None
     array: ArrayRef | None = None
     unit: str = ""
+    unknown: str | None = None
     sigma: float | Mapping[str, float] | None = None
     settings: Mapping[str, Value] = field(default_factory=dict)
     time: float = 0.0
@@ -112,7 +114,9 @@ def measurement_from_json(data: Any) -> Measurement:
 
 
 def number_of(measurement: Measurement, name: str) -> float | None:
-    """Return a number that was measured: the measurable itself, or one by `name` of an image or pose; else None."""
+    """Return a number that was measured: the measurable itself, or one by `name` (`x`, or `centroid.x`) of those
+    that it has; else None."""
+    name = name.rpartition(".")[2]
     value = measurement.value.get(name) if isinstance(measurement.value, Mapping) else measurement.value
     if isinstance(measurement.value, Mapping) or name == measurement.measurable:
         return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None

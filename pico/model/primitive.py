@@ -70,6 +70,7 @@ OWN: Mapping[str, Primitive] = {
             name="home", changes="tunable", repeatable=True, arguments={"tunable": None}, counted=("homing", "homings")
         ),
         Primitive(name="scan", changes="tunable", arguments={"tunable": None}),
+        Primitive(name="auto_range", changes="tunable", repeatable=True, arguments={"tunable": None}, seconds=2.0),
         Primitive(
             name="measure", mutating=False, repeatable=True, arguments={"measurable": None}, seconds=0.5,
             counted=("measurement", "measurements"),

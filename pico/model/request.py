@@ -50,7 +50,7 @@ def asked(setup: Setup, seen: Observation, component: str, name: str, arguments:
         raise _wrong(f"{component}: {can}", hint, component)
     if name == "scan":
         raise _wrong(f"{name} of {component}: a scan is a step of recipes, which are not there yet", "")
-    reader = {"move": _move, "stow": _stow, "set": _set, "home": _home}.get(name)
+    reader = {"move": _move, "stow": _stow, "set": _set, "home": _home, "auto_range": _auto_range}.get(name)
     return reader(setup, seen, component, dict(arguments)) if reader else _plain(component, name, arguments)
 
 
@@ -153,6 +153,13 @@ def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     return PrimitiveRequest(component=name, primitive="home", tunable=tunable)
 
 
+def _auto_range(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
+    tunable = given.get("tunable", "exposure")
+    if tunable not in setup.type_of(name).tunables:
+        raise _wrong(f"{name} has no tunable `{tunable}`", "auto_range sets the exposure of a camera", name)
+    return PrimitiveRequest(component=name, primitive="auto_range", arguments={"tunable": tunable})
+
+
 def _measure(setup: Setup, name: str, given: Mapping[str, str]) -> PrimitiveRequest:
     """A camera over the bench can be asked as a component can; one measurable of a type need not be named."""
     if name in setup.lab.cameras:
@@ -162,6 +169,7 @@ def _measure(setup: Setup, name: str, given: Mapping[str, str]) -> PrimitiveRequ
     known = setup.measurables_of(name)
     _only(name, "measure", given, primitive("measure").arguments)
     own = setup.type_of(name).measurables if name in setup.lab.inventory else known
+    own = {n: m for n, m in own.items() if m.kernel is None}
     measurable = given.get("measurable") or (next(iter(own)) if len(own) == 1 else "")
     if measurable not in known:
         what = f"{name} has no measurable `{measurable}`" if measurable else f"what of {name} is to be measured?"

@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Iterable
 from typing import Any
 
 from pico.expressions import Function, Kind
+from pico.kernels.measured import numbers_by
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement, number_of
@@ -56,20 +57,22 @@ def names_of(setup: Setup, components: Iterable[str]) -> dict[str, Kind]:
 
 def numbers_of(setup: Setup, component: str) -> dict[str, str]:
     """Return the numbers that can be measured of a component or camera, each with the measurable that has it: those
-    that are measurables themselves, and those of images."""
+    that are measurables themselves, and those of images and of kernels (`centroid.x`)."""
     found = {}
     for name, measurable in setup.measurables_of(component).items():
         if measurable.datatype == "float":
             found[name] = name
         elif measurable.datatype == "image":
-            found |= dict.fromkeys(OF_AN_IMAGE, name)
+            found = dict.fromkeys(OF_AN_IMAGE, name) | found
+        elif measurable.datatype == "numbers" and measurable.kernel:
+            found |= dict.fromkeys(numbers_by(measurable.kernel, name), name)
     return found
 
 
 def measured_in(setup: Setup, texts: Iterable[str]) -> list[tuple[str, str]]:
     """Return what expressions speak of that must be measured: components or cameras, each with its measurable."""
-    spoken = {word for text in texts for word in re.findall(r"[A-Za-z_]\w*\.[A-Za-z_]\w*", text)}
-    found = ((name, numbers_of(setup, name).get(number)) for name, number in (word.split(".") for word in spoken))
+    spoken = {word for text in texts for word in re.findall(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+", text)}
+    found = ((name, numbers_of(setup, name).get(number)) for name, _, number in (w.partition(".") for w in spoken))
     return sorted({(name, measurable) for name, measurable in found if measurable})
 
 

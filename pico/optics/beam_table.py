@@ -165,9 +165,8 @@ def exposed(light: Light, part: Part) -> Exposed | None:
         enough = exposure / times if times else exposure
         hint = f"expose for {_two(enough)} ms, or weaken the beam with a filter"
         if enough < least:
-            hint = (
-                f"its shortest exposure is {least:g} ms: weaken the beam with a filter, by {_two(least / enough)} or more"
-            )
+            hint = f"its shortest exposure is {least:g} ms: weaken the beam with a filter"
+            hint = f"{hint}, by {_two(least / enough)} or more"
         return Exposed(times, f" at {exposure:g} ms", hint)
     if (greatest := part.kind.number("greatest_power", "mW")) is not None:
         return Exposed(power / greatest, f" by {power:.3g} mW", "weaken the beam with a filter")

@@ -1,5 +1,8 @@
-"""What the simulated world does by itself: the beam walks, the power drifts, mirrors vibrate. Pure: each is a function of
-the time on the bench's clock and a seed, without a memory, so a bench that is looked at twice is the same world."""
+"""What the simulated world does by itself: the beam walks, the power drifts, mirrors vibrate.
+
+Pure: each is a function of the time on the bench's clock and a seed, without a memory, so a bench that is looked at
+twice is the same world.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +27,8 @@ _BENDS = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Disturbed:
-    """What the world does to one component at a time: `left` and `up` its beam is turned [mrad], its power is another by
-    the `power` share, and it is displaced along its normal by `moved` [mm]."""
+    """What the world does to a component: its beam is turned by `left` and `up` [mrad], its power is another by the
+    share `power`, and it is displaced along its normal by `moved` [mm]."""
 
     left: float = 0.0
     up: float = 0.0

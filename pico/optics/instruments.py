@@ -68,8 +68,8 @@ class Power:
 def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, number: int = 0) -> Power:
     """Return what a power meter reads [mW], or a photodiode behind its amplifier [V].
 
-    A meter has the relative standard deviation `uncertainty` (k = 2 halved), the same for all its readings, and noise of
-    a thousandth of `least_power` besides `least_power` itself, below which it reads nothing surely.
+    A meter is wrong by a share, the same for all its readings, of which `uncertainty` is two standard deviations; and
+    each reading has the noise `least_power`.
     """
     power = sum(a.power for a in arrivals)
     own = np.random.default_rng([seed, *part.name.encode()]).standard_normal()

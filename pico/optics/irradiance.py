@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -35,11 +36,11 @@ class Screen:
 
 @dataclass(frozen=True, eq=False)
 class _Gauss:
-    """A beam on a screen without what tells its waves apart: the polynomial c + l . r + r' q r / 2, r = (y, z), and the
+    """A beam on a screen without what tells its waves apart: the polynomial c + slope . r + r' q r / 2, r = (y, z); the
     beam's transverse coordinates there, offset + turn r. `size`: the amplitude of a wave whose field is 1 [1/mm]."""
 
     c: complex
-    l: NDArray[np.complex128]  # noqa: E741: the name of the term
+    slope: NDArray[np.complex128]
     q: NDArray[np.complex128]
     offset: NDArray[np.float64]
     turn: NDArray[np.float64]
@@ -72,7 +73,8 @@ def _gauss(beam: Beam, screen: Screen) -> _Gauss:
     phase = 2 * math.pi * (beam.path % beam.wavelength) / beam.wavelength + true * float(start @ beam.along)
     size = math.sqrt(k * math.sqrt(float(np.linalg.det(beam.curvature.imag))) / math.pi)
     return _Gauss(
-        c=0.5 * offset @ m @ offset + 1j * phase, l=turn.T @ m @ offset + 1j * true * ahead, q=turn.T @ m @ turn,
+        c=complex(0.5 * offset @ m @ offset + 1j * phase), slope=turn.T @ m @ offset + 1j * true * ahead,
+        q=turn.T @ m @ turn,
         offset=offset, turn=turn, size=size * math.sqrt(abs(float(beam.along @ screen.along))),
     )  # fmt: skip
 
@@ -93,9 +95,9 @@ def _add(
 ) -> None:  # fmt: skip
     """Add what pairs of waves of two beams make together."""
     (one, other), (f, g) = beams, shapes
-    q, l, c = f.q + g.q.conj(), f.l + g.l.conj(), f.c + np.conj(g.c)  # noqa: E741
-    peak = np.linalg.solve(-q.real, l.real)
-    c, l = c + l @ peak + 0.5 * peak @ q @ peak, l + q @ peak  # noqa: E741: from its peak on
+    q, slope, c = f.q + g.q.conj(), f.slope + g.slope.conj(), f.c + np.conj(g.c)
+    peak = np.asarray(np.linalg.solve(-q.real, slope.real), dtype=np.float64)
+    c, slope = c + slope @ peak + 0.5 * peak @ q @ peak, slope + q @ peak  # from its peak on
     spread = np.sqrt(2 * _DARK * np.abs(np.diagonal(np.linalg.inv(-q.real))))
     columns, rows = (_window(axis, peak[n], spread[n]) for n, axis in enumerate((y, z)))
     if columns.start == columns.stop or rows.start == rows.stop:
@@ -106,9 +108,9 @@ def _add(
     terms = [_term(one, other, f, g, a, b, peak) for a, b in pairs]
     skew = q[0, 1]
     apart = abs(skew) * np.abs(dy).max() * np.abs(dz).max() > _FLAT
-    column = np.exp(l[1] * dz + (0 if apart else 0.5 * q[1, 1] * dz**2))
-    row = np.exp(l[0] * dy + (0 if apart else 0.5 * q[0, 0] * dy**2))
-    kind = np.complex64 if total.dtype == np.float32 else np.complex128
+    column = np.exp(slope[1] * dz + (0 if apart else 0.5 * q[1, 1] * dz**2))
+    row = np.exp(slope[0] * dy + (0 if apart else 0.5 * q[0, 0] * dy**2))
+    kind: Any = np.complex64 if total.dtype == np.float32 else np.complex128
     first = np.stack([w * np.exp(c) * column * np.exp(s[1] * dz) for w, s in terms], axis=1).astype(kind)
     second = np.stack([row * np.exp(s[0] * dy) for _, s in terms]).astype(kind)
     if not apart:
@@ -131,7 +133,8 @@ def _term(
     i, j = 1j * one.wave_number * a.shift, -1j * other.wave_number * np.conj(b.shift)
     both = i @ (f.offset + f.turn @ peak) + j @ (g.offset + g.turn @ peak)
     twice = 1.0 if one is other and a is b else 2.0
-    return twice * f.size * g.size * (a.field @ np.conj(b.field)) * np.exp(both), i @ f.turn + j @ g.turn
+    weight = twice * f.size * g.size * (a.field @ np.conj(b.field)) * np.exp(both)
+    return complex(weight), i @ f.turn + j @ g.turn
 
 
 def _window(axis: Axis, middle: float, reach: float) -> slice:

@@ -25,7 +25,7 @@ Exposed = Callable[[int, int], Electrons]
 BAND = 64
 """Rows that are made at once."""
 NORMAL = 40.0
-"""From this mean on, Poisson counts are drawn as x^2 - 1/8, x normal with mean sqrt(mean - 1/8) and variance 1/4: mean and
+"""From this mean on, Poisson counts are drawn as x^2 - 1/8, x normal about sqrt(mean - 1/8) with variance 1/4: mean and
 variance are exact (Anscombe's transform turned round), and the skewness is half as much again as Poisson's."""
 BLACK = 64.0
 """Where a type does not say it, the counts of a frame without light."""
@@ -48,17 +48,17 @@ class Sensor:
 
     @property
     def full_scale(self) -> int:
-        return 2**self.bits - 1
+        return int(2**self.bits) - 1
 
     @property
     def y(self) -> NDArray[np.float64]:
         """Where its columns are [mm], to the left of who looks along the light: to the right in its picture."""
-        return (np.arange(self.size[0]) - (self.size[0] - 1) / 2) * self.pitch * 1e-3
+        return np.asarray((np.arange(self.size[0]) - (self.size[0] - 1) / 2) * self.pitch * 1e-3, dtype=np.float64)
 
     @property
     def z(self) -> NDArray[np.float64]:
         """Where its rows are [mm], up; row 0 is at the top."""
-        return ((self.size[1] - 1) / 2 - np.arange(self.size[1])) * self.pitch * 1e-3
+        return np.asarray(((self.size[1] - 1) / 2 - np.arange(self.size[1])) * self.pitch * 1e-3, dtype=np.float64)
 
     def electrons_per_count(self, gain: float) -> float:
         """Return the electrons of one count at a gain [dB]."""
@@ -66,8 +66,8 @@ class Sensor:
 
 
 def frame(
-    sensor: Sensor, exposed: Exposed, *, exposure: float, gain: float = 0.0, errors: SensorErrors | None = None, seed: int = 1,
-    number: int = 0,
+    sensor: Sensor, exposed: Exposed, *, exposure: float, gain: float = 0.0, errors: SensorErrors | None = None,
+    seed: int = 1, number: int = 0,
 ) -> Counts:  # fmt: skip
     """Return the frame (up, across) that a sensor gives.
 

@@ -119,7 +119,7 @@ def test_a_plan_is_for_one_backend_with_its_robots_and_primitives() -> None:
     assert caught.value.exit_code == ExitCode.STALE
 
 
-@pytest.mark.parametrize(("measurable", "said"), [("pose", "no camera over the bench"), ("image", "light is not sim")])
+@pytest.mark.parametrize(("measurable", "said"), [("pose", "no camera over the bench"), ("image", "the simulator has")])
 def test_what_the_simulator_can_not_measure_is_told_by_what_is_missing(measurable: str, said: str) -> None:
     able = Capabilities(
         name="sim", fidelity="kinematic", evidence="kinematic", lab_digest=SETUP.digest(), simulated=True,

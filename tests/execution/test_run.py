@@ -65,7 +65,9 @@ def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench
 
     found = refusal(bench, replanned(bench, C3, ask))
     assert [d.code for d in found.diagnostics] == ["capability", "unmeasured", "capability"]
-    assert "cannot scan" in str(found) and "cam.spectrum can't be measured: the simulator has nothing that measures it" in str(found)
+    assert "cannot scan" in str(
+        found
+    ) and "cam.spectrum can't be measured: the simulator has nothing that measures it" in str(found)
     assert "arm2" in str(found)
 
 

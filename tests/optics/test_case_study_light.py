@@ -37,7 +37,9 @@ def light_at(folder: LabFolder, tag: str, given: Values | None = None) -> tuple[
     return state, light_of(setup, poses, values)
 
 
-@pytest.mark.parametrize(("tag", "lens", "focal"), [("e1", "lx_125", 125), ("e2", "lx_100", 100), ("e3", "lx_100", 100)])
+@pytest.mark.parametrize(
+    ("tag", "lens", "focal"), [("e1", "lx_125", 125), ("e2", "lx_100", 100), ("e3", "lx_100", 100)]
+)
 def test_the_beam_is_as_wide_and_as_flat_at_the_first_lens_as_references_assume(
     folder: LabFolder, tag: str, lens: str, focal: float
 ) -> None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from pico.backends.world import Held
     from pico.twin.snapshot import Snapshot
 
-PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure"})
+PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
 
 
 class SimDevice:

@@ -33,7 +33,8 @@ class Table:
 @dataclass(frozen=True, eq=False)
 class Reading:
     """What was read: see `pico.model.measurement.Measurement`. `array`: what is too large for a line. `saturated`: how
-    much of it was, in words, empty for nothing; None where that means nothing."""
+    much of it was, in words, empty for nothing; None where that means nothing. `unit`: where the
+    measurable says none. `unknown`: why there is no value."""
 
     value: Value | Mapping[str, Value] | None
     array: NDArray[Any] | None = None
@@ -42,6 +43,8 @@ class Reading:
     kernel: str | None = None
     kernel_version: str | None = None
     saturated: str | None = None
+    unit: str = ""
+    unknown: str = ""
 
 
 class Measurer(Protocol):

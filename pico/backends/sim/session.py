@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.backends.attempt import attempt
 from pico.backends.device import Began
+from pico.backends.ranging import MOST, Taken, level_of, next_exposure
 from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
@@ -22,6 +24,7 @@ from pico.backends.sim.known import BySight, Exactly, Known
 from pico.backends.sim.measuring import measured, require_simulated
 from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
 from pico.backends.sim.plugins import plugged_in
+from pico.backends.sim.readings import Table
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World
@@ -156,7 +159,7 @@ class WorldSession:
 
     def act(self, operation: Operation, key: str) -> InProgress:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
-               "measure": self._measure}  # fmt: skip
+               "measure": self._measure, "auto_range": self._auto_range}  # fmt: skip
         return (yield from own.get(operation.primitive, self._plugged_in)(operation, key))
 
     def _measure(self, operation: Operation, key: str) -> InProgress:
@@ -167,6 +170,26 @@ class WorldSession:
         busy = sorted(other.split("/")[1] for other in self._time.under_way if other != key)
         found = measured(self._setup, self._root, self.world(), operation.component, name, busy, self._clock())
         return {"measurement": as_json(found)}
+
+    def _auto_range(self, operation: Operation, key: str) -> InProgress:
+        """Take frames, and expose each as the one before tells, until one is neither saturated nor dark."""
+        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
+        _, measurer = require_simulated(self._setup, name, "image")
+        limits, frames = kind.range or (0.0, math.inf), list[Taken]()
+        while len(frames) < MOST:
+            live = self._world.components[name].values[tunable].value
+            exposure = live if isinstance(live, int | float) else limits[0]
+            yield SETTLING + exposure * 1e-3
+            found = measurer.read(Table(self._setup, self._root, self.world()), name, "image")
+            assert isinstance(found.value, Mapping)
+            black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
+            frames.append(Taken(exposure, level_of(float(found.value["peak"]), black, full)))
+            wanted = next_exposure(frames[-1], limits)
+            if wanted is None:
+                break
+            yield set_seconds(kind, exposure, wanted)
+            self._world = self._world.with_value(name, tunable, ObservedValue(value=wanted))
+        return {"value": frames[-1].exposure, "frames": [as_json(asdict(frame)) for frame in frames]}
 
     def _plugged_in(self, operation: Operation, key: str) -> InProgress:
         """Do what a plug-in brought, in the time that the plan reckons with."""

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from pico.model.diff import diff_observed
 from pico.manifest.load import load_folder
-from pico.model.observation import ObservedComponent, ObservedValue, Observation
+from pico.model.diff import diff_observed
+from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState
 from pico.planning.checks.clearance import beams_in_the_way

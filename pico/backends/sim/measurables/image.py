@@ -11,7 +11,7 @@ from pico.model.lab import Setup
 
 def measures(setup: Setup, component: str, measurable: str) -> bool:
     """Whether it is the image of a camera whose type says what its sensor is."""
-    found = detects(setup, component, measurable, "image")
+    found = any(detects(setup, component, measurable, what) for what in ("image", "dark"))
     return found and setup.type_of(component).number("pixel_size", "um") is not None
 
 

@@ -1,0 +1,52 @@
+"""One operation at a time, 6: `pico measure`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..arguments import DryRun, Fidelity, LockTimeout, Yes
+from ..session import Session
+from ..views import measurement as view
+
+
+def measure(
+    context: typer.Context,
+    what: Annotated[str, typer.Argument(metavar="COMPONENT.MEASURABLE", help="With kernels: 'cam.image | centroid'.")],
+    dry_run: DryRun = False,
+    fidelity: Fidelity = None,
+    auto_approve: Yes = False,
+    lock_timeout: LockTimeout = None,
+) -> int:
+    """Measure, and keep what was measured with the run.
+
+    Arms park first, and what the measurable needs is set for it and set back. Kernels make numbers of pictures, each
+    with one standard deviation: `pico catalog show beam_camera` lists what a camera has, any others go behind a `|`.
+    What is saturated has no value; then the exit code is 1.
+
+    Examples:
+      pico measure cam.centroid
+      pico measure 'cam.image | background | mode_overlap(radius=450)'
+    """
+    from pico.diagnostics import ExitCode
+    from pico.kernels.pipeline import parsed
+
+    from ..runs.approving import measured
+
+    session = Session.of(context)
+    component, _, measurable = (word.strip() for word in what.partition("."))
+    kernels = measurable if "|" in measurable else ""
+    bench = session.bench(fidelity, None, writing=not dry_run)
+    measurable = parsed(kernels).source if kernels else measurable
+    plan = bench.plans.single(component, "measure", {"measurable": measurable} if measurable else {})
+    report = measured(session, bench, plan, auto_approve, dry_run)
+    if isinstance(report, int):
+        return report
+    found = next(iter(report.measurements.values()), None)
+    if report.outcome != "done" or found is None:
+        session.report(report.diagnostics)
+        return int(report.exit_code) or ExitCode.ERROR
+    found = bench.measurements.computed(found, kernels) if kernels else found
+    session.show(view, found, run=report.run)
+    return ExitCode.ERROR if found.unknown else ExitCode.DONE

@@ -1,0 +1,48 @@
+"""A measurement: a line for each number, what it was taken with, and what was not assured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pico.model.measurement import Measurement
+from pico.model.record import as_json
+
+from .measured import value
+from .style import columns, paint, wrap
+
+_SETTINGS = {"exposure": "ms", "gain": "dB"}
+
+
+def text(found: Measurement, *, run: str) -> str:
+    """Return the numbers with their standard deviations, and how they came about."""
+    if found.unknown:
+        lines = wrap(f"{found.address}  {paint('yellow', 'unknown')}: {found.unknown}", "")
+    elif isinstance(found.value, Mapping):
+        lines = [found.address, *(f"  {row}" for row in columns(_rows(found)))]
+    else:
+        lines = [f"{found.address}  {value(found.value, found.unit, found.sigma)}"]
+    if found.array:
+        shape = " x ".join(str(n) for n in found.array.shape)
+        lines.append(f"  {shape} {found.array.dtype}, kept as {found.array.sha256[:12]}")
+    made = f"`{found.kernel}` version {found.kernel_version}, " if found.kernel else ""
+    setting = ", ".join(f"{k} {value(found.settings[k], u)}" for k, u in _SETTINGS.items() if k in found.settings)
+    lines += wrap(f"{made}{setting + ', ' if setting else ''}`pico runs show {run}`", "  ")
+    for what, why in found.not_assured.items():
+        lines += wrap(paint("yellow", f"not assured: {what} ({why})"), "  ")
+    return "\n".join(lines)
+
+
+def _rows(found: Measurement) -> list[list[str]]:
+    assert isinstance(found.value, Mapping)
+    units = found.unit.split(", ")
+    each = units if len(units) == len(found.value) else [found.unit] * len(found.value)
+    sigma = found.sigma if isinstance(found.sigma, Mapping) else {}
+    return [
+        [name, value(one, unit, sigma.get(name))] for (name, one), unit in zip(found.value.items(), each, strict=True)
+    ]
+
+
+def data(found: Measurement, *, run: str) -> dict[str, Any]:
+    """Return the measurement, schema `pico.measurement/v1`, with the `run` that took it."""
+    return {**as_json(found), "run": run}

@@ -1,0 +1,35 @@
+"""The exposure at which a camera tells most: not saturated, and not dark. For every device that takes pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+GOOD = (0.5, 0.85)
+"""The share of full scale that the brightest pixel is to read."""
+_AIM, _STEP = 0.7, 20.0
+MOST = 8
+"""Frames that are taken at most."""
+TUNABLE = "exposure"
+
+
+@dataclass(frozen=True)
+class Taken:
+    """A frame that was taken: at an exposure [ms], and how bright it was, as a share of full scale above black."""
+
+    exposure: float
+    level: float
+
+
+def next_exposure(taken: Taken, limits: tuple[float, float]) -> float | None:
+    """Return the exposure to try next [ms]; None where this one is good, or the camera can't do better."""
+    if GOOD[0] <= taken.level <= GOOD[1]:
+        return None
+    factor = 1 / _STEP if taken.level >= 0.99 else min(_AIM / max(taken.level, 1e-6), _STEP)
+    low, high = limits
+    wanted = round(min(max(taken.exposure * factor, low), high), 3)
+    return None if wanted == taken.exposure else wanted
+
+
+def level_of(peak: float, black: float, full: float) -> float:
+    """Return how bright a frame is whose brightest pixel reads `peak`, as a share of full scale above black."""
+    return max(0.0, peak - black) / (full - black)

@@ -1,0 +1,43 @@
+"""What kernels make of another measurable of the same component: `kernel: image | centroid` of its type."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from pico.backends.attempt import Failed
+from pico.backends.sim.checks import not_simulated
+from pico.backends.sim.readings import Reading, Table, measurer_of
+from pico.diagnostics import PicoError, error
+from pico.kernels.measured import computed, version
+from pico.kernels.pipeline import parsed
+from pico.model.lab import Setup
+
+
+def measures(setup: Setup, component: str, measurable: str) -> bool:
+    """Whether it is computed of what can be measured."""
+    kernel = setup.measurables_of(component)[measurable].kernel
+    if kernel is None:
+        return False
+    try:
+        source = parsed(kernel).source
+    except PicoError:
+        return False
+    known = setup.measurables_of(component).get(source)
+    return known is not None and known.kernel is None and measurer_of(setup, component, source) is not None
+
+
+def read(table: Table, component: str, measurable: str) -> Reading:
+    """Return what the kernels give; no value where they cannot tell, with why."""
+    kernel = table.setup.measurables_of(component)[measurable].kernel or ""
+    pipeline = parsed(kernel)
+    measurer = measurer_of(table.setup, component, pipeline.source)
+    if measurer is None:
+        raise Failed(not_simulated(component, pipeline.source))
+    base = measurer.read(table, component, pipeline.source)
+    if base.array is None:
+        raise Failed(error("no-array", f"{component}.{pipeline.source} gives nothing for kernels", address=component))
+    found = computed(pipeline, base.array, base.settings)
+    return replace(
+        base, array=None, value=found.value, sigma=found.sigma, kernel=kernel, kernel_version=version(pipeline),
+        unknown=found.unknown, unit=found.unit,
+    )  # fmt: skip

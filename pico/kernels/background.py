@@ -1,0 +1,87 @@
+"""The light that is not the beam's: a tilted plane, fitted to where the beam is not. Needs numpy and OpenCV at its top:
+kernels import it inside their functions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Mask = NDArray[np.bool_]
+_CORNER = 0.05
+"""The share of each side that a corner takes: ISO 11146-3 has 2 to 5 %."""
+_LEAST = 0.05
+"""The share of a picture that must lie outside of the beam for the plane to be fitted there, not to the corners."""
+_OUTLYING = 4.0
+"""Pixels so many standard deviations off the plane belong to something else: ISO 11146-3 has 2 to 4."""
+_COARSE = 96
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A background: `level` [count], `slopes` across and down [count over the frame's whole width, height], all three
+    from the middle of the frame, with their `covariance` (3, 3); `variance` of one pixel about it [count^2]."""
+
+    level: float
+    slopes: tuple[float, float]
+    covariance: NDArray[np.float64]
+    variance: float
+
+    @property
+    def coefficients(self) -> NDArray[np.float64]:
+        """Level, slope across, slope down."""
+        return np.array([self.level, *self.slopes])
+
+    def over(self, shape: tuple[int, int]) -> NDArray[np.float32]:
+        """Return the plane at each pixel of a picture (h, w) of the whole frame."""
+        across, down = (((np.arange(n) + 0.5) / n - 0.5).astype(np.float32) for n in shape[::-1])
+        return np.float32(self.level) + np.float32(self.slopes[0]) * across + np.float32(self.slopes[1]) * down[:, None]
+
+
+def binning(shape: tuple[int, int]) -> int:
+    """Return the edge of the blocks [px] whose means are fine enough to find a beam."""
+    return max(1, min(8, min(shape) // _COARSE))
+
+
+def binned(signal: NDArray[np.float32], by: int) -> NDArray[np.float32]:
+    """Return the means of blocks of `by` x `by` pixels; what is left over at the right and below is dropped."""
+    h, w = (n // by for n in signal.shape)
+    means = cv2.resize(signal[: h * by, : w * by], (w, h), interpolation=cv2.INTER_AREA)
+    return means.astype(np.float32, copy=False)
+
+
+def corners(shape: tuple[int, int]) -> Mask:
+    """Return where the four corners of a picture are."""
+    h, w = (max(2, round(_CORNER * n)) for n in shape)
+    mask = np.zeros(shape, bool)
+    for rows in (slice(0, h), slice(-h, None)):
+        mask[rows, :w] = mask[rows, -w:] = True
+    return mask
+
+
+def outside(shape: tuple[int, int], box: tuple[int, int, int, int]) -> Mask:
+    """Return what lies outside of a box (top, bottom, left, right); the corners where that is too little."""
+    top, bottom, left, right = box
+    mask = np.ones(shape, bool)
+    mask[max(top - 1, 0) : bottom + 1, max(left - 1, 0) : right + 1] = False
+    return mask if mask.mean() >= _LEAST else corners(shape)
+
+
+def plane(coarse: NDArray[np.float32], mask: Mask, by: int, least: float) -> Plane:
+    """Return the plane through the blocks of `mask`, in a picture of means of `by` x `by` pixels. `least`: the variance
+    of a pixel that the camera's noise makes by itself [count^2]."""
+    h, w = coarse.shape
+    rows, columns = np.nonzero(mask)
+    basis = np.stack([np.ones(len(rows)), (columns + 0.5) / w - 0.5, (rows + 0.5) / h - 0.5], axis=1)
+    values = coarse[rows, columns].astype(np.float64)
+    keep = np.ones(len(values), bool)
+    for _ in range(3):
+        normal = np.linalg.inv(basis[keep].T @ basis[keep])
+        found = normal @ (basis[keep].T @ values[keep])
+        left = values - basis @ found
+        spread = float(left[keep].std()) + 1e-9
+        keep = np.abs(left) < _OUTLYING * spread
+    variance = max(spread**2 * by**2, least)
+    return Plane(float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)

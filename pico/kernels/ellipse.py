@@ -1,0 +1,44 @@
+"""Principal axes of second moments. Needs numpy at its top: kernels import it inside their functions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+_ANY_ANGLE = 180 / np.sqrt(12)
+"""One standard deviation of an angle of which nothing is known [deg]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ellipse:
+    """`values`: one standard deviation along the major axis, along the minor one [px], the angle of the major one
+    [deg], counter-clockwise from the columns' direction as one sees the picture; `sigma` of each; and the relative
+    uncertainty of minor to major, `ratio_sigma`, which vary together."""
+
+    values: NDArray[np.float64]
+    sigma: NDArray[np.float64]
+    ratio_sigma: float
+
+
+def ellipse(variances: NDArray[np.float64], covariance: NDArray[np.float64]) -> Ellipse:
+    """Return the axes of variances along columns, rows and across [px^2, rows run down], with their covariance (3, 3).
+
+    Eigenvalues a +- r of the 2 x 2 matrix, a their mean, r = hypot(d, b), with d half the difference of the variances
+    and b the third; tan(2 angle) = b/d.
+    """
+    across, down, b = variances
+    a, d = (across + down) / 2, (across - down) / 2
+    r = max(float(np.hypot(d, b)), 1e-12 * a)
+    deviations = np.sqrt(np.maximum([a + r, a - r], 1e-12 * a))
+    cos, sin = d / r, b / r
+    values = np.array([[(1 + cos) / 2, (1 - cos) / 2, sin], [(1 - cos) / 2, (1 + cos) / 2, -sin]])
+    turn = np.degrees(np.array([[-sin / 2, sin / 2, cos]]) / (2 * r))
+    follow = np.vstack([values / (2 * deviations[:, None]), -turn])
+    own = follow @ covariance @ follow.T
+    sigma = np.sqrt(np.maximum(np.diag(own), 0))
+    sigma[2] = min(sigma[2], _ANY_ANGLE)
+    apart = np.array([1 / deviations[0], -1 / deviations[1]])
+    relative = float(np.sqrt(max(apart @ own[:2, :2] @ apart, 0)))
+    return Ellipse(np.array([*deviations, -np.degrees(np.arctan2(b, d)) / 2]), sigma, relative)

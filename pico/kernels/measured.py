@@ -1,0 +1,66 @@
+"""Kernels on what was measured: a picture with its settings, and what comes out in the form of a measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import PicoError
+from pico.kernels.frame import Frame
+from pico.kernels.kernel import Result
+from pico.kernels.known import kernel
+from pico.kernels.pipeline import Pipeline, parsed, run
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_KNOWN = ("pixel_size", "exposure", "gain", "full_scale", "black_level", "electrons_per_count", "read_noise")
+
+
+@dataclass(frozen=True)
+class Computed:
+    """A number, or several by name, one standard deviation of each, and their units in that order; or why there are
+    none."""
+
+    value: float | Mapping[str, float] | None
+    sigma: float | Mapping[str, float] | None
+    unit: str
+    unknown: str
+
+
+def frame_of(array: NDArray[Any], settings: Mapping[str, Any]) -> Frame:
+    """Return a picture (h, w) as a frame, with what the settings of its measurement say of the camera; what they do not
+    say is as `Frame` has it. Raises ValueError for what is no picture."""
+    known = {name: float(settings[name]) for name in _KNOWN if isinstance(settings.get(name), int | float)}
+    return replace(Frame(array), **known)  # type: ignore[arg-type]
+
+
+def computed(pipeline: Pipeline, array: NDArray[Any], settings: Mapping[str, Any]) -> Computed:
+    """Return what kernels make of a picture (h, w); raises PicoError where they give no numbers."""
+    try:
+        found = run(pipeline, frame_of(array, settings))
+    except ValueError as exc:
+        found = Result(unknown=str(exc))
+    unit = pipeline.last.unit
+    if found.unknown:
+        return Computed(None, None, unit, found.unknown)
+    if len(found.value) == 1:
+        (name,) = found.value
+        return Computed(found.value[name], found.sigma[name], unit, "")
+    return Computed(found.value, found.sigma, unit, "")
+
+
+def version(pipeline: Pipeline) -> str:
+    """Return the versions of the kernels, in their order."""
+    return " | ".join(kernel(step.name).KERNEL.version for step in pipeline.steps)
+
+
+def numbers_by(text: str, name: str) -> tuple[str, ...]:
+    """Return what the numbers of the measurable `name` with these kernels are called: its own name where there is one
+    number, else `name.x`; none where the text means nothing."""
+    try:
+        units = parsed(text).last.units
+    except PicoError:
+        return ()
+    return (name,) if len(units) == 1 else tuple(f"{name}.{number}" for number in units)
