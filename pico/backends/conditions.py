@@ -24,9 +24,14 @@ def conditions(
     found: dict[Condition, str] = {"settled": f"{', '.join(busy)} was under way" if busy else ""}
     found["arm parked"] = ", ".join(_standing_out(setup, seen))
     for condition in WANTED:
-        if condition in measurable.needs:
+        if condition in measurable.needs and (condition != "illumination" or _lamps(setup)):
             found[condition] = ", ".join(_unmet(setup, seen, component, measurable, condition))
     return found
+
+
+def _lamps(setup: Setup) -> bool:
+    """Return whether anything lights the room that could be switched: what nobody can switch is as it is."""
+    return any("illumination" in setup.type_of(name).tunables for name in setup.lab.inventory)
 
 
 def _standing_out(setup: Setup, seen: Observation) -> Iterator[str]:

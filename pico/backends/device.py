@@ -54,7 +54,8 @@ class Device(Protocol):
         ...
 
     async def look(self) -> Look:
-        """Look through the cameras, whatever the lab says, and return what they see, also what is wrong with them.
+        """Look through the cameras, whatever the lab says, and return what they see, also what is wrong with them. What
+        lights the room is on for it, and afterwards as it was.
 
         Raises PicoError where there are none.
         """

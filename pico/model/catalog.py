@@ -276,6 +276,13 @@ class ComponentType:
             if name not in self.tunables:
                 raise ValueError(f"`coupled` names `{name}`, which is none of the tunables")
 
+    @property
+    def with_needs(self) -> Mapping[str, Measurable]:
+        """The measurables, where one is computed of another with all that this one needs, too."""
+        own = self.measurables
+        base = {n: own.get((m.kernel or n).partition("|")[0].strip(), m) for n, m in own.items()}
+        return {n: replace(m, needs={**base[n].needs, **m.needs}) for n, m in own.items()}
+
     def number(self, parameter: str, unit: str) -> float | None:
         """Return a parameter that is a number, in `unit`; None where it has none, or not in such a unit."""
         found = self.parameters.get(parameter)
@@ -344,6 +351,8 @@ def as_first_written(kind: ComponentType) -> ComponentType:
         alone = {n for n in written if (element, n) in _THERE_ALONE}
     own = {n: p for n, p in kind.parameters.items() if n not in alone and _SINCE.get((element, n)) != p.value}
     measured = {n: m for n, m in kind.measurables.items() if m.kernel is None and n != "dark"}  # the rest is computed
+    for name, one in measured.items():  # a lab without a lamp has nothing to switch
+        measured[name] = replace(one, needs={k: v for k, v in one.needs.items() if k != "illumination"})
     can = tuple(p for p in kind.primitives if p != "auto_range")
     return replace(
         kind, parameters=own, measurables=measured, primitives=can, optics=replace(kind.optics, properties=written)

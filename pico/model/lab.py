@@ -456,7 +456,7 @@ class Setup:
         if name in self.lab.inventory:
             kind = self.type_of(name)
             read = {t: Measurable(datatype="setpoint", unit=tunable.unit) for t, tunable in kind.tunables.items()}
-            return {**read, "pose": Measurable(datatype="pose", unit="mm, mm, deg"), **kind.measurables}
+            return {**read, "pose": Measurable(datatype="pose", unit="mm, mm, deg"), **kind.with_needs}
         camera = self.lab.cameras.get(name)
         return {} if camera is None or camera.robot else {"frame": Measurable(datatype="image", unit="count")}
 

@@ -169,8 +169,8 @@ def _measure(setup: Setup, name: str, given: Mapping[str, str]) -> PrimitiveRequ
     known = setup.measurables_of(name)
     _only(name, "measure", given, primitive("measure").arguments)
     own = setup.type_of(name).measurables if name in setup.lab.inventory else known
-    own = {n: m for n, m in own.items() if m.kernel is None}
-    measurable = given.get("measurable") or (next(iter(own)) if len(own) == 1 else "")
+    read = [n for n, m in own.items() if m.kernel is None and n != "dark"]
+    measurable = given.get("measurable") or (read[0] if len(read) == 1 else "")
     if measurable not in known:
         what = f"{name} has no measurable `{measurable}`" if measurable else f"what of {name} is to be measured?"
         hint = did_you_mean(measurable, known) if measurable else ""

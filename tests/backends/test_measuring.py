@@ -99,7 +99,7 @@ def test_a_peek_opens_nothing_and_nothing_of_it_is_assured(tmp_path: Path) -> No
     assert (found.value, found.assured) == (0.0, ())
     assert dict(found.not_assured) == {"settled": PEEKED, "arm parked": PEEKED}
     assert not embedded(SETUP, tmp_path, "sim", "kinematic").journal.records()
-    with pytest.raises(PicoError, match="voltage of cam is not simulated yet"):
+    with pytest.raises(PicoError, match="voltage of cam is not simulated"):
         peeked(tmp_path, "cam", "voltage")
 
 
@@ -134,7 +134,7 @@ def needing(needs: dict[str, str]) -> Setup:
     [
         ({"shutter": "closed"}, True, {}),
         ({"shutter": "open"}, False, {"shutter": "laser.shutter is closed, not open"}),
-        ({"illumination": "on"}, False, {"illumination": "no part of this bench has `illumination`"}),
+        ({"illumination": False}, False, {}),  # nobody can switch what lights this room
         ({}, False, {}),
     ],
 )
@@ -149,7 +149,7 @@ VOLTAGE = """
 from pico.backends.sim.readings import Reading
 
 def measures(setup, component, measurable):
-    return measurable == "image" and component == "cam"
+    return measurable == "voltage" and component == "cam"
 
 def read(table, component, measurable):
     return Reading({"peak": 7.0 + table.world.clock, "mean": 1.0})
@@ -160,12 +160,15 @@ def test_a_measurable_is_added_by_one_file(tmp_path: Path, monkeypatch: pytest.M
     import importlib
     import sys
 
+    kind = SETUP.type_of("cam")
+    kind = replace(kind, measurables={**kind.measurables, "voltage": Measurable(datatype="float", unit="V")})
+    setup = replace(SETUP, catalog={**SETUP.catalog, kind.name: kind})
     (tmp_path / "more").mkdir()
     (tmp_path / "more" / "made_up.py").write_text(VOLTAGE)
     package = importlib.import_module(FOLDER)
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path / "more")])
     try:
-        assert "cam.image" in asyncio.run(embedded(SETUP, tmp_path, "sim", "kinematic").describe()).measurables
-        assert measured(tmp_path, "cam", "image").value == {"peak": 7.5, "mean": 1.0}
+        assert "cam.voltage" in asyncio.run(embedded(setup, tmp_path, "sim", "kinematic").describe()).measurables
+        assert measured(tmp_path, "cam", "voltage", setup).value == {"peak": 7.5, "mean": 1.0}
     finally:
         sys.modules.pop(f"{FOLDER}.made_up")

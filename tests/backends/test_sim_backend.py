@@ -143,7 +143,7 @@ def test_looking_works_while_another_moves(bench: LocalEdge) -> None:
         (setting("p1", "angle", True), "range", "number"),
         (setting("laser", "shutter", "ajar"), "range", "open"),
         (setting("p1", "hue", 1.0), "bad-plan", "no tunable hue"),
-        (setting("cam", "image", None, primitive="measure"), "not-simulated", "not simulated yet"),
+        (setting("cam", "spectrum", None, primitive="measure"), "not-simulated", "not simulated"),
         (setting("hwp", "pose", None, primitive="operator"), "operator", "needs a person"),
     ],
 )
@@ -284,9 +284,9 @@ def test_a_journal_without_a_simulated_run_does_not_ask_for_a_simulated_table(
     assert asyncio.run(bench.observe()).components["p1"].pose == P1
 
 
-def test_measuring_is_refused_until_light_is_simulated(bench: LocalEdge) -> None:
-    with pytest.raises(PicoError, match="image of cam is not simulated yet"):
-        asyncio.run(bench.peek("cam", "image"))
+def test_what_nothing_measures_is_refused(bench: LocalEdge) -> None:
+    with pytest.raises(PicoError, match="spectrum of cam is not simulated"):
+        asyncio.run(bench.peek("cam", "spectrum"))
 
 
 def test_what_it_can_do_is_said_before(bench: LocalEdge) -> None:
@@ -294,8 +294,8 @@ def test_what_it_can_do_is_said_before(bench: LocalEdge) -> None:
     assert (able.name, able.evidence, able.robots) == ("sim", "kinematic", ("arm1",))
     assert able.lab_digest == SETUP.digest()
     assert "operator" not in able.primitives
-    assert {"p1.angle", "p1.pose", "left.frame", "cam.exposure"} <= able.measurables
-    assert {"cam.image", "cam.pose", "left.pose"}.isdisjoint(able.measurables)
+    assert {"p1.angle", "p1.pose", "left.frame", "cam.exposure", "cam.image", "cam.centroid"} <= able.measurables
+    assert {"cam.pose", "left.pose"}.isdisjoint(able.measurables)
 
 
 def test_the_real_bench_says_what_is_missing(tmp_path: Path) -> None:

@@ -76,9 +76,9 @@ def test_expectations_are_checked_after_an_apply_and_at_any_time(shel: Path, pic
 def test_an_expectation_on_what_nobody_measured_is_not_assured_and_no_failure(shel: Path, pico: Pico) -> None:
     expecting(shel, "expect:\n  - {that: cam.peak > 200, message: no light on the camera}\n")
     applied = pico("apply", "--auto-approve")
-    assert applied.code == 0 and "`cam.peak > 200` is not assured: nobody measured cam.peak" in applied.out
+    assert applied.code == 0 and "`cam.peak > 200` is not assured: cam.peak was not measured now" in applied.out
     found = pico("verify", "--json")
     assert found.code == 0
     (one,) = json.loads(found.out)["expectations"]
     assert "holds" not in one and not one["assured"]
-    assert one["why"] == "nobody measured cam.peak"
+    assert one["why"] == "cam.peak was not measured now: `pico verify --measure` does it"

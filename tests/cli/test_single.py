@@ -115,7 +115,7 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["move", "p1"], "where to move p1?"),
         (["move", "p1", "x=1", "x=2"], "given twice"),
         (["do", "laser", "move", "x=1"], "no arm can move it: only a person can"),
-        (["do", "cam", "measure"], "light is not simulated yet"),
+        (["do", "cam", "measure", "pose"], "no camera over the bench sees it"),
         (["move", "p1", "by=2"], "takes no `by`"),
         (["do", "cam", "home"], "it knows no `home`"),
         (["do", "p1", "home", "tilt"], "`tilt` of p1 does not home"),

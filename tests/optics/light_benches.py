@@ -17,7 +17,7 @@ LENS = {"focal_length": 100.0, "transmission": 1.0}
 IDEAL: Mapping[str, Mapping[str, Any]] = {
     "hene_laser": {"power": 1.0, "polarization_ratio": None},
     "plano_convex_100": {"radius_of_curvature": None, "transmission": 1.0},
-    "linear_polarizer": {"extinction": None, "transmission": 1.0},
+    "linear_polarizer": {"extinction": None, "transmission": 1.0, "thickness": None},
     "half_wave_plate": {"transmission": 1.0},
     "quarter_wave_plate": {"transmission": 1.0},
     "mirror_tip_tilt": {"reflectance": 1.0},

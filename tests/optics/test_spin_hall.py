@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -115,3 +116,26 @@ def test_what_a_picture_shows_is_what_the_closed_form_says() -> None:
     area = (y[1] - y[0]) * (z[1] - z[0])
     assert picture.sum() * area == pytest.approx(arrival.power, rel=1e-6)
     assert (picture.sum(axis=1) * z).sum() / picture.sum() == pytest.approx(arrival.center[1], rel=1e-6)
+
+
+@pytest.mark.parametrize("lenses", LENSES)
+def test_frames_of_the_camera_show_it_to_a_fifth_of_a_micrometer(lenses: str) -> None:
+    from pico.kernels.frame import Frame
+    from pico.kernels.pipeline import parsed, run
+    from pico.optics.beam_table import exposed
+    from pico.optics.instruments import camera_frame, sensor_of
+
+    row = next(r for r in rows() if r["tilt_deg"] == 30)
+    found = bench(*LENSES[lenses], 30.0)
+    part = found.parts["cam"]
+    strength = exposed(found, part)
+    assert strength is not None
+    part = replace(part, values={"exposure": 0.6 / strength.times})  # of 1 ms, where none is set
+    sensor = sensor_of(part)
+    counts = camera_frame(found.at("cam"), part, seed=3)
+    frame = Frame(
+        counts, pixel_size=sensor.pitch, full_scale=sensor.full_scale, black_level=sensor.black,
+        read_noise=sensor.read_noise, electrons_per_count=sensor.electrons_per_count(0.0),
+    )  # fmt: skip
+    centroid = run(parsed("image | centroid"), frame)
+    assert abs(centroid.value["y"]) == pytest.approx(row[f"{lenses}_ideal_um"], abs=0.2), centroid

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from pico.backends.sim.world import World
 from pico.cameras.errors import CameraShift, common_shifts, true_cameras
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.model.lab import Setup
+from pico.model.lab import BadLight, Setup
+from pico.planning.checks.interlocks import LAMP
 
 if TYPE_CHECKING:
     import mujoco
@@ -16,13 +17,27 @@ if TYPE_CHECKING:
     from pico.cameras.simulated import Eyes
 
 
-def eyes_of(setup: Setup, world: World, model: mujoco.MjModel, data: mujoco.MjData) -> Eyes:
-    """Return the cameras of `world`, looking at its scene `model`: each part carries the marker that it has there."""
+def eyes_of(
+    setup: Setup, world: World, model: mujoco.MjModel, data: mujoco.MjData, *, lit: bool = True
+) -> Eyes:  # fmt: skip
+    """Return the cameras of `world`, looking at its scene `model`: each part carries the marker that it has there.
+
+    `lit`: as a bench looks, that turns on for it what lights the room; else it is as dark as its lamps leave it.
+    """
     from pico.cameras.simulated import Eyes
 
     cameras = true_cameras(setup, setup.lab.sim.errors, world.seed, world.cameras)
     markers = {name: body.marker for name, body in world.components.items()} | dict(world.stickers)
-    return Eyes(setup, model, data, cameras, seed=world.seed, markers=markers)
+    errors = setup.lab.sim.errors
+    if not lit and lamps(setup, world) and not any(lamps(setup, world).values()):
+        errors = replace(errors, light=BadLight(dim=0.0))
+    return Eyes(setup, model, data, cameras, errors=errors, seed=world.seed, markers=markers)
+
+
+def lamps(setup: Setup, world: World) -> dict[str, bool]:
+    """Return the lamps of the room, and whether each is on; a room without any is lit."""
+    own = {n: b.values[LAMP].value for n, b in world.components.items() if n in setup.lab.inventory if LAMP in b.values}
+    return {name: value is True for name, value in own.items()}
 
 
 def bump(setup: Setup, world: World, name: str | None, by: CameraShift) -> World:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pico.backends.sim.cameras import lamps
 from pico.backends.sim.readings import Table
 from pico.model.lab import Setup
 
 if TYPE_CHECKING:
     from pico.optics.light import Light
-
-LAMP = "illumination"
-"""The tunable of what lights the room."""
 
 
 def detects(setup: Setup, component: str, measurable: str, what: str) -> bool:
@@ -34,8 +32,5 @@ def light_on(table: Table) -> Light:
 
 def room_light(table: Table) -> float:
     """Return the light of the room's lamps on a bare sensor [nW/mm2]: of those that are on."""
-    return sum(
-        table.setup.type_of(name).number("stray_irradiance", "nW/mm2") or 0.0
-        for name, body in table.world.components.items()
-        if name in table.setup.lab.inventory and LAMP in body.values and body.values[LAMP].value in (True, "on")
-    )
+    lit = (name for name, on in lamps(table.setup, table.world).items() if on)
+    return sum(table.setup.type_of(name).number("stray_irradiance", "nW/mm^2") or 0.0 for name in lit)

@@ -50,7 +50,7 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
 
 def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:
     """Return what one camera sees of `world`; black where it was asked often enough."""
-    eyes = Posed(setup, world, known_arms(root)).eyes(world)
+    eyes = Posed(setup, world, known_arms(root), lit=False).eyes(world)
     return exposed(partial(eyes.frame, name))
 
 
@@ -60,9 +60,11 @@ _GONE = Placement((0.0, 0.0, -10.0), (1.0, 0.0, 0.0, 0.0))
 
 class Posed:
     """The scene of a world, strangers included, that is posed as the world goes on; `known`: how arms are off, as
-    calibration found it."""
+    calibration found it; `lit`: see `eyes_of`."""
 
-    def __init__(self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None) -> None:
+    def __init__(
+        self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None, *, lit: bool = True
+    ) -> None:
         import mujoco
 
         from pico.twin.placement import upright
@@ -77,7 +79,7 @@ class Posed:
         self._arms = arms_of(setup, world.seed, known)
         self._model = build_scene(setup, things, arms=self._arms).compile()
         self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-        self._eyes = eyes_of(setup, world, self._model, mujoco.MjData(self._model))
+        self._eyes = eyes_of(setup, world, self._model, mujoco.MjData(self._model), lit=lit)
 
     def eyes(self, world: World) -> Eyes:
         """Return the cameras, which look at `world`."""

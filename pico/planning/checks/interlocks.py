@@ -1,4 +1,5 @@
-"""Lasers are shut while somebody works in the beam, or an axis that steers it is homed; they open when all is done."""
+"""Lasers are shut while somebody works in the beam, or an axis that steers it is homed; they open when all is done. The
+lamps of the room are on while an arm works: cameras see by them."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, error, warning
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, ObservedValue
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
@@ -20,18 +21,22 @@ STEERING = ("beam_splitter", "lens", "mirror", "waveplate")
 """Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter
 behind it. A polarizer only dims it."""
 OPEN, CLOSED = "open", "closed"
+LAMP = "illumination"
+"""The tunable of a lamp that lights the room."""
 
 
 @dataclass(frozen=True, slots=True)
-class Shutter:
-    """What closes the beam of a laser, its own shutter or one on the table (`component`): what it was seen at (None
-    where nobody knows), and what it is to be at in the end."""
+class Gate:
+    """What is at one value while somebody works: the shutter of a laser, its own or one on the table (`component`), or
+    a lamp; what it was seen at (None where nobody knows), and what it is to be at in the end."""
 
     laser: str
     component: str
     kind: Tunable
     live: Value | None
     goal: Value | None
+    tunable: str = "shutter"
+    working: Value = CLOSED
 
 
 def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
@@ -41,16 +46,43 @@ def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operat
     What sets a shutter comes after the moves themselves, not only after the park: where a move fails, an arm still
     parks, but nobody knows what stands in the beam, and the shutter stays closed.
     """
-    guarded = _guarded(setup, operations)
     out = list(operations)
+    arms = [n for n, o in enumerate(operations) if o.robot is not None]
+    for lamp in _lamps(setup, seen, operations) if arms else ():
+        _keep(out, operations, lamp, arms, "the cameras of the arm see by it", "on while an arm worked")
+    guarded = _guarded(setup, operations)
     if not guarded or setup.lab.policy.open_beam:
         return out
-    first, last = _ends(operations, guarded)
     why = _why(operations, guarded)
     for shutter in _shutters(setup, seen, operations):
-        _close(out, shutter, first, guarded, why)
-        _set_back(out, shutter, last, why)
+        _keep(out, operations, shutter, guarded, why, f"closed while {why}")
     return out
+
+
+def _keep(
+    out: list[Operation], operations: Sequence[Operation], gate: Gate, guarded: Sequence[int], why: str, was: str
+) -> None:
+    """Let a gate be at its working value while the guarded operations go on, and as it is to be after them."""
+    first, last = _ends(operations, guarded)
+    _close(out, gate, first, guarded, why)
+    _set_back(out, gate, last, was)
+
+
+def _lamps(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Gate]:
+    """Yield the lamps that a plan can turn on, by name."""
+    for name in sorted(setup.lab.inventory):
+        kind, part = setup.type_of(name).tunables.get(LAMP), seen.components.get(name)
+        if kind is not None and kind.mover in ("motor", "electronics") and part is not None and LAMP in part.values:
+            yield _gate(operations, "", name, kind, part.values[LAMP], LAMP, True)
+
+
+def _gate(
+    operations: Sequence[Operation], laser: str, name: str, kind: Tunable, known: ObservedValue, tunable: str,
+    working: Value,
+) -> Gate:  # fmt: skip
+    live = known.value if known.status == "known" else None
+    ends = [o.arguments.get("to") for o in operations if _sets(o, name, tunable)]
+    return Gate(laser, name, kind, live, ends[-1] if ends else known.value, tunable, working)
 
 
 def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[int]:
@@ -84,7 +116,7 @@ def _why(operations: Sequence[Operation], guarded: Sequence[int]) -> str:
     return f"homing {', '.join(names)} steers the beam"
 
 
-def _shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Shutter]:
+def _shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Gate]:
     """Yield what closes each laser that a plan can close, by name: its own shutter, else one in its beam."""
     taken = set[str]()
     for laser in _lasers(setup):
@@ -98,14 +130,11 @@ def _shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
 
 def _shutter(
     setup: Setup, seen: Observation, operations: Sequence[Operation], laser: str, name: str
-) -> Shutter | None:  # fmt: skip
+) -> Gate | None:  # fmt: skip
     kind, part = setup.type_of(name).tunables.get("shutter"), seen.components.get(name)
     if kind is None or part is None or "shutter" not in part.values or not _closes(kind):
         return None
-    known = part.values["shutter"]
-    live = known.value if known.status == "known" else None
-    ends = [o.arguments.get("to") for o in operations if _sets(o, name)]
-    return Shutter(laser, name, kind, live, ends[-1] if ends else known.value)
+    return _gate(operations, laser, name, kind, part.values["shutter"], "shutter", CLOSED)
 
 
 def _lasers(setup: Setup) -> list[str]:
@@ -116,9 +145,9 @@ def _closes(kind: Tunable) -> bool:
     return kind.mover in ("motor", "electronics") and {OPEN, CLOSED} <= set(kind.choices)
 
 
-def _sets(operation: Operation, name: str) -> bool:
-    tunable = operation.arguments.get("tunable")
-    return operation.primitive == "set" and operation.component == name and tunable == "shutter"
+def _sets(operation: Operation, name: str, tunable: str = "shutter") -> bool:
+    own = operation.arguments.get("tunable")
+    return operation.primitive == "set" and operation.component == name and own == tunable
 
 
 def lets_light_out(setup: Setup, operation: Operation) -> bool:
@@ -131,14 +160,14 @@ def lets_light_out(setup: Setup, operation: Operation) -> bool:
 
 
 def _close(
-    out: list[Operation], shutter: Shutter, first: Sequence[int], guarded: Sequence[int], why: str
+    out: list[Operation], gate: Gate, first: Sequence[int], guarded: Sequence[int], why: str
 ) -> None:  # fmt: skip
-    """Let the first of the guarded operations come after the shutter is closed, by what the plan holds or by more."""
-    if shutter.live == CLOSED:
+    """Let the first of the guarded operations come after the gate is as it must be, by what the plan holds or more."""
+    if gate.live == gate.working:
         return
-    n = next((n for n, o in enumerate(out) if _sets(o, shutter.component) and o.arguments["to"] == CLOSED), len(out))
+    n = _setting(out, gate, gate.working)
     if n == len(out):
-        out.append(_set(shutter, shutter.live, CLOSED, why))
+        out.append(_set(gate, gate.live, gate.working, why))
     _at_once(out, n, guarded)
     for k in first:
         out[k] = replace(out[k], after=(*out[k].after, str(n)))
@@ -151,26 +180,30 @@ def _at_once(out: list[Operation], n: int, guarded: Sequence[int]) -> None:
         _at_once(out, int(e), guarded)
 
 
-def _set_back(out: list[Operation], shutter: Shutter, last: Sequence[int], why: str) -> None:
-    """Let the shutter be set as wanted after the last of the guarded operations."""
-    if shutter.goal in (CLOSED, None):
+def _setting(out: Sequence[Operation], gate: Gate, value: Value) -> int:
+    """Return which operation sets a gate to a value; their number where none does."""
+    mine = (n for n, o in enumerate(out) if _sets(o, gate.component, gate.tunable) and o.arguments["to"] == value)
+    return next(mine, len(out))
+
+
+def _set_back(out: list[Operation], gate: Gate, last: Sequence[int], was: str) -> None:
+    """Let the gate be set as wanted after the last of the guarded operations."""
+    if gate.goal is None or gate.goal == gate.working:
         return
     after = tuple(str(k) for k in last)
-    n = next(
-        (n for n, o in enumerate(out) if _sets(o, shutter.component) and o.arguments["to"] == shutter.goal), len(out)
-    )
+    n = _setting(out, gate, gate.goal)
     if n == len(out):
-        out.append(replace(_set(shutter, CLOSED, shutter.goal, f"closed while {why}"), after=after))
+        out.append(replace(_set(gate, gate.working, gate.goal, was), after=after))
     else:
-        before = {**out[n].arguments, "from": CLOSED}
+        before = {**out[n].arguments, "from": gate.working}
         out[n] = replace(out[n], arguments=before, after=(*out[n].after, *after))
 
 
-def _set(shutter: Shutter, before: Value | None, after: Value, why: str) -> Operation:
+def _set(gate: Gate, before: Value | None, after: Value, why: str) -> Operation:
     return Operation(
-        id="", primitive="set", component=shutter.component, reason=Reason(kind="interlock", text=why),
-        arguments={"tunable": "shutter", "from": before, "to": after},
-        resources=(f"{shutter.component}.shutter", shutter.component), seconds=set_seconds(shutter.kind, before, after),
+        id="", primitive="set", component=gate.component, reason=Reason(kind="interlock", text=why),
+        arguments={"tunable": gate.tunable, "from": before, "to": after},
+        resources=(f"{gate.component}.{gate.tunable}", gate.component), seconds=set_seconds(gate.kind, before, after),
     )  # fmt: skip
 
 

@@ -45,10 +45,13 @@ def benches(draw: st.DrawFn, most: int, linear: bool) -> Bench:
     weight = draw(st.lists(st.sampled_from((1.0, 1.0, 0.1, 0.0)), min_size=count, max_size=count))
     testable = {n for n in draw(st.sets(st.integers(0, count - 2))) if weight[n]}
     row = st.lists(SECONDS, min_size=count, max_size=count)
-    ways = draw(st.lists(row, min_size=count, max_size=count))
-    return Bench(
-        Suspects(parents, weight, frozenset(testable)), draw(row), ways, draw(st.sampled_from((0.0, 5.0, 60.0)))
-    )
+    first, *ways = draw(st.lists(row, min_size=count + 1, max_size=count + 1))
+    for through in range(count):  # no detour is shorter, or a trial that tells nothing could be worth its time
+        for n in range(count):
+            first[n] = min(first[n], first[through] + ways[through][n])
+            for m in range(count):
+                ways[m][n] = min(ways[m][n], ways[m][through] + ways[through][n])
+    return Bench(Suspects(parents, weight, frozenset(testable)), first, ways, draw(st.sampled_from((0.0, 5.0, 60.0))))
 
 
 def least(bench: Bench) -> float:
@@ -63,8 +66,8 @@ def least(bench: Bench) -> float:
         found = []
         for trial in bench.suspects.testable & left:
             bad = frozenset(c for c in left if ancestors[trial] >> c & 1)
-            if bad and bad != left:
-                share = sum(weight[c] for c in bad) / total
+            share = sum(weight[c] for c in bad) / total
+            if share > 0 and any(weight[c] for c in left - bad):  # else its result is certain
                 rest = share * expected(bad, trial) + (1 - share) * expected(left - bad, trial)
                 found.append(bench.cost(at, trial) + rest)
         return min(found, default=0.0)

@@ -1,0 +1,99 @@
+"""`pico measure`: numbers of the beam with their uncertainties, dark frames, the exposure, the lamp of the room."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from commanding import Pico, edit
+
+
+@pytest.fixture
+def crossed(shel: Path, pico: Pico) -> Path:
+    """The case study with nearly crossed polarizers, in a world that stands still."""
+    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
+    assert pico("apply", "e1", "--yes").code == 0
+    return shel
+
+
+def test_the_middle_of_the_spot_is_told_with_its_uncertainty_and_kept_with_the_run(crossed: Path, pico: Pico) -> None:
+    found = pico("measure", "cam.centroid", "--json").data
+    assert found["schema"] == "pico.measurement/v1" and found["unit"] == "um, um"
+    assert found["kernel"] == "image | centroid" and "not saturated" in found["assured"]
+    # the spin Hall shift of 150/125 mm at 30 deg with an angle of 1 deg, seen beyond the back focus
+    assert found["value"]["y"] == pytest.approx(-58, abs=3) and 0 < found["sigma"]["y"] < 0.1
+    said = pico("measure", "cam.centroid")
+    assert said.code == 0 and "y  -5" in said.out and " ± 0.02" in said.out and "exposure 10 ms" in said.out
+    assert "cam.centroid" in pico("runs", "show").out
+    again = pico("measure", "cam.image | background | centroid", "--json").data
+    assert again["value"]["y"] == pytest.approx(found["value"]["y"], abs=0.5)
+    assert again["array"]["shape"] == [2048, 2448]
+
+
+def test_what_is_saturated_has_no_value_and_the_exposure_is_found(crossed: Path, pico: Pico) -> None:
+    pico("set", "cam", "exposure=200")
+    answer = pico("measure", "cam.power")
+    assert answer.code == 1 and "unknown" in answer.out and "pixels read 4095" in answer.out
+    assert pico("do", "cam", "auto_range", "--yes").code == 0
+    exposure = pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"]
+    assert 5 < exposure < 20
+    taken = pico("runs", "show", "--json").data["operations"][0]["data"]
+    assert taken["value"] == exposure and taken["frames"][0]["exposure"] == 200 and len(taken["frames"]) <= 8
+    assert pico("measure", "cam.power", "--json").data["value"] > 0
+
+
+def test_a_dark_frame_shuts_the_laser_and_opens_it_again(crossed: Path, pico: Pico) -> None:
+    answer = pico("measure", "cam.dark", "--yes")
+    assert "laser.shutter  open → closed" in answer.out and answer.code == 0
+    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "open"
+    pico("set", "laser", "shutter=closed", "--yes")
+    no_light = pico("measure", "cam.centroid")
+    assert no_light.code == 1 and "no light" in no_light.out
+    assert pico("do", "cam", "auto_range", "--yes").code == 0  # as far as it goes
+    assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == 1000
+
+
+@pytest.mark.parametrize(
+    ("what", "said"),
+    [
+        ("cam.image | centriod", "did you mean `centroid`?"),
+        ("cam.power | centroid", "cam.power is no picture"),
+        ("cam.centre", "cam has no measurable `centre`"),
+        ("cam.image | mode_overlap", "`radius`"),
+        ("p1", "what of p1 is to be measured?"),
+        ("nobody.image", "there is no component `nobody`"),
+        ("laser.power", "laser has no measurable `power`"),
+    ],
+)
+def test_what_makes_no_sense_is_told(shel: Path, pico: Pico, what: str, said: str) -> None:
+    answer = pico("measure", what)
+    assert answer.code != 0 and said in answer.err and "Traceback" not in answer.err
+
+
+def test_the_lamp_is_off_while_a_beam_is_measured_and_on_while_an_arm_works(shel: Path, pico: Pico) -> None:
+    edit(shel / "lab.yaml", "inventory:\n", "inventory:\n  lamp: {type: room_lamp, pose: {x: 1120, y: 800, yaw: 0}}\n")
+    edit(
+        shel / "state/table.yaml", "components:\n",
+        "components:\n  lamp: {pose: {x: 1120, y: 800, yaw: 0}, illumination: false}\n",
+    )  # fmt: skip
+    steps = [(op["component"], op["primitive"]) for op in pico("plan", "--json").data["operations"]]
+    last = max(n for n, step in enumerate(steps) if step[1] in ("move", "park"))
+    assert steps.index(("lamp", "set")) > last
+    assert pico("apply", "--yes").code == 0
+    pico("set", "lamp", "illumination=true")
+    pico("set", "hwp", "angle=2", "--yes"), pico("set", "cam", "exposure=0.2")
+    planned = pico("measure", "cam.centroid", "--dry-run", "--json").data["operations"]
+    assert [(op["component"], op["arguments"].get("to")) for op in planned] == [
+        ("lamp", False), ("cam", None), ("lamp", True),
+    ]  # fmt: skip
+    dark = pico("measure", "cam.power", "--json").data
+    assert "illumination" in dark["assured"]
+    lit = pico("get", "cam.image", "--json").data["values"]["image"]["value"]
+    pico("set", "lamp", "illumination=false")
+    assert lit["mean"] > pico("get", "cam.image", "--json").data["values"]["image"]["value"]["mean"] + 100
+    # the way back: the lamp is turned on before the arm moves, and off again after it
+    assert pico("move", "p2", "x=530", "--yes").code == 0
+    steps = [(op["component"], op["arguments"].get("to")) for op in pico("plan", "--json").data["operations"]]
+    lamp = [n for n, step in enumerate(steps) if step[0] == "lamp"]
+    assert [steps[n][1] for n in lamp] == [True, False]
+    assert lamp[0] < next(n for n, step in enumerate(steps) if step[0] == "p2") < lamp[1]
