@@ -130,8 +130,8 @@ class SimDevice:
         return self._looked[1]
 
     async def peek(self, component: str, measurable: str) -> Measurement:
-        """Return what a measurement would give now, of which nothing is assured; raises PicoError, for light above all:
-        that is not simulated yet."""
+        """Return what a measurement would give now, of which nothing is assured, and nothing is opened for it; raises
+        PicoError."""
         from pico.backends.attempt import Failed
         from pico.backends.sim.measuring import measured
 

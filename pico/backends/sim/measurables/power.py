@@ -10,8 +10,9 @@ from pico.model.lab import Setup
 
 
 def measures(setup: Setup, component: str, measurable: str) -> bool:
-    """Whether it is the power or the voltage of a detector."""
-    return any(detects(setup, component, measurable, what) for what in ("power", "voltage"))
+    """Whether it is the power or the voltage of a detector with a single area."""
+    found = any(detects(setup, component, measurable, what) for what in ("power", "voltage"))
+    return found and setup.type_of(component).number("active_diameter", "mm") is not None
 
 
 def read(table: Table, component: str, measurable: str) -> Reading:
