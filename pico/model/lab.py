@@ -308,6 +308,11 @@ class SensorErrors:
     fringes: float = 0.0
     flicker: float = 0.0
 
+    def __post_init__(self) -> None:
+        for name in ("non_uniformity", "hot_pixels", "fringes", "flicker"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise ValueError(f"`{name}` is a share from 0 to 1, not {getattr(self, name):g}")
+
 
 @record
 class Environment:
@@ -324,6 +329,11 @@ class Environment:
     warm_up: float = 0.02
     power: float = 0.005
     vibration: float = 5.0
+
+    def __post_init__(self) -> None:
+        for name in ("temperature", "pointing", "warm_up", "power", "vibration"):
+            if not 0 <= getattr(self, name) < math.inf:
+                raise ValueError(f"`{name}` is 0 or more, not {getattr(self, name):g}")
 
 
 @record

@@ -1,0 +1,104 @@
+"""Whether parameters that light is computed from can be what they say: numbers in a unit, within what is possible."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
+from pico.manifest.text.places import where
+from pico.manifest.text.tree import Document
+from pico.model.catalog import ComponentType
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """What a number may be, in a `unit`: from `least` to `most`, these included; not 0 where `zero` is false."""
+
+    unit: str = ""
+    least: float = -math.inf
+    most: float = math.inf
+    zero: bool = True
+
+    def __str__(self) -> str:
+        ends = f"from {self.least:g} to {self.most:g}" if self.least > -math.inf and self.most < math.inf else ""
+        ends = ends or (f"{self.least:g} or more" if self.least > -math.inf else "other than 0")
+        return f"{ends} {self.unit}".strip()
+
+
+_SHARE, _LENGTH = Bounds("", 0, 1), Bounds("mm", 1e-3, 1e5)
+_INDEX = Bounds("", 1e-3, 10)
+NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
+    "source": {
+        "wavelength": Bounds("nm", 10, 1e5), "power": Bounds("mW", 0, 1e9), "waist_radius": Bounds("mm", 1e-4, 1e3),
+        "waist_position": Bounds("mm", -1e7, 1e7), "quality": Bounds("", 1, 1e4), "polarization": Bounds("deg"),
+        "polarization_ratio": Bounds("", 1),
+    },
+    "lens": {
+        "focal_length": Bounds("mm", zero=False), "radius_of_curvature": Bounds("mm", zero=False),
+        "radius_of_curvature_back": Bounds("mm", zero=False), "center_thickness": Bounds("mm", 0, 1e3),
+        "refractive_index": _INDEX, "transmission": _SHARE, "cylinder_axis": Bounds("deg"),
+    },
+    "mirror": {
+        "reflectance": _SHARE, "retardance": Bounds("deg"), "refractive_index": _INDEX,
+        "extinction_coefficient": Bounds("", 0, 100),
+    },
+    "polarizer": {
+        "extinction": Bounds("", 1), "transmission": _SHARE, "refractive_index": _INDEX,
+        "thickness": Bounds("mm", 0, 1e3),
+    },
+    "waveplate": {
+        "transmission": _SHARE, "design_wavelength": Bounds("nm", 10, 1e5), "thickness": Bounds("mm", 0, 1e3),
+        "refractive_index": _INDEX,
+    },
+    "beam_splitter": {
+        "reflectance": _SHARE, "transmittance": _SHARE, "extinction": Bounds("", 1), "fold": Bounds("deg"),
+    },
+    "filter": {"optical_density": Bounds("", 0, 20), "transmission": _SHARE},
+    "detector": {
+        "pixels_across": Bounds("pixel", 1, 2e4), "pixels_up": Bounds("pixel", 1, 2e4),
+        "pixel_size": Bounds("um", 0.1, 1e4),
+        "bit_depth": Bounds("bit", 1, 16), "full_well": Bounds("", 1), "read_noise": Bounds("", 0, 1e6),
+        "dark_current": Bounds("", 0), "quantum_efficiency": Bounds("", 1e-6, 1), "filter_density": Bounds("", 0, 20),
+        "black_level": Bounds("count", 0, 6e4), "responsivity": Bounds("A/W", 1e-6, 100),
+        "transimpedance": Bounds("V/A", 1e-3), "saturation": Bounds("V", 1e-9), "least_power": Bounds("mW", 0),
+        "greatest_power": Bounds("mW", 1e-12), "uncertainty": _SHARE, "active_diameter": _LENGTH,
+    },
+}  # fmt: skip
+"""The numbers of a type that light is computed from, by its element."""
+WORDS: Mapping[tuple[str, str], tuple[str, ...]] = {("polarizer", "substrate"): ("film", "ar_glass", "glass")}
+
+
+def check_parameters(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:
+    """Yield an error for each parameter of a type's element that can't be what it says."""
+    element = kind.optics.element
+    for name, bounds in {**NUMBERS.get(element, {}), "clear_diameter": _LENGTH}.items():
+        if name in kind.parameters:
+            yield from _number(document, kind, name, bounds)
+    for (of, name), words in WORDS.items():
+        if of == element and name in kind.parameters and (given := kind.parameters[name].value) not in words:
+            hint = did_you_mean(str(given)[:40], words) or f"one of: {', '.join(words)}"
+            yield error("value", f"`{name}` is `{str(given)[:40]}`", hint=hint, source=_at(document, name))
+    polarizing = kind.parameters.get("polarizing")
+    if element == "beam_splitter" and not (polarizing and polarizing.value):
+        shares = [kind.number(name, "") or 0.0 for name in ("reflectance", "transmittance")]
+        if sum(shares) > 1 + 1e-9:
+            text = f"`reflectance` and `transmittance` are {sum(shares):g} together: more light leaves than comes"
+            yield error("value", text, hint="1 or less together", source=_at(document, "reflectance"))
+
+
+def _number(document: Document, kind: ComponentType, name: str, bounds: Bounds) -> Iterator[Diagnostic]:
+    value, given = kind.number(name, bounds.unit), kind.parameters[name]
+    if value is None:
+        text = f"`{name}` is `{str(given.value)[:40]}`" + (f" in {given.unit}" if given.unit else "")
+        yield error(
+            "value", text, hint=f"expected a number [{bounds.unit or '1'}], {bounds}", source=_at(document, name)
+        )
+    elif not bounds.least <= value <= bounds.most or (value == 0 and not bounds.zero):
+        text = f"`{name}` is {value:g} {bounds.unit}".rstrip()
+        yield error("value", f"{text}, which can't be", hint=f"expected {bounds}", source=_at(document, name))
+
+
+def _at(document: Document, name: str) -> SourceRange | None:
+    return where(document, "parameters", name, "value")
