@@ -21,6 +21,7 @@ from pico.optics.part import Part
 
 CLIPPED = 0.01
 """The share of a beam that an edge may stop before anybody is told."""
+_NEARBY = 100.0  # mm: a beam that passes further off has nothing to do with a detector
 _FLAT = 1e-7  # 1/mm: a wavefront flatter than this is called flat
 
 
@@ -108,19 +109,46 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
             yield from stray(setup, beam.source, Meeting(name, crossing.event, (x, y, z), beam.length))
         if crossing.clipped > CLIPPED and crossing.event != "blocked":
             left, up = _offset(beam, light.parts[name])
-            text = f"{name} stops {100 * crossing.clipped:.2g} % of the beam of {beam.source}, of radius"
-            text = f"{text} {beam.widths[0]:.3g} mm, {_aside(left, up)} of its middle"
-            yield warning("clipped", text, hint="move it into the beam, or take a wider one", address=name)
+            text = f"{name} stops {_two(100 * crossing.clipped)} % of the beam of {beam.source}, of radius"
+            text, opening = f"{text} {beam.widths[0]:.3g} mm", light.parts[name].values.get("opening")
+            if math.hypot(left, up) > 0.05:
+                text = f"{text}, which comes {_beside(left, up)} its middle"
+            hint = "move it into the beam, or take a wider one"
+            if opening is not None:
+                text = f"{text}: it is open by {short(float(opening))} mm"
+                hint = f"open it: `pico set {name} opening=...`"
+            yield warning("clipped", text, hint=hint, address=name)
     for name in sorted({c.component for c in light.crossings if c.event == "detected"}):
         yield from _too_strong(light, light.parts[name])
     lit = {c.component for c in light.crossings if c.event == "detected"}
     for name, part in sorted(light.parts.items()):
         if part.kind.optics.element == "detector" and name not in lit and light.crossings and _stands(setup, part):
-            yield warning("dark", f"no light comes to {name}", hint=f"`pico ruler --along-beam SOURCE {name}` "
-                          "says where it ends", address=name)  # fmt: skip
+            text, near = f"no light comes to {name}", _passing(light, part)
+            hint = "move it into a beam, or a beam onto it" if near else "`pico beam` shows where the beams go"
+            yield warning("dark", f"{text}: {near}" if near else text, hint=hint, address=name)
     for source in light.endless:
         yield warning("endless", f"the beam of {source} goes round and round, and is not followed to its end",
                       hint="turn a mirror, or end it in a beam block", address=source)  # fmt: skip
+
+
+def _passing(light: Light, part: Part) -> str:
+    """Return how the nearest beam passes a detector, in words; empty where none crosses its plane nearby."""
+    normal, left, up = part.axes
+    found: list[tuple[float, str]] = []
+    for crossing in light.crossings:
+        if crossing.beam.ghost:
+            continue
+        source = light.parts[crossing.beam.source].origin
+        start = source if crossing.before is None else light.crossings[crossing.before].beam.at
+        end = crossing.beam.at
+        first, last = (float((at - part.center) @ normal) for at in (start, end))
+        if first * last < 0:
+            passes = start + (end - start) * first / (first - last) - part.center
+            aside = float(passes @ left), float(passes @ up)
+            away = math.hypot(*aside)
+            found.append((away, f"the beam of {crossing.beam.source} passes {_beside(*aside)} its aperture"))
+    nearest = min(found, default=(math.inf, ""))
+    return nearest[1] if nearest[0] < _NEARBY else ""
 
 
 def _stands(setup: Setup, part: Part) -> bool:
@@ -128,9 +156,11 @@ def _stands(setup: Setup, part: Part) -> bool:
     return 0 <= part.pose.x <= wide and 0 <= part.pose.y <= deep
 
 
-def _aside(left: float, up: float) -> str:
-    across = f"{short(abs(left))} mm to the {'left' if left > 0 else 'right'}"
-    return f"{across} and {short(abs(up))} mm {'above' if up > 0 else 'below'}"
+def _beside(left: float, up: float) -> str:
+    """Return `40 mm above`, `12 mm to the left of`, or both."""
+    across = f"{short(abs(left))} mm to the {'left' if left > 0 else 'right'} of"
+    high = f"{short(abs(up))} mm {'above' if up > 0 else 'below'}"
+    return " and ".join(text for text, size in ((across, left), (high, up)) if abs(size) > 0.05) or "through"
 
 
 def _too_strong(light: Light, part: Part) -> Iterator[Diagnostic]:

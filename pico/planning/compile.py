@@ -97,7 +97,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         own = {(c.component, c.tunable) for c in changes if request.only.chosen(c.component, c.tunable)} | done
         changes = tuple(c for c in changes if (c.component, c.tunable) in own)
     if operations:
-        diagnostics = (*diagnostics, *beams_in_the_way(setup, request.seen, request.wanted, changes, request.source))
+        diagnostics = (*diagnostics, *beams_in_the_way(setup, request.seen, request.wanted, changes))
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity, base=base,
         target=target, changes=changes, operations=operations,

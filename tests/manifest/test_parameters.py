@@ -20,19 +20,22 @@ def told(name: str, old: str, new: str) -> list[Diagnostic]:
     return list(read_type(parse(source)[0][0])[1])
 
 
+CAM, SPLITTER = "beam_camera", "beam_splitter_50_50"
+
+
 @pytest.mark.parametrize(
     ("name", "old", "new", "said", "hint"),
     [
-        ("beam_camera", "{value: 2448,", "{value: -3,", "`pixels_across` is -3 pixel, which can't be", "from 1 to 20000"),
-        ("beam_camera", "filter_density: {value: 1,", "filter_density: {value: dark,", "`dark`", "expected a number"),
-        ("beam_camera", "{value: 3.45, unit: um}", "{value: 3.45, unit: ms}", "`3.45` in ms", "a number [um]"),
+        (CAM, "{value: 2448,", "{value: -3,", "`pixels_across` is -3 pixel, which can't be", "from 1 to 20000"),
+        (CAM, "filter_density: {value: 1,", "filter_density: {value: dark,", "`dark`", "expected a number"),
+        (CAM, "{value: 3.45, unit: um}", "{value: 3.45, unit: ms}", "`3.45` in ms", "a number [um]"),
         ("plano_convex_100", "focal_length: {value: 100,", "focal_length: {value: 0,", "is 0 mm", "other than 0"),
-        ("linear_polarizer", "substrate: {value: film,", "substrate: {value: films,", "`films`", "did you mean `film`?"),
+        ("linear_polarizer", "{value: film,", "{value: films,", "`films`", "did you mean `film`?"),
         ("linear_polarizer", "{value: 0.8,", "{value: 1.8,", "`transmission` is 1.8", "from 0 to 1"),
         ("hene_laser", "{value: 0.315,", "{value: -1,", "`waist_radius` is -1 mm", "from 0.0001 to 1000 mm"),
-        ("beam_splitter_50_50", "transmittance: {value: 0.", "transmittance: {value: 0.9", "more light leaves", "1 or less"),
+        (SPLITTER, "transmittance: {value: 0.", "transmittance: {value: 0.9", "more light leaves", "1 or less"),
     ],
-)  # fmt: skip
+)
 def test_it_is_told_where_it_stands(name: str, old: str, new: str, said: str, hint: str) -> None:
     (found,) = told(name, old, new)
     assert found.severity == "error" and found.source is not None

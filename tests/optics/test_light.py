@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from light_benches import kind, light
+from light_benches import kind, light, setup_of
 
 from pico.manifest.catalog import read_type
 from pico.manifest.checks.elements import own
 from pico.manifest.files import decode
 from pico.manifest.text.tree import parse
+from pico.model.catalog import ClearAperture
 from pico.model.pose import Pose
 from pico.optics import elements
 from pico.optics.beam import Beam, forward, moments
@@ -246,3 +247,25 @@ def unknown_elements(name: str) -> list[str]:
     assert source
     (document,), _ = parse(source)
     return [d.hint or "" for d in read_type(document)[1] if d.code == "unknown-element"]
+
+
+@pytest.mark.parametrize(
+    ("y", "height", "said"),
+    [
+        (480, 70, "passes 60 mm to the right of its aperture"),
+        (420, 30, "passes 40 mm above its aperture"),
+        (700, 70, ""),
+    ],
+)
+def test_a_detector_without_light_is_told_how_the_beam_passes_it(y: float, height: float, said: str) -> None:
+    from pico.optics.beam_table import troubles
+
+    meter = kind("power_meter")
+    low = replace(
+        meter.geometry, height=height + 25.0, clear_aperture=ClearAperture(center=(0, 0, height), diameter=9.5)
+    )
+    kinds = {"laser": kind("hene_laser"), "pm": replace(meter, geometry=low), "block": kind("beam_block")}
+    poses = {"laser": Pose(100, 420), "pm": Pose(500, y), "block": Pose(900, 420)}
+    found = troubles(setup_of(kinds), light(kinds, poses))
+    (dark,) = [d for d in found if d.code == "dark"]
+    assert dark.summary == f"no light comes to pm: the beam of laser {said}" if said else "no light comes to pm"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 
-from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
 from pico.manifest.checks.cameras import check_cameras, check_view
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
@@ -156,6 +157,13 @@ def _type(document: Document, setup: Setup, kind: ComponentType, part: str) -> I
             hint=f"use a type made for {beam:g} mm, or change table.beam_height",
             source=at,
         )
+    aperture = kind.geometry.clear_aperture
+    if aperture is not None and abs(aperture.center[2] - beam) > aperture.diameter / 2:
+        way = "above" if beam > aperture.center[2] else "below"
+        text = f"the beam of this lab runs {abs(aperture.center[2] - beam):g} mm {way} the aperture of {part}"
+        hint = f"its radius is {aperture.diameter / 2:g} mm; in a lab like this its center is [.., .., {beam:g}]"
+        detail = f"type {kind.name}, geometry.clear_aperture"
+        yield warning("beam-height", text, detail=detail, hint=hint, source=at)
     if kind.geometry.footprint.radius > max(setup.lab.table.size) / 2:
         hint = "check the size of its footprint in the catalog"
         yield error("footprint", f"{part} ({kind.name}) is larger than the table", hint=hint, source=at)
@@ -170,9 +178,25 @@ def _grasp(robots: Mapping[str, Robot], kind: ComponentType, part: str, at: Sour
             "grasp",
             f"no gripper of this lab can hold {part} ({kind.name})",
             detail=reasons[0],
-            hint="change the grasp of the type, or its seating to `bolted`",
+            hint=_better_grasp(next(iter(robots.values())), kind),
             source=at,
         )
+
+
+def _better_grasp(robot: Robot, kind: ComponentType) -> str:
+    """Return what grasp of a type a robot's gripper could hold it by: other yaws, else another height."""
+    grasp, fingers = kind.geometry.grasp, robot.gripper.fingers
+    otherwise = "change the grasp of the type, or its seating to `bolted`"
+    if grasp is None or not isinstance(fingers, Fingers) or grasp.width + 2 * fingers.opening > robot.gripper.stroke:
+        return otherwise
+    free = [yaw for yaw in dict.fromkeys((*grasp.yaws, 0.0, 90.0)) if not touches_aperture(kind, fingers, yaw)]
+    if free:
+        return f"expected `yaws: [{', '.join(f'{yaw:g}' for yaw in free)}]` in the grasp of {kind.name}"
+    for height in range(math.ceil(grasp.height), math.floor(kind.geometry.height) + 1):
+        higher = replace(kind, geometry=replace(kind.geometry, grasp=replace(grasp, height=float(height))))
+        if not any(touches_aperture(higher, fingers, yaw) for yaw in grasp.yaws):
+            return f"expected `height: {height}` or more in the grasp of {kind.name}"
+    return otherwise
 
 
 def _no_grasp(robot: Robot, kind: ComponentType) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic
@@ -12,13 +11,12 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.state import LabState, place_of
-from pico.planning.checks.target import Source
 
 _OWN = {"beam", "clipped"}  # what `pico.optics.beam_table` tells of where beams go; not how strong they are
 
 
 def beams_in_the_way(
-    setup: Setup, seen: Observation, wanted: LabState, changes: Sequence[Change], source: Source
+    setup: Setup, seen: Observation, wanted: LabState, changes: Sequence[Change]
 ) -> tuple[Diagnostic, ...]:
     """Return a warning for each beam that would end on a housing, leave the table, come back to its laser or be clipped
     once the changes are made, and does not so now.
@@ -33,8 +31,7 @@ def beams_in_the_way(
     if not lit:
         return ()
     before = {(d.code, d.address) for d in _told(setup, now, seen.known_values, lit)}
-    found = (d for d in _told(setup, then, values, lit) if (d.code, d.address) not in before)
-    return tuple(replace(d, source=source(f"{d.address}.pose.x")) for d in found)
+    return tuple(d for d in _told(setup, then, values, lit) if (d.code, d.address) not in before)
 
 
 def _told(

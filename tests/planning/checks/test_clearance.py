@@ -14,7 +14,6 @@ from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState
 from pico.planning.checks.clearance import beams_in_the_way
-from pico.planning.checks.target import no_source
 from pico.resources import labs_dir
 
 FOLDER = load_folder(labs_dir() / "shel")
@@ -31,7 +30,7 @@ def told(lens: Pose, *, now: Pose | None = None, **laser: Any) -> list[tuple[str
     if now is not None:
         seen = replace(seen, components={**seen.components, "lx_125": ObservedComponent(pose=now)})
     changes = diff_observed(SETUP, seen, state)
-    return [(d.code, d.address) for d in beams_in_the_way(SETUP, seen, state, changes, no_source)]
+    return [(d.code, d.address) for d in beams_in_the_way(SETUP, seen, state, changes)]
 
 
 def _seen(name: str, part: ComponentState) -> ObservedComponent:
