@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.model.catalog import ComponentType, Footprint, Tunable
+from pico.model.catalog import ComponentType, Footprint, Measurable, Tunable
 from pico.model.record import as_json
 
 from .style import columns, number, paint, wrap
@@ -18,7 +18,7 @@ def text(kind: ComponentType) -> str:
     pose = ["pose", f"within {number(near.position)} mm, {number(near.yaw)}°", f"moved by {kind.pose.mover}"]
     lines += _table("Tunables", [pose, *([n, _domain(t), _about(t)] for n, t in kind.tunables.items())])
     lines += _table(
-        "Measurables", [[n, f"{m.datatype} {m.unit}".strip(), m.description] for n, m in kind.measurables.items()]
+        "Measurables", [[n, f"{m.datatype} {m.unit}".strip(), _made(m)] for n, m in kind.measurables.items()]
     )
     g = kind.geometry
     body = f"{_outline(g.footprint)}, {number(g.height)} mm high, {number(g.mass, 3)} kg"
@@ -67,3 +67,9 @@ def _outline(footprint: Footprint) -> str:
 def data(kind: ComponentType) -> dict[str, Any]:
     """Return schema `pico.component-type/v1` with the type under `type`."""
     return {"schema": "pico.component-type/v1", "type": as_json(kind)}
+
+
+def _made(measurable: Measurable) -> str:
+    """Return what a measurable is, and what computes it."""
+    kernel = f"`{measurable.kernel}`" if measurable.kernel else ""
+    return ": ".join(part for part in (measurable.description, kernel) if part)

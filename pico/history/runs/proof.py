@@ -147,5 +147,7 @@ def unproven(claim: CommitClaim, diagnostics: tuple[Diagnostic, ...] = ()) -> St
     if seen or named:
         return judged("inherited", "its message speaks of another state: it was copied or edited")
     if claim.parents > 1 and claim.carries:
-        return judged("inherited", "a merge: its sides may have been on a bench, no commit has a run of the two together yet")
+        return judged(
+            "inherited", "a merge: its sides may have been on a bench, no commit has a run of the two together yet"
+        )
     return judged("planned", "no run in this history led to it")
