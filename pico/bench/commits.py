@@ -155,7 +155,9 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
     if mode != "strict":
         return
     components = contents(folder, named).components if named else None
-    refuse_unapplied(folder.setup, folder.committed(), folder.state, seen, components)
+    committed = folder.committed()
+    if committed is not None:
+        refuse_unapplied(folder.setup, committed, folder.state, seen, components)
     with remembered(folder.root) as memory:
         found = never_here(folder.setup, memory, seen, folder.state, stood=_stood(folder) if used else None)
     never = sorted(
@@ -167,6 +169,8 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
         names = ", ".join(never[:6]) + (" and others" if len(never) > 6 else "")
         hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the bench is left out"
         text = f"the bench never stood as the last commit says: {names}"
+        if committed is None:  # the first one: there is only the manifest
+            text = f"the manifest holds edits that were never applied: {names}"
         raise PicoError(error("unapplied", text, hint=hint))
 
 

@@ -262,7 +262,7 @@ class _Reader:
         return where(self.first[name], "components", name, key)
 
     def _slot_error(self, name: str, summary: str, detail: str) -> None:
-        hint = "give one of them another slot or a pose"
+        hint = "give one of them another slot or a pose, or take back with `git revert` the commit that did it"
         at = self._place(name, "slot")
         self.found.append(error("slot", summary, detail=detail, hint=hint, address=f"{name}.slot", source=at))
 

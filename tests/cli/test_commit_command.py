@@ -326,3 +326,17 @@ def test_a_clone_whose_bench_was_never_used_does_not_commit_over_what_another_be
     assert pico("apply", "--auto-approve").code == 0
     assert pico("sim", "nudge", "p2", "--dx", "3").code == 0
     assert pico("commit", "-m", "a hand did it").code == 0
+
+
+def test_the_first_commit_of_a_lab_takes_what_set_did_and_refuses_an_edit(
+    tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert pico("init", ".").code == 0 and pico("apply", "--yes").code == 0
+    assert pico("set", "laser", "emission=true", "--yes").code == 0
+    edit(tmp_path / "state" / "table.yaml", "exposure: 5", "exposure: 7")
+    refused = pico("commit", "-m", "first")
+    assert refused.code == 1 and "edits that were never applied: camera.exposure\n" in refused.err
+    edit(tmp_path / "state" / "table.yaml", "exposure: 7", "exposure: 5")
+    made = pico("commit", "-m", "first")
+    assert made.code == 0 and "1 tunable taken from the bench" in made.out

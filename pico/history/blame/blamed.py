@@ -176,8 +176,8 @@ class _Turns:
         commit = self.commits[node.commit]
         return LeafChange(
             commit=commit.id, name=commit.label, author=commit.author.partition(" <")[0], time=commit.time.isoformat(),
-            summary=commit.summary, how=how(commit, self.runs.get(commit.id, ()), at), before=before, after=after,
-            text=text, earlier=commit.id in self.shallow,
+            summary=commit.summary, how=how(commit, self.runs.get(commit.id, ()), at, after), before=before,
+            after=after, text=text, earlier=commit.id in self.shallow,
         )  # fmt: skip
 
 

@@ -145,9 +145,12 @@ def planned_trailers(manifests: Manifests) -> list[tuple[str, str]]:
 def judged(manifests: Manifests, check: Check, text: str) -> tuple[Diagnostic, ...]:
     """Return the warnings of a state that is about to be written.
 
-    Raises PicoError where it is not valid and, ending with `text`, where it can't stand (exit 3).
+    Raises PicoError, ending with `text`, where it is not valid or can't stand (exit 3).
     """
-    manifests.require()
+    try:
+        manifests.require()
+    except PicoError as exc:
+        raise PicoError([*exc.diagnostics, error("merge-impossible", text)], ExitCode.IMPOSSIBLE) from exc
     found = check(manifests)
     if any(d.severity == "error" for d in found):
         raise PicoError([*found, error("merge-impossible", text)], ExitCode.IMPOSSIBLE)

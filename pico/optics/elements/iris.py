@@ -7,8 +7,8 @@ from pico.optics.part import Met, Part, arrived, clipped
 
 
 def meet(part: Part, beam: Beam) -> Met:
-    """Stop what is beside the opening, a tunable, or as wide as the clear aperture."""
+    """Stop what is beside the opening: a tunable, else the parameter `diameter`, else as wide as the clear aperture."""
     came = arrived(part, beam)
-    opening = part.value("opening", "mm", 2 * part.optic.radius)
+    opening = part.value("opening", "mm", part.number("diameter", "mm", 2 * part.optic.radius))
     passed, lost = clipped(part, came, opening / 2)
     return Met(came, (passed,), lost)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import sqlite3
 import subprocess
@@ -598,3 +599,21 @@ def test_a_merge_did_not_make_the_runs_that_it_merges(git: Git, lab: Path) -> No
     put(lab, A + B + "  c: {slot: s7}\n")
     commit(git, "merge")
     assert hows(blame(lab, ["b", "c.pose"])) == {"b.pose": "run r01", "c.pose": "merge"}
+
+
+@pytest.mark.parametrize(
+    ("left", "how"),
+    [
+        ({"x": 640.0, "y": 420.0, "yaw": 10.0}, "edited"),
+        ({"x": 5.3, "y": 7.0, "yaw": 0.0}, "run r01"),
+        ("s7", "run r01"),
+    ],
+)
+def test_a_run_that_a_rebase_took_along_to_another_value_is_not_blamed_for_it(
+    git: Git, lab: Path, left: object, how: str
+) -> None:
+    put(lab, "  a: {pose: {x: 5, y: 7, yaw: 0}}\n")
+    moved = Change(component="a", tunable="pose", after=left)
+    carry(lab, dataclasses.replace(run_document("r01", []), changes=(moved,)))
+    commit(git, "rebased, its conflict resolved", *REALIZED)
+    assert hows(blame(lab, ["a.pose"])) == {"a.pose": how}
