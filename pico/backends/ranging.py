@@ -26,7 +26,7 @@ def next_exposure(taken: Taken, limits: tuple[float, float]) -> float | None:
         return None
     factor = 1 / _STEP if taken.level >= 0.99 else min(_AIM / max(taken.level, 1e-6), _STEP)
     low, high = limits
-    wanted = round(min(max(taken.exposure * factor, low), high), 3)
+    wanted = min(max(round(taken.exposure * factor, 3), low), high)  # rounded first: a limit may be finer
     return None if wanted == taken.exposure else wanted
 
 

@@ -82,6 +82,14 @@ def test_the_pattern_belongs_to_the_sensor_and_not_to_the_frame() -> None:
     assert abs(np.corrcoef(one.ravel(), third.ravel())[0, 1]) < 0.5
 
 
+@pytest.mark.parametrize("electrons", [20.0, 3000.0])
+def test_a_sensor_as_bad_as_can_be_written_still_gives_frames(electrons: float) -> None:
+    worst = SensorErrors(non_uniformity=1.0, hot_pixels=1e-4, fringes=1.0, flicker=1.0)
+    assert flat(electrons, 1, worst).max() > SENSOR.black
+    deaf = flat(electrons, 1, SensorErrors(non_uniformity=1.0)) < SENSOR.black + 6
+    assert deaf.mean() > 0.15  # as many as lie below 0: a normal number under -1 sigma
+
+
 def test_with_everything_wrong_a_spot_is_where_it_is_to_a_tenth_of_a_pixel() -> None:
     big = Sensor((1200, 1000), 3.45, name="cam", read_noise=2.5, dark_current=1.0, black=64.0)
     away = []
