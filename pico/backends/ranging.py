@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 GOOD = (0.5, 0.85)
 """The share of full scale that the brightest pixel is to read."""
 _AIM, _STEP = 0.7, 20.0
 MOST = 8
 """Frames that are taken at most."""
-TUNABLE = "exposure"
 
 
 @dataclass(frozen=True)
@@ -28,6 +31,13 @@ def next_exposure(taken: Taken, limits: tuple[float, float]) -> float | None:
     low, high = limits
     wanted = min(max(round(taken.exposure * factor, 3), low), high)  # rounded first: a limit may be finer
     return None if wanted == taken.exposure else wanted
+
+
+def brightest(pixels: NDArray[Any]) -> float:
+    """Return the brightest place of a frame (h, w) of counts, where a hot pixel is none: the middle of 3 x 3 pixels."""
+    import cv2
+
+    return float(cv2.medianBlur(pixels, 3).max())
 
 
 def level_of(peak: float, black: float, full: float) -> float:

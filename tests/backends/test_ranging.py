@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.backends.ranging import GOOD, MOST, Taken, level_of, next_exposure
+from pico.backends.ranging import GOOD, MOST, Taken, brightest, level_of, next_exposure
 
 LIMITS = (0.02, 1000.0)
 
@@ -43,3 +44,11 @@ def test_what_it_asks_for_is_within_the_limits(exposure: float, level: float, lo
 
 def test_the_level_is_above_black_and_never_below_nothing() -> None:
     assert level_of(4095, 64, 4095) == 1 and level_of(64, 64, 4095) == 0 and level_of(60, 64, 4095) == 0
+
+
+def test_a_hot_pixel_is_no_light() -> None:
+    pixels = np.full((40, 50), 64, dtype=np.uint16)
+    pixels[7, 9] = 4095
+    assert brightest(pixels) == 64
+    pixels[20:23, 30:33] = 2000
+    assert brightest(pixels) == 2000

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.backends.attempt import attempt
 from pico.backends.device import Began
-from pico.backends.ranging import MOST, Taken, level_of, next_exposure
+from pico.backends.ranging import MOST, Taken, brightest, level_of, next_exposure
 from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
@@ -181,9 +181,9 @@ class WorldSession:
             exposure = live if isinstance(live, int | float) else limits[0]
             yield SETTLING + exposure * 1e-3
             found = measurer.read(Table(self._setup, self._root, self.world()), name, "image")
-            assert isinstance(found.value, Mapping)
+            assert found.array is not None
             black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
-            frames.append(Taken(exposure, level_of(float(found.value["peak"]), black, full)))
+            frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
             wanted = next_exposure(frames[-1], limits)
             if wanted is None:
                 break
