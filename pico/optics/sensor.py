@@ -138,7 +138,7 @@ def response(sensor: Sensor, errors: SensorErrors, first: int, last: int) -> Ele
         # cos(a + b), so that no cosine is taken for each pixel
         wave = np.cos(rows)[:, None] * np.cos(columns) - np.sin(rows)[:, None] * np.sin(columns)
         found += np.float32(errors.fringes) * wave
-    return np.maximum(found, np.float32(0))  # a pixel is deaf at worst: it gives no light back
+    return np.maximum(found, np.float32(0), out=found)  # a pixel is deaf at worst: it gives no light back
 
 
 _FRINGE = 400.0
