@@ -36,6 +36,16 @@ def value(found: Any, unit: str = "", sigma: Any = None) -> str:
         return str(found).lower()
     if isinstance(found, int | float) and isinstance(sigma, int | float) and sigma > 0:
         digits = max(0, 1 - math.floor(math.log10(sigma)))
-        return f"{found:.{digits}f} ± {sigma:.{digits}f} {unit}".strip()
+        said = f"{found:.{digits}f}"
+        said = said.removeprefix("-") if float(said) == 0 else said
+        return f"{said} ± {sigma:.{digits}f} {unit}".strip()
     said = number(found, 3) if isinstance(found, int | float) else str(found or "")
     return f"{said} {unit}".strip()
+
+
+def ranged(data: Mapping[str, Any]) -> str:
+    """Return the exposure that was found, and in how many frames; empty for any other operation."""
+    frames = data.get("frames")
+    if not frames or not isinstance(data.get("value"), int | float):
+        return ""
+    return f"{number(data['value'], 3)} ms, found in {len(frames)} frame{'' if len(frames) == 1 else 's'}"

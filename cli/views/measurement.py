@@ -26,7 +26,9 @@ def text(found: Measurement, *, run: str) -> str:
         shape = " x ".join(str(n) for n in found.array.shape)
         lines.append(f"  {shape} {found.array.dtype}, kept as {found.array.sha256[:12]}")
     made = f"`{found.kernel}` version {found.kernel_version}, " if found.kernel else ""
-    setting = ", ".join(f"{k} {value(found.settings[k], u)}" for k, u in _SETTINGS.items() if k in found.settings)
+    given = {k: found.settings[k] for k in _SETTINGS if k in found.settings}
+    units = {k: "" if isinstance(v, str) else _SETTINGS[k] for k, v in given.items()}  # `0 dB` has its own
+    setting = ", ".join(f"{k} {value(v, units[k])}" for k, v in given.items())
     lines += wrap(f"{made}{setting + ', ' if setting else ''}`pico runs show {run}`", "  ")
     for what, why in found.not_assured.items():
         lines += wrap(paint("yellow", f"not assured: {what} ({why})"), "  ")

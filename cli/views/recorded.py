@@ -10,7 +10,7 @@ from pico.model.run import TRIALS, Run
 from pico.runs.operations import operations
 
 from .diff import lines
-from .measured import line
+from .measured import line, ranged
 from .report import expectations
 from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
@@ -101,6 +101,8 @@ def _ended(op: OperationRun) -> str:
         said += f", {number(error_mm)} mm, {number(error_deg)}° off"
     if isinstance(op.data.get("measurement"), Mapping):
         said += f": {shown(_measured(op.data['measurement']))}"
+    if found := ranged(op.data):
+        said += f": {found}"
     if op.settled:
         said += f", as {'the bench was seen later' if op.settled == 'observation' else shown(op.settled) + ' said'}"
     if op.error:

@@ -63,7 +63,7 @@ class Progress:
         data = event.data
         if event.kind == "operation_done":
             took = f"{seconds(float(data['seconds'])):>7}" if "seconds" in data else ""
-            said = measured.line(data["measurement"]) if "measurement" in data else ""
+            said = measured.line(data["measurement"]) if "measurement" in data else measured.ranged(data)
             said = placement(data) if "error_mm" in data else said
             return took + (f"   {said}" if said else "")
         if event.kind == "operation_skipped":

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import Diagnostic, error
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 GOOD = (0.5, 0.85)
 """The share of full scale that the brightest pixel is to read."""
+FULL, DARK = 0.99, 0.02
+"""From which share on a frame is saturated, and up to which it shows nothing but noise."""
 _AIM, _STEP = 0.7, 20.0
 MOST = 8
 """Frames that are taken at most."""
@@ -27,10 +32,22 @@ def next_exposure(taken: Taken, limits: tuple[float, float]) -> float | None:
     """Return the exposure to try next [ms]; None where this one is good, or the camera can't do better."""
     if GOOD[0] <= taken.level <= GOOD[1]:
         return None
-    factor = 1 / _STEP if taken.level >= 0.99 else min(_AIM / max(taken.level, 1e-6), _STEP)
+    factor = 1 / _STEP if taken.level >= FULL else min(_AIM / max(taken.level, 1e-6), _STEP)
     low, high = limits
     wanted = min(max(round(taken.exposure * factor, 3), low), high)  # rounded first: a limit may be finer
     return None if wanted == taken.exposure else wanted
+
+
+def in_vain(name: str, frames: Sequence[Taken]) -> Diagnostic | None:
+    """Return why no exposure of a camera shows its light: too much, or none; None where the last frame does."""
+    last = frames[-1]
+    if last.level >= FULL:
+        text = f"{name} is saturated even at {last.exposure:g} ms, its shortest exposure"
+        return error("saturated", text, hint="weaken the beam: a filter, a wave plate before a polarizer", address=name)
+    if last.level < DARK:
+        text = f"no light comes to {name}: its picture stays dark up to {last.exposure:g} ms"
+        return error("dark", text, hint="`pico beam` shows where the beams go, and which lasers are shut", address=name)
+    return None
 
 
 def brightest(pixels: NDArray[Any]) -> float:

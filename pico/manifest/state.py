@@ -220,6 +220,8 @@ class _Reader:
             tunable = kind.tunables.get(key)
             if tunable is None:
                 hint = self._belongs(key) or self._tunables(key[:40], kind.tunables)
+                if key in ("x", "y", "yaw") and "pose" in node.entries:
+                    hint = f"`{key}` belongs to the pose: indent it by two more, below `pose:`"
                 self._error(
                     document, at, "unknown-tunable", f"{name} ({kind.name}) has no tunable `{key[:40]}`", hint, name
                 )

@@ -332,8 +332,9 @@ class Environment:
 
     def __post_init__(self) -> None:
         for name in ("temperature", "pointing", "warm_up", "power", "vibration"):
-            if not 0 <= getattr(self, name) < math.inf:
-                raise ValueError(f"`{name}` is 0 or more, not {getattr(self, name):g}")
+            most = 0.5 if name == "power" else 1000.0
+            if not 0 <= getattr(self, name) <= most:
+                raise ValueError(f"`{name}` is from 0 to {most:g}, not {getattr(self, name):g}")
 
 
 @record

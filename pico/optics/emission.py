@@ -18,7 +18,8 @@ def emit(part: Part) -> Beam:
     its power be another by the share `walk_power`: what the world does, and no tunable of a type. What is
     polarized across does not interfere with the rest."""
     wavelength = part.value("wavelength", "nm", part.number("wavelength", "nm", 632.8)) * 1e-6
-    power = part.value("power", "mW", part.number("power", "mW", 1.0)) * (1 + part.values.get("walk_power", 0.0))
+    power = part.value("power", "mW", part.number("power", "mW", 1.0))
+    power *= max(0.0, 1 + float(part.values.get("walk_power", 0.0)))
     waist, quality = part.number("waist_radius", "mm", 0.5), part.number("quality", "", 1.0)
     angle = math.radians(part.number("polarization", "deg", 0.0))
     across = part.number("polarization_ratio", "", math.inf)

@@ -34,7 +34,7 @@ def test_what_is_saturated_has_no_value_and_the_exposure_is_found(crossed: Path,
     pico("set", "cam", "exposure=200")
     answer = pico("measure", "cam.power")
     assert answer.code == 1 and "unknown" in answer.out and "pixels read 4095" in answer.out
-    assert pico("do", "cam", "auto_range", "--yes").code == 0
+    assert "ms, found in" in pico("do", "cam", "auto_range", "--yes").out
     exposure = pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"]
     assert 5 < exposure < 20
     taken = pico("runs", "show", "--json").data["operations"][0]["data"]
@@ -49,8 +49,9 @@ def test_a_dark_frame_shuts_the_laser_and_opens_it_again(crossed: Path, pico: Pi
     pico("set", "laser", "shutter=closed", "--yes")
     no_light = pico("measure", "cam.centroid")
     assert no_light.code == 1 and "no light" in no_light.out
-    assert pico("do", "cam", "auto_range", "--yes").code == 0  # as far as it goes
-    assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == 1000
+    in_vain = pico("do", "cam", "auto_range", "--yes")
+    assert in_vain.code == 1 and "no light comes to cam: its picture stays dark up to 1000 ms" in in_vain.err
+    assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == 10  # as it was
 
 
 @pytest.mark.parametrize(
@@ -97,3 +98,11 @@ def test_the_lamp_is_off_while_a_beam_is_measured_and_on_while_an_arm_works(shel
     lamp = [n for n, step in enumerate(steps) if step[0] == "lamp"]
     assert [steps[n][1] for n in lamp] == [True, False]
     assert lamp[0] < next(n for n, step in enumerate(steps) if step[0] == "p2") < lamp[1]
+
+
+def test_light_that_no_exposure_shows_is_told(shel: Path, pico: Pico) -> None:
+    for words in ("emission=true", "shutter=open"):
+        assert pico("set", "laser", words, "--yes").code == 0
+    answer = pico("do", "cam", "auto_range", "--yes")  # nothing but hwp stands in the beam
+    assert answer.code == 1 and "cam is saturated even at 0.02 ms, its shortest exposure" in answer.err
+    assert "weaken the beam" in answer.err

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.backends.attempt import attempt
 from pico.backends.device import Began
-from pico.backends.ranging import MOST, Taken, brightest, level_of, next_exposure
+from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
 from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
@@ -189,6 +189,11 @@ class WorldSession:
                 break
             yield set_seconds(kind, exposure, wanted)
             self._world = self._world.with_value(name, tunable, ObservedValue(value=wanted))
+        why = in_vain(name, frames)
+        if why is not None:
+            if why.code == "dark":  # nothing was found out: as it was
+                self._world = self._world.with_value(name, tunable, ObservedValue(value=frames[0].exposure))
+            raise MoveFailed(why)
         return {"value": frames[-1].exposure, "frames": [as_json(asdict(frame)) for frame in frames]}
 
     def _plugged_in(self, operation: Operation, key: str) -> InProgress:

@@ -80,6 +80,14 @@ def check_parameters(document: Document, kind: ComponentType) -> Iterator[Diagno
         if of == element and name in kind.parameters and (given := kind.parameters[name].value) not in words:
             hint = did_you_mean(str(given)[:40], words) or f"one of: {', '.join(words)}"
             yield error("value", f"`{name}` is `{str(given)[:40]}`", hint=hint, source=_at(document, name))
+    black, bits = kind.number("black_level", "count"), kind.number("bit_depth", "bit")
+    if element == "detector" and black and bits and 1 <= bits <= 16 and black >= 2**bits / 2:
+        text = f"`black_level` is {black:g}, more than half of what {bits:g} bits hold"
+        yield error("value", text, hint=f"expected below {2**bits / 2:g}", source=_at(document, "black_level"))
+    least, greatest = kind.number("least_power", "mW"), kind.number("greatest_power", "mW")
+    if element == "detector" and least and greatest and least >= greatest:
+        text = f"`least_power` is {least:g} mW, and `greatest_power` {greatest:g} mW"
+        yield error("value", text, hint="expected the least below the greatest", source=_at(document, "least_power"))
     polarizing = kind.parameters.get("polarizing")
     if element == "beam_splitter" and not (polarizing and polarizing.value):
         shares = [kind.number(name, "") or 0.0 for name in ("reflectance", "transmittance")]

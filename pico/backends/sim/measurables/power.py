@@ -26,5 +26,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     found = power_reading(
         light.at(component), part, seed=table.world.seed, number=round(table.world.clock * 1000)
     )  # fmt: skip
-    said = f"{found.value:g} is all that it can tell" if found.saturated else ""
-    return Reading(found.value, sigma=found.sigma, saturated=said)
+    if found.saturated:
+        unit = table.setup.measurables_of(component)[measurable].unit
+        why = f"{found.value:g} {unit} is all that it can tell".replace("  ", " ")
+        return Reading(None, saturated=why, unknown=f"saturated: {why}")
+    return Reading(found.value, sigma=found.sigma, saturated="")
