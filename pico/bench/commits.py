@@ -50,7 +50,10 @@ class Commits:
         """
         named = read_addresses(self.folder.setup, only) if only else None
         if not write:
-            return self.folder.capture(self._live(self.opened.observe()), named, write=False)
+            seen = self.opened.observe()
+            with told_with(self.opened, seen):
+                _refuse_in_hand(seen, named)
+            return self.folder.capture(self._live(seen), named, write=False)
         seen, moved = self._seen()
         if moved:
             raise moved

@@ -21,6 +21,7 @@ from pico.optics.part import Part
 
 CLIPPED = 0.01
 """The share of a beam that an edge may stop before anybody is told."""
+_SIDES = ("pixels_across", "pixels_up")
 _NEARBY = 100.0  # mm: a beam that passes further off has nothing to do with a detector
 _FLAT = 1e-7  # 1/mm: a wavefront flatter than this is called flat
 
@@ -165,6 +166,9 @@ def _beside(left: float, up: float) -> str:
 
 def _too_strong(light: Light, part: Part) -> Iterator[Diagnostic]:
     found = exposed(light, part)
+    if found and found.times == 0 and (arrivals := light.at(part.name)):
+        text = f"the beam of {arrivals[0].beam.source} comes {_beside(*arrivals[0].center)} the sensor of {part.name}"
+        yield warning("dark", f"{text}, and misses it", hint="move it into the beam", address=part.name)
     if found and found.times > 1:
         text = f"{part.name} is saturated {_two(found.times)} times over{found.at}"
         yield warning("saturated", text, hint=found.hint, address=part.name)
@@ -189,7 +193,7 @@ def exposed(light: Light, part: Part) -> Exposed | None:
     power = sum(a.power for a in arrivals)
     if (well := part.kind.number("full_well", "")) is not None:
         exposure = part.value("exposure", "ms", 1.0)
-        times = _brightest(arrivals) * (part.number("pixel_size", "um", 1.0) * 1e-3) ** 2 * exposure
+        times = _brightest(arrivals, part) * (part.number("pixel_size", "um", 1.0) * 1e-3) ** 2 * exposure
         times *= electrons(arrivals[0].wavelength, efficiency(part)) / well
         least = (part.kind.tunables["exposure"].range or (0.0, 0.0))[0] if "exposure" in part.kind.tunables else 0.0
         enough = exposure / times if times else exposure
@@ -223,12 +227,14 @@ def electrons(wavelength: float, efficiency: float) -> float:
     return efficiency * 1e-6 * wavelength * 1e-9 / (planck * light)
 
 
-def _brightest(arrivals: tuple[Any, ...]) -> float:
-    """Return the greatest irradiance [mW/mm2], looked for around the brightest beam."""
+def _brightest(arrivals: tuple[Any, ...], part: Part) -> float:
+    """Return the greatest irradiance [mW/mm2] on a camera's sensor, looked for around the brightest beam."""
     bright = max(arrivals, key=lambda a: a.power / (a.beam.widths[0] * a.beam.widths[1]))
     (y, z), reach = bright.center, 2 * bright.beam.widths[0]
     line = np.linspace(-reach, reach, 81)
-    return float(irradiance(arrivals, y + line, z + line).max())
+    half = [part.number(n, "pixel", math.inf) * part.number("pixel_size", "um", 1.0) * 5e-4 for n in _SIDES]
+    across, up = (at[np.abs(at) <= end] for at, end in zip((y + line, z + line), half, strict=True))
+    return float(irradiance(arrivals, across, up).max()) if len(across) and len(up) else 0.0
 
 
 def decibel(values: Mapping[str, Any]) -> float:

@@ -15,6 +15,7 @@ from pico.optics.light import Arrival, irradiance
 from pico.optics.part import Part
 from pico.optics.sensor import Counts, Electrons, Sensor, frame
 
+_GRID = 401
 ROOM = 550.0
 """Wavelength at which light of the room counts [nm]."""
 
@@ -65,13 +66,30 @@ class Power:
     saturated: bool = False
 
 
+def power_on(arrivals: tuple[Arrival, ...], part: Part) -> float:
+    """Return the power [mW] that beams bring to a detector: those of one source interfere on it.
+
+    What interference adds or takes is summed over its area, fringe by fringe as far as the grid shows them; finer ones
+    add nothing.
+    """
+    power = float(sum(a.power for a in arrivals))
+    sources = [a.beam.source for a in arrivals]
+    if len(sources) == len(set(sources)) or power <= 0:
+        return power
+    line = np.linspace(-1, 1, _GRID) * part.number("active_diameter", "mm", 2 * part.optic.radius) / 2
+    inside = line[None, :] ** 2 + line[:, None] ** 2 <= line[-1] ** 2
+    alone = sum((irradiance((a,), line, line) for a in arrivals), np.zeros((_GRID, _GRID)))
+    more = float(((irradiance(arrivals, line, line) - alone) * inside).sum()) * (line[1] - line[0]) ** 2
+    return float(max(0.0, power + more))
+
+
 def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, number: int = 0) -> Power:
     """Return what a power meter reads [mW], or a photodiode behind its amplifier [V].
 
     A meter is wrong by a share, the same for all its readings, of which `uncertainty` is two standard deviations; and
     each reading has the noise `least_power`.
     """
-    power = sum(a.power for a in arrivals)
+    power = power_on(tuple(arrivals), part)
     own = np.random.default_rng([seed, *part.name.encode()]).standard_normal()
     noise = np.random.default_rng([seed, number, *part.name.encode()]).standard_normal()
     volts = part.kind.number("saturation", "V")

@@ -104,13 +104,21 @@ def arrived(part: Part, beam: Beam, *, at: Vector | None = None, normal: Vector 
 
 
 def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = None) -> tuple[Beam, float]:
-    """Return a beam behind a round edge of a radius [mm], seen along the beam, and the share that it stops.
+    """Return a beam behind a round edge of a radius [mm], and the share that it stops. A beam that comes aslant sees it
+    as an ellipse; but for the cube of a splitter, which is as open on each side.
 
     What passes is its part within the edge; where that is less than SPOT of it, its spot is not Gaussian any
     more and becomes unknown: diffraction would have to tell.
     """
     middle = part.center if center is None else center
-    passed = within(came, came.frame @ (middle - came.at), radius)
+    aslant = came.frame @ np.array(part.optic.normal)
+    seen, place = came, came.frame @ (middle - came.at)
+    if part.optic.element != "beam_splitter" and (size := float(np.hypot(*aslant))) > _SQUARE:
+        # stretched along the tilt, so that the ellipse is the circle again
+        stretch = np.eye(2) + (1 / math.sqrt(max(1 - size**2, 1e-12)) - 1) * np.outer(aslant, aslant) / size**2
+        back = np.asarray(np.linalg.inv(stretch), dtype=np.float64)
+        seen, place = stretched(came, back), stretch @ place
+    passed = within(seen, place, radius)
     if passed >= 1.0:
         return came, 0.0
     behind = scaled(came, math.sqrt(passed))
@@ -118,6 +126,15 @@ def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = No
         text = f"{part.name} lets only {100 * passed:.2g} % of the beam through, and its spot is diffraction's then"
         behind = replace(behind, unknown=text)
     return behind, 1.0 - passed
+
+
+_SQUARE = 1e-6  # sine of the incidence from which an aperture counts as tilted
+
+
+def stretched(beam: Beam, back: NDArray[np.float64]) -> Beam:
+    """Return a beam in transverse coordinates u of which its own are `back` u (2, 2): as strong, of another shape."""
+    waves = tuple(replace(wave, shift=back @ wave.shift) for wave in beam.waves)
+    return replace(beam, curvature=back @ beam.curvature @ back, waves=waves)
 
 
 def within(beam: Beam, middle: Vector, radius: float) -> float:

@@ -106,3 +106,14 @@ def test_light_that_no_exposure_shows_is_told(shel: Path, pico: Pico) -> None:
     answer = pico("do", "cam", "auto_range", "--yes")  # nothing but hwp stands in the beam
     assert answer.code == 1 and "cam is saturated even at 0.02 ms, its shortest exposure" in answer.err
     assert "weaken the beam" in answer.err
+
+
+def test_a_photodiode_that_can_tell_no_more_has_no_value(shel: Path, pico: Pico) -> None:
+    edit(shel / "lab.yaml", "inventory:\n", "inventory:\n  pd: {type: photodiode, marker: 20, home: storage/c3}\n")
+    edit(
+        shel / "state/table.yaml", "components:\n", "components:\n  pd: {pose: {x: 780, y: 420, yaw: 0}, gain: 70 dB}\n"
+    )
+    assert pico("apply", "--yes").code == 0
+    answer = pico("measure", "pd.voltage")
+    assert answer.code == 1 and "saturated: 10 V is all that it can tell" in " ".join(answer.out.split())
+    assert "gain 70 dB," in " ".join(answer.out.split())
