@@ -34,7 +34,7 @@ def next_exposure(taken: Taken, limits: tuple[float, float]) -> float | None:
         return None
     factor = 1 / _STEP if taken.level >= FULL else min(_AIM / max(taken.level, 1e-6), _STEP)
     low, high = limits
-    wanted = min(max(round(taken.exposure * factor, 3), low), high)  # rounded first: a limit may be finer
+    wanted = min(max(float(f"{taken.exposure * factor:.4g}"), low), high)  # rounded first: a limit may be finer
     return None if wanted == taken.exposure else wanted
 
 

@@ -225,7 +225,9 @@ class Plans:
             wanted = [(name, request.measurable)]
             found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **options)
         elif request.slot is None and request.pose is None:
-            found = planning.do_one(setup, seen, name, request.primitive, request.arguments, **options)
+            found = planning.do_one(
+                setup, seen, name, request.primitive, request.arguments, motion=DeferredMotion(setup), **options
+            )
         else:
             goal = request.slot or request.pose
             assert goal is not None

@@ -17,6 +17,7 @@ from pico.geometry.shape import Shape, placed
 from pico.model.catalog import ClearAperture, ComponentType
 from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.quantities import QuantityError, convert
 
 Vector = tuple[float, float, float]
 Values = Mapping[str, Mapping[str, Any]]
@@ -178,8 +179,7 @@ def _aperture(kind: ComponentType) -> ClearAperture | None:
 
 def _turn(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
     """Return a tunable that is an angle [rad]; 0 where it is not known or there is none."""
-    value = values.get(key)
-    return float(value) * _RADIANS[kind.tunables[key].unit or "rad"] if isinstance(value, int | float) else 0.0
+    return _in(kind, values, key, "rad")
 
 
 def first_met(table: tuple[float, float], optics: Sequence[Optic], ray: Ray) -> tuple[Optic | None, Event, float]:
@@ -195,9 +195,19 @@ def first_met(table: tuple[float, float], optics: Sequence[Optic], ray: Ray) -> 
 
 def _shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
     """Return by how much a stage has moved an optic along an axis of the component [mm]."""
-    value = values.get(key)
-    moves = kind.tunables[key].unit == "mm" if key in kind.tunables else False
-    return float(value) if moves and isinstance(value, int | float) else 0.0
+    return _in(kind, values, key, "mm")
+
+
+def _in(kind: ComponentType, values: Mapping[str, Any], key: str, unit: str) -> float:
+    """Return a tunable in a unit; 0 where it is not known, there is none, or it is of another kind."""
+    value, tunable = values.get(key), kind.tunables.get(key)
+    if tunable is None or isinstance(value, bool) or not isinstance(value, int | float):
+        return 0.0
+    own = tunable.unit or unit
+    try:
+        return float(value) * (_RADIANS[own] if unit == "rad" and own in _RADIANS else convert(f"1 {own}", unit))
+    except QuantityError:
+        return 0.0
 
 
 def _leg(table: tuple[float, float], optics: list[Optic], ray: Ray) -> tuple[Leg, Optic | None]:

@@ -88,13 +88,25 @@ def home_one(
 
 def do_one(
     setup: Setup, seen: Observation, component: str, name: str, arguments: Mapping[str, Value], *, backend: str = "sim",
-    fidelity: str = "kinematic", base: Base | None = None,
+    fidelity: str = "kinematic", base: Base | None = None, motion: Motion | None = None,
 ) -> Plan:  # fmt: skip
-    """Return the plan of a primitive that a plug-in brought, which a device does and which brings about no state.
+    """Return the plan of a primitive that a device does and that brings about no state; one that takes pictures for it
+    needs what a picture needs.
 
     Raises PicoError for a component that the lab does not have or that is not seen.
     """
     _part(setup, seen, component)
+    if name == "auto_range" and "image" in setup.measurables_of(component):
+        made = measuring(setup, seen, [(component, "image")], ASKED, motion)
+        own = (f"{component}.{arguments.get('tunable')}",)
+        ranging = [
+            op if op.primitive != "measure" else replace(
+                op, primitive=name, arguments=arguments, resources=(*own, *op.resources),
+                seconds=primitive(name).seconds,
+            )
+            for op in made
+        ]  # fmt: skip
+        return _sealed(setup, seen, ranging, [], backend, fidelity, base, live_state(setup, seen), ())
     operation = Operation(
         id="", primitive=name, component=component, arguments=arguments, resources=(component,), reason=ASKED,
         seconds=primitive(name).seconds,

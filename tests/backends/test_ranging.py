@@ -52,3 +52,8 @@ def test_a_hot_pixel_is_no_light() -> None:
     assert brightest(pixels) == 64
     pixels[20:23, 30:33] = 2000
     assert brightest(pixels) == 2000
+
+
+def test_an_exposure_in_seconds_is_found_as_well() -> None:
+    taken = ranged(30.0, 1.0, (2e-5, 1.0))
+    assert GOOD[0] <= taken[-1].level <= GOOD[1] and taken[-1].exposure < 0.03

@@ -87,6 +87,8 @@ def test_the_lamp_is_off_while_a_beam_is_measured_and_on_while_an_arm_works(shel
     assert [(op["component"], op["arguments"].get("to")) for op in planned] == [
         ("lamp", False), ("cam", None), ("lamp", True),
     ]  # fmt: skip
+    ranged = pico("do", "cam", "auto_range", "--dry-run", "--json").data["operations"]
+    assert [op["component"] for op in ranged] == ["lamp", "cam", "lamp"]
     dark = pico("measure", "cam.power", "--json").data
     assert "illumination" in dark["assured"]
     lit = pico("get", "cam.image", "--json").data["values"]["image"]["value"]

@@ -243,3 +243,29 @@ def test_a_beam_that_nothing_ends_is_told(setup: Setup, poses: dict[str, Pose], 
 def test_a_laser_that_the_state_does_not_name_throws_no_beam(setup: Setup) -> None:
     lab = replace(setup.lab, inventory={"source0": Part(type=TYPES["source"], pose=Pose(100, 300))})
     assert stray_beams(replace(setup, lab=lab), LabState(lab="light", components={})) == ()
+
+
+@pytest.mark.parametrize(("unit", "value"), [("mm", 2.0), ("um", 2000.0), ("cm", 0.2), ("deg", 2.0)])
+def test_a_stage_moves_an_optic_in_whatever_unit_it_is_declared(unit: str, value: float) -> None:
+    from dataclasses import replace
+
+    from pico.manifest.catalog import load_catalog
+    from pico.optics.axis import optic_of
+
+    kind = load_catalog()["lens_xyz_stage"]
+    tunables = {**kind.tunables, "stage_y": replace(kind.tunables["stage_y"], unit=unit)}
+    center = optic_of(replace(kind, tunables=tunables), "l", Pose(0, 0), {"stage_y": value}).center
+    assert center == pytest.approx((0, 0.0 if unit == "deg" else 2.0, 70))
+
+
+@pytest.mark.parametrize(("unit", "value"), [("mrad", 10.0), ("urad", 1e4), ("deg", 0.01 * 180 / 3.141592653589793)])
+def test_a_mirror_tips_in_whatever_unit_it_is_declared(unit: str, value: float) -> None:
+    from dataclasses import replace
+
+    from pico.manifest.catalog import load_catalog
+    from pico.optics.axis import optic_of
+
+    kind = load_catalog()["mirror_tip_tilt"]
+    tunables = {**kind.tunables, "tip": replace(kind.tunables["tip"], unit=unit)}
+    normal = optic_of(replace(kind, tunables=tunables), "m", Pose(0, 0), {"tip": value}).normal
+    assert normal[:2] == pytest.approx((-math.cos(0.01), -math.sin(0.01)))

@@ -91,6 +91,10 @@ class PhysicsWorld:
         """
         self._require_fingers(path.robot)
         name, goal = operation.component, Pose(**operation.arguments["to"]["pose"])
+        if name not in self._own:
+            text = f"{name} is not on the table, nor in the hand of {path.robot}: somebody took it"
+            hint = "put it back; `pico recover --fidelity kinematic` parks the arm"
+            raise MoveFailed(error("missing", text, hint=hint, address=name))
         grasp, robot = self._setup.type_of(name).geometry.grasp, self._setup.lab.robots[path.robot]
         assert grasp is not None  # else it has no path
         handling = Handling(self.twin, robot, name, grasp, path, goal, self._sight, stands, self._seat)
