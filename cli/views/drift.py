@@ -29,8 +29,15 @@ def _hint(found: Drifted) -> str:
     held = [d.change.component for d in beyond if d.presence == "held"]
     unseen = [d.change.component for d in beyond if d.change.tunable == "pose" and d.change.after is None]
     lost = [name for name in unseen if name not in held]
+    by_hand = {d.change.component: d.by_hand for d in beyond if d.by_hand and d.change.component not in unseen}
+    rest = len([d for d in beyond if not d.by_hand]) - len([name for name in unseen if name not in by_hand])
     hints = []
-    if len(unseen) < len(beyond):
+    if by_hand:
+        why = ", ".join(f"{name} ({said})" for name, said in by_hand.items())
+        hints.append(f"Only a person can bring back {why}; `pico capture` keeps what is.")
+        if rest > 0:
+            hints.append(f"`pico apply {head}` brings back the rest after that.")
+    elif rest > 0:
         them = "it" if len(beyond) == 1 else "them"
         hints.append(f"`pico apply {head}` brings {them} back; `pico capture` keeps what is.")
     if held:

@@ -27,7 +27,7 @@ class Drift:
     """One tunable that has left HEAD: the change from committed to live, as it happened, and `tolerance` in words.
 
     `age` of the observation [s], and its `uncertainty` for a pose. `by`: who changed it last; `how`: the run that left
-    it so, or the last that left it otherwise.
+    it so, or the last that left it otherwise. `by_hand`: why only a person can bring it back; empty where a robot can.
     """
 
     change: Change
@@ -37,6 +37,7 @@ class Drift:
     by: Who = "unknown"
     how: str = ""
     presence: str = "seen"
+    by_hand: str = ""
 
     @property
     def address(self) -> str:
@@ -122,8 +123,24 @@ def drift(setup: Setup, seen: Observation, change: Change, records: Iterable[Jou
     by, how = (by, "") if change.tolerated else who(setup, part, change, records)
     return Drift(
         change=change, tolerance=tolerance, age=part.age, by=by, how=how, presence=part.presence,
+        by_hand="" if change.tolerated else by_hand(setup, part, change),
         uncertainty=part.uncertainty if change.tunable == "pose" and part.pose else None,
     )  # fmt: skip
+
+
+def by_hand(setup: Setup, part: ObservedComponent, change: Change) -> str:
+    """Return why no robot can bring one tunable back: no arm may move the part, or none reaches where it stands."""
+    from pico.motion.reach import out_of_reach
+
+    kind = setup.type_of(change.component)
+    if change.tunable != "pose":
+        return "no motor turns it" if kind.tunables[change.tunable].mover == "person" else ""
+    if not setup.movable(change.component):
+        return "no arm may move it"
+    robots = list(setup.lab.robots.values())
+    if part.pose is None or any(robot.model != "xarm7" for robot in robots):
+        return ""
+    return "where it stands no arm reaches it" if out_of_reach(robots, part.pose.x, part.pose.y, kind.geometry) else ""
 
 
 def who(

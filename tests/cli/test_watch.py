@@ -45,6 +45,21 @@ def test_drift_says_who_did_it(applied: Path, pico: Pico) -> None:
     assert "by hand: no operation did it" in said.out
 
 
+def test_drift_says_what_only_a_person_can_bring_back(applied: Path, pico: Pico) -> None:
+    pico("sim", "nudge", "p1", "--dx", "4")
+    assert "`pico apply C3` brings it back" in pico("drift").out
+    pico("sim", "nudge", "p2", "--dx", "560", "--dy", "-330")
+    pico("sim", "nudge", "cam", "--dx", "3")
+    said = pico("drift").out
+    assert "Only a person can bring back cam (no arm may move it), p2 (where it stands no arm reaches it)" in said
+    assert "`pico apply C3` brings back the rest after that." in said
+    reasons = {c["component"]: c["by_hand"] for c in pico("drift", "--json").data["changes"]}
+    assert reasons["p1"] == "" and reasons["cam"]
+    refused = pico("apply", "--auto-approve")
+    assert refused.code == 3 and "can't be picked up at (1080, 90" in refused.err
+    assert "table.yaml" not in refused.err  # the file is right: the place where it stands is the trouble
+
+
 def test_drift_without_a_journal_is_told_too(shel: Path, pico: Pico) -> None:
     found = pico("drift", "--json").data["changes"]
     assert {c["by"] for c in found if not c["tolerated"]} == {"unknown"}  # a new bench starts so

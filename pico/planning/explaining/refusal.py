@@ -68,8 +68,8 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     place = mover.places[places[0]]
     where = f"{mover.name} can't be {verb} at {place}"
     stands = verb == "picked up"
-    slot = source(f"slots.{place.slot}") if stands and place.slot else None
-    address, blame = f"{mover.name}.pose", slot or located(source, mover)
+    standing = source(f"slots.{place.slot}") if place.slot else None  # where it stands now is in no state
+    address, blame = f"{mover.name}.pose", standing if stands else located(source, mover)
     hits = [(h, hit) for p in places for h in mover.holds for hit in finger_hits(table, i, p, h)]
     reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
     free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
