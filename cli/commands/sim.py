@@ -14,6 +14,7 @@ from ..views import simulated as said
 
 if TYPE_CHECKING:
     from pico.backends.world import World
+    from pico.bench.bench import Bench
 
 app = group(
     help="Act on the simulated world, as a hand would.",
@@ -59,8 +60,10 @@ def nudge(
       pico sim nudge p2 --dx 5
     """
     session = Session.of(context)
-    pose = session.bench().sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
-    session.show(said, f"{name} now stands at {pose}", pose=pose)
+    bench = session.bench()
+    hand = _out_of(bench, name)
+    pose = bench.sim.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
+    session.show(said, f"{name} now stands at {pose}{hand}", pose=pose)
 
 
 @app.command()
@@ -93,7 +96,8 @@ def remove(context: typer.Context, name: Component) -> None:
     Examples:
       pico sim remove p2
     """
-    _act(context, lambda sim: sim.remove(name), f"{name} is off the table; `pico sim nudge {name}` puts it home")
+    hand = _out_of(Session.of(context).bench(), name)
+    _act(context, lambda sim: sim.remove(name), f"{name} is off the table{hand}; `pico sim nudge {name}` puts it home")
 
 
 @app.command()
@@ -163,6 +167,14 @@ def faults(
     found = session.bench().sim.faults(words or ())
     rates = ", ".join(f"{kind} {100 * rate:g} %" for kind, rate in found["rates"].items() if rate)
     session.show(said, f"faults: {rates} of the operations, seed {found['seed']}" if rates else "nothing goes wrong")
+
+
+def _out_of(bench: Bench, name: str) -> str:
+    """Return from whose gripper a part is taken now, in words; empty where none holds it."""
+    from pico.bench.cut_short import hand_on
+
+    robot = hand_on(bench, name)
+    return f", taken out of the gripper of {robot}, which is open now" if robot else ""
 
 
 def _act(context: typer.Context, act: Callable[[World], object], text: str) -> None:

@@ -13,6 +13,7 @@ from pico.edge.link.opening import remembered
 
 if TYPE_CHECKING:
     from pico.model.observation import Observation
+    from pico.runs.journal import RunRecord
 
 
 def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
@@ -25,7 +26,9 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
         moved = memory is None or killed in memory.moving()
         last = memory.last() if memory else None
     early = "" if moved else " before it began an operation"
-    text = ", and ".join([*([f"run {killed} was killed{early}"] if killed else []), *held])
+    ended = f"run {last.run} was interrupted" if last and last.outcome == "interrupted" else ""
+    run = f"run {killed} was killed{early}" if killed else ended
+    text = ", and ".join([*([run] if run else []), *held])
     after = "`pico resume` takes the run up again, `pico undo` goes back to before it"
     hands = "`pico recover` only sets down what a hand holds"
     if not killed and last and last.outcome == "done":  # something else was done since
@@ -34,11 +37,37 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
 
 
 def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
-    """Return that somebody moves the bench now; else what `cut_short` does, and which arms stand where they were
-    stopped with an empty hand."""
+    """Return that somebody moves the bench now; else what `cut_short` does, or that the last run was interrupted, and
+    which arms stand where they were stopped with an empty hand."""
     from pico.model.observation import left_standing
 
-    return goes_on(opened) or (*cut_short(opened, seen), *left_standing(opened.setup, seen))
+    found = goes_on(opened)
+    return found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
+
+
+def _interrupted(opened: Opened) -> tuple[Diagnostic, ...]:
+    last = _last(opened)
+    if last is None or last.outcome != "interrupted":
+        return ()
+    hint = "`pico resume` takes the run up again, `pico undo` goes back to before it"
+    return (warning("cut-short", f"run {last.run} was interrupted", hint=hint),)
+
+
+def _last(opened: Opened) -> RunRecord | None:
+    try:
+        with remembered(opened.root) as memory:
+            return memory.last() if memory else None
+    except PicoError:  # looking must not fail for a journal that can't be read
+        return None
+
+
+def hand_on(opened: Opened, component: str) -> str | None:
+    """Return the robot whose hand holds a component since a run was cut short; None where none does."""
+    last = _last(opened)
+    if last is None or last.outcome == "done":
+        return None
+    robots = opened.observe().robots
+    return next((name for name, robot in sorted(robots.items()) if robot.holding == component), None)
 
 
 @contextmanager

@@ -191,9 +191,10 @@ def test_a_removed_part_is_missing_and_a_nudge_puts_it_home_again() -> None:
 
 def test_a_hand_takes_a_part_out_of_the_gripper() -> None:
     world = new_world(SETUP).with_body("p1", presence="held", pose=Pose(300, 300))
-    world = replace(world, robots={"arm1": ObservedRobot(joints=(0.0,) * 7, holding="p1")})
+    world = replace(world, robots={"arm1": ObservedRobot(joints=(0.0,) * 7, holding="p1")}, openings={"arm1": 25.0})
     freed = nudge(SETUP, world, "p1", dy=70)
     assert freed.robots["arm1"].holding is None
+    assert freed.openings == remove(SETUP, world, "p1").openings == {}  # closed pads would tell of a part between them
     assert (freed.components["p1"].presence, freed.components["p1"].pose) == ("seen", Pose(300, 370, 0))
 
 

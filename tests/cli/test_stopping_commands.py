@@ -74,8 +74,11 @@ def test_stop_needs_no_lock_and_the_run_can_be_resumed_and_undone(shel: Path, pi
     out, _ = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Interrupted" in out and "pico resume" in out
+    told = " ".join(pico("status").err.split())
+    assert told.count("warning[cut-short]: run ") == 1 and "was interrupted" in told and "`pico resume`" in told
     assert pico("resume", "--auto-approve").code == 0
     assert pico("plan", "e1", "--detailed-exitcode").code == 0
+    assert "cut-short" not in pico("status").err
     assert pico("resume").code == 1
     assert pico("undo", "--auto-approve").code == 0
     before = {n: p.pose for n, p in Bench.open(shel).observe().components.items()}
@@ -124,6 +127,21 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert any(r.kind == "resolved" and r.component == held for r in journal.records())
     journal.close()
     assert pico(*apply).code == 0
+
+
+@pytest.mark.parametrize("hand", [("nudge", "--dy", "8"), ("remove",)])
+def test_who_takes_a_part_out_of_a_gripper_is_told_so_and_nobody_says_it_is_held(
+    shel: Path, pico: Pico, hand: tuple[str, ...]
+) -> None:
+    process = started(shel, "apply", "e1", "--auto-approve", "--", "lx_125")
+    process.send_signal(signal.SIGKILL)
+    process.communicate(timeout=120)
+    done = pico("sim", hand[0], "lx_125", *hand[1:])
+    assert done.code == 0 and "taken out of the gripper of arm1, which is open now" in done.out
+    said = pico("status")
+    assert "cut-short" in said.err and "holds" not in said.err + said.out
+    assert "holds" not in pico("plan", "e1").out
+    assert "gripper of" not in pico("sim", "nudge", "lx_125", "--dy", "1").out
 
 
 def test_what_was_set_down_after_a_kill_is_undone_to_where_it_was_before_the_run(shel: Path, pico: Pico) -> None:

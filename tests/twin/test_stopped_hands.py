@@ -8,6 +8,7 @@ import pytest
 from physical import bench, carry, finish, path_to, to
 
 from pico.backends.sim.checks import standing
+from pico.backends.sim.hand import remove
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld
@@ -104,3 +105,12 @@ def test_a_hand_that_leaves_a_part_alone_opens_no_further_than_it_has_room(setup
 def test_a_kinematic_world_knows_nothing_of_fingers(setup: Setup, world: World) -> None:
     left = replace(world, openings={"arm1": 34.0})
     assert KinematicWorld(setup, left).world(left).openings == {}
+
+
+def test_a_part_that_somebody_took_away_is_told_before_a_hand_goes_for_it(setup: Setup, world: World) -> None:
+    path = path_to(setup, world, PART, GOAL)
+    gone = remove(setup, world, PART)
+    physics = PhysicsWorld(setup, gone)
+    with pytest.raises(MoveFailed) as failed:
+        finish(physics, physics.move(to(PART, GOAL), path))
+    assert failed.value.diagnostic.code == "missing"

@@ -69,12 +69,17 @@ def _body(world: World, name: str) -> WorldBody:
 
 
 def _released(world: World, name: str) -> World:
-    """Return the world with no robot holding `name`."""
-    robots = {
-        key: ObservedRobot(joints=robot.joints) if robot.holding == name else robot
-        for key, robot in world.robots.items()
-    }
-    return replace(world, robots=robots)
+    """Return the world with no robot holding `name`: the hand that held it is opened wide, else its pads, as far apart
+    as the part is wide, would still tell of it."""
+    hands = set(holders(world, name))
+    robots = {k: ObservedRobot(joints=robot.joints) if k in hands else robot for k, robot in world.robots.items()}
+    openings = {k: opening for k, opening in world.openings.items() if k not in hands}
+    return replace(world, robots=robots, openings=openings)
+
+
+def holders(world: World, name: str) -> list[str]:
+    """Return the robots whose gripper holds `name`."""
+    return [key for key, robot in sorted(world.robots.items()) if robot.holding == name]
 
 
 def _obstacles(setup: Setup, world: World, name: str, goal: Pose) -> Iterator[Diagnostic]:
