@@ -12,7 +12,7 @@ from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number, read_value
 from pico.manifest.wording import shown
-from pico.model.pose import Pose
+from pico.model.pose import Pose, wrap
 from pico.model.quantities import Value
 from pico.model.state import ComponentState, Expectation, LabState
 
@@ -21,6 +21,8 @@ MOST_COMPONENTS = 200
 _POSE = (("x", "mm"), ("y", "mm"), ("yaw", "deg"))
 _KEYS = ("apiVersion", "kind", "metadata", "components", "expect")
 
+TURN = 360.0
+"""No yaw is more than one turn [deg]: more is a slip of the pen."""
 FAR = 1e5
 """No pose is farther from the origin [mm]; one off the table is told by whoever asks what can stand there."""
 
@@ -194,8 +196,12 @@ class _Reader:
             number = read_number(document.source, name, axis, unit, value)
             if isinstance(number, Diagnostic):
                 self.found.append(number)
-            else:
-                numbers[axis] = number
+                continue
+            numbers[axis] = number
+            if axis == "yaw" and abs(number) > TURN:
+                summary = f"the yaw of {name} is {shown(number)}: more than one turn"
+                hint = f"write {wrap(number):.10g}, which is the same"
+                self._error(document, value, "range", summary, hint, f"{name}.pose.yaw")
         for other, (at, _) in node.entries.items():
             if other not in ("x", "y", "yaw"):
                 own = other in kinds.tunables if (kinds := self.view.kinds.get(name)) else False

@@ -119,6 +119,24 @@ def test_of_what_is_indented_wrongly_it_is_said_where_it_belongs(old: str, new: 
     assert any(hint in f"{one.summary} {one.hint}" for one in found), found
 
 
+@pytest.mark.parametrize("marker", [">>>>>>> e1", "=======", "<<<<<<< HEAD", "||||||| 1a2b3c4"])
+def test_a_marker_that_a_merge_left_alone_is_told_as_that(marker: str) -> None:
+    lines = STATE.splitlines()
+    at = next(i for i, line in enumerate(lines) if "x: 290" in line)
+    text = "\n".join([*lines[: at + 1], marker, *lines[at + 1 :]])
+    (found,) = load_files(GOOD | {"state/table.yaml": text.encode()}).diagnostics
+    assert (found.code, found.summary) == ("merge-conflict", "a left-over merge marker")
+    assert found.hint == "delete the line" and found.source is not None and found.source.start.line == at + 2
+
+
+@pytest.mark.parametrize(("yaw", "same"), [("900", "180"), ("-405", "-45"), ("360.5", "0.5")])
+def test_a_yaw_beyond_a_turn_is_refused_with_what_it_would_be(yaw: str, same: str) -> None:
+    text = STATE.replace("yaw: 0", f"yaw: {yaw}", 1)
+    (found,) = load_files(GOOD | {"state/table.yaml": text.encode()}).diagnostics
+    assert found.code == "range" and found.hint == f"write {same}, which is the same"
+    assert load_files(GOOD | {"state/table.yaml": text.replace(yaw, "-360").encode()}).diagnostics == ()
+
+
 def test_more_than_200_components_in_a_file_are_warned_about() -> None:
     names = [f"c{i:03}" for i in range(201)]
     slots = "".join(f"  storage/{n}: {{x: {10 + i}, y: 10}}\n" for i, n in enumerate(names))

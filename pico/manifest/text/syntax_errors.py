@@ -53,6 +53,7 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
 )
 
 _CONFLICT = re.compile(r"^(<{7,} .*?)\r?$(?s:.*?)^={7,}\r?$(?s:.*?)^>{7,} ", re.MULTILINE)
+_LEFT_OVER = re.compile(r"(?:(?:<{7}|>{7}|\|{7})(?: .*)?|={7})\s*")
 
 
 def conflict(source: Source) -> Diagnostic | None:
@@ -71,6 +72,9 @@ def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:
     mark = getattr(exc, "problem_mark", None) or getattr(exc, "context_mark", None)
     index = min(mark.index if mark else getattr(exc, "position", 0) or 0, len(source.content))
     problem = str(getattr(exc, "problem", None) or getattr(exc, "reason", None) or "not valid YAML")
+    if (left := _left_over(source)) is not None:
+        hint = "delete the line"
+        return error("merge-conflict", "a left-over merge marker", hint=hint, source=source.range(*left))
     summary, hint = _meaning(source, index, problem)
     opened = getattr(exc, "context_mark", None)
     detail = ""
@@ -79,6 +83,16 @@ def explain(source: Source, exc: yaml.YAMLError) -> Diagnostic:
     elif opened is not None and mark is not None and opened.line != mark.line:
         detail = _askew(source, index) or f"it began in line {opened.line + 1}"
     return error("yaml", summary, detail=detail, hint=hint, label=problem, source=source.range(index))
+
+
+def _left_over(source: Source) -> tuple[int, int] | None:
+    """Return where the first line is, from its first character to its last, that only a merge writes."""
+    begin = 0
+    for line in source.content.splitlines(keepends=True):
+        if _LEFT_OVER.fullmatch(line):
+            return begin, begin + len(line.rstrip())
+        begin += len(line)
+    return None
 
 
 def _askew(source: Source, index: int) -> str:
