@@ -252,7 +252,8 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
         return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
     if plan.target.cause == "single":
         return [_as_asked(beside)]
-    return [f"Nothing to do: the bench equals {goal_name(plan)}."]
+    empty = "no gripper holds anything, and no arm stands where it was stopped"
+    return [f"Nothing to do: {empty if plan.target.cause == 'recover' else f'the bench equals {goal_name(plan)}'}."]
 
 
 def _as_asked(beside: Sequence[Change] | None) -> str:

@@ -121,6 +121,7 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert any(line.split()[0] == held and "held" in line for line in pico("catalog", "parts").out.splitlines()[1:-2])
     assert pico("recover", "--auto-approve").code == 0
     assert "cut-short" not in pico("status").err
+    assert "Nothing to do: no gripper holds anything" in pico("recover").out
     assert Bench.open(shel).observe().robots["arm1"].holding is None
     journal = Journal(shel / ".pico" / "journal.sqlite")
     assert journal.unsettled() == ()

@@ -201,7 +201,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
         axis = "y" if overhang(setup.lab.table, inside) > 0 else "x"
         found.append(error(
             "impossible", f"{name} cannot stand at {spot}: it would stick out {_mm(out)} mm over the table's edge",
-            hint=f"the table ends at x = {width:g} and y = {depth:g}", address=address,
+            hint=f"the table goes from x = 0 to {width:g} and from y = 0 to {depth:g}", address=address,
             source=located(source, mover, axis),
         ))  # fmt: skip
     for zone in _forbidden(setup, mover, shape):
