@@ -54,19 +54,22 @@ def blocked(errand: Errand, segment: SegmentName, hit: Hit) -> Blocked:
     return Blocked(kind, text, segment, name, round(by, 3), _help(errand, segment, hit))
 
 
+_YAW = "another grasp yaw (`grasp.yaws` of its type)"
+
+
 def _help(errand: Errand, segment: SegmentName, hit: Hit) -> str:
     """What might let the arm pass: each is worth a try, none is promised."""
     if hit.kind == "self":
-        return f"choose a place farther from {errand.robot}'s base, or another grasp yaw"
+        return f"choose a place farther from {errand.robot}'s base, or {_YAW}"
     if hit.kind == "table":
         return f"let {errand.component} be grasped higher" if errand.component else "raise the arm by hand first"
     if hit.obstacle == errand.component:
-        return "use a grasp yaw at which the jaws close on parallel faces"
+        return "use a grasp yaw (`grasp.yaws` of its type) at which the jaws close on parallel faces"
     away = f"make the zone {hit.obstacle} smaller" if hit.kind == "keep_out" else f"move {hit.obstacle} away first"
     moving = errand.component and segment not in ("descend", "grip", "lift")
     other = "another place or slot" if moving else ""
     if hit.part in ("finger", "gripper", "held") and errand.component and segment not in ("approach", "park"):
-        other = f"another grasp yaw or {other}" if other else "another grasp yaw"
+        other = f"{_YAW} or {other}" if other else _YAW
     return f"{away}, or choose {other}" if other else away
 
 

@@ -119,8 +119,7 @@ def _too_far(name: str, robot: Robot, component: str, pose: Pose, height: float)
     nearer = f"nearer to {base}"
     if distance < greatest:
         text = f"{where}; it comes no nearer than {math.ceil(least)} mm at {height:.0f} mm height"
-        return Blocked(
-            "reach", text, by=least - distance, help=f"place it {math.ceil(least - distance)} mm farther from {base}"
-        )
+        # no number: so near to its base what the arm reaches may still be blocked by itself
+        return Blocked("reach", text, by=least - distance, help=f"place it farther from {base}")
     text = f"{where}; it reaches {math.floor(greatest)} mm at {height:.0f} mm height"
     return Blocked("reach", text, by=distance - greatest, help=f"place it {math.ceil(distance - greatest)} mm {nearer}")

@@ -70,10 +70,10 @@ def test_the_fingers_keep_out_of_a_low_zone_beside_the_part():
     ("standing", "yaw", "segment", "obstacle", "help"),
     [
         ({"b": (DISC, START.compose(Pose(64, 0)))}, 0, "descend", "b",
-         "move b away first, or choose another grasp yaw"),
+         "move b away first, or choose another grasp yaw (`grasp.yaws` of its type)"),
         ({"b": (PART, GOAL.compose(Pose(61, 0)))}, 90, "lower", "b",
-         "move b away first, or choose another grasp yaw or another place or slot"),
-        ({}, 33, "grip", "a", "use a grasp yaw at which the jaws close on parallel faces"),
+         "move b away first, or choose another grasp yaw (`grasp.yaws` of its type) or another place or slot"),
+        ({}, 33, "grip", "a", "use a grasp yaw (`grasp.yaws` of its type) at which the jaws close on parallel faces"),
     ],
 )  # fmt: skip
 def test_what_is_in_the_way_is_named_with_what_might_help(standing, yaw, segment, obstacle, help):
@@ -104,7 +104,7 @@ def test_the_other_arm_stands_where_it_is_said_to_stand():
         (
             Pose(480, 720),
             "reach",
-            "place it 46 mm farther from arm1's base, which stands at (480, 760), or use another arm",
+            "place it farther from arm1's base, which stands at (480, 760), or use another arm",
         ),
     ],
 )
