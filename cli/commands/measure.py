@@ -9,6 +9,7 @@ import typer
 from ..arguments import DryRun, Fidelity, LockTimeout, Yes
 from ..session import Session
 from ..views import measurement as view
+from ..views import report as report_view
 
 
 def measure(
@@ -45,6 +46,7 @@ def measure(
         return report
     found = next(iter(report.measurements.values()), None)
     if report.outcome != "done" or found is None:
+        session.say(report_view.text(report))
         session.report(report.diagnostics)
         return int(report.exit_code) or ExitCode.ERROR
     found = bench.measurements.computed(found, kernels) if kernels else found

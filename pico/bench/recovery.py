@@ -51,6 +51,7 @@ class Recovery:
         plan = Plans(self.opened).to_state(
             seen, wanted, began.target, targets=only or (), exclude=began.target.exclude or ()
         )
+        plan = replace(plan, diagnostics=(*_unmeasured(began, memory, last.run), *plan.diagnostics))
         return renumbered(plan, last.resumed + 1), last.run
 
     def undo_plan(self) -> Plan:
@@ -175,10 +176,22 @@ def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, st
 
 
 def _asked(plan: Plan) -> tuple[str, ...]:
-    """The components of a plan that was made for single operations."""
-    if plan.asked:
-        return tuple(sorted({op.component for op in plan.operations if op.reason.kind == "asked"}))
-    return ()
+    """What a plan for single operations was about: their components, and what was to be set for them and back."""
+    if not plan.asked:
+        return ()
+    own = {op.component for op in plan.operations if op.reason.kind == "asked"}
+    along = {f"{op.component}.{op.arguments['tunable']}" for op in plan.operations if op.primitive == "set"}
+    return tuple(sorted({*own, *(one for one in along if one.partition(".")[0] not in own)}))
+
+
+def _unmeasured(began: Plan, memory: Memory, run: str) -> Iterator[Diagnostic]:
+    """Yield a note for each measurement of a run that was not taken: to take a run up again takes none."""
+    done = {r.key for r in memory.records(run=run) if r.kind == "done"}
+    for op in began.operations:
+        if op.reason.kind == "asked" and "measurable" in op.arguments and f"{run}/{op.id}" not in done:
+            what = f"{op.component}.{op.arguments['measurable']}"
+            text = f"{what} was not measured: this only sets back what was set for it"
+            yield Diagnostic("note", "unmeasured", text, hint=f"`pico measure {what}` measures it", address=what)
 
 
 def _document(memory: Memory, run: RunRecord) -> Plan:

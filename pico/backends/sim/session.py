@@ -314,7 +314,7 @@ class WorldSession:
             seconds = set_seconds(kind, before, goal)
             if before is None and kind.axis and kind.axis.kind == "homed":  # it must be homed first
                 seconds = home_seconds(kind, None) + set_seconds(kind, kind.axis.home, goal)
-        self._world = self._world.with_value(name, tunable, ObservedValue(value=None, status="unknown"))
+        self._world = self._world.with_value(name, tunable, replace(live, status="unknown"))
         self._keep()
         yield from driven_badly(fault, f"{name}.{tunable}", seconds)
         yield seconds
