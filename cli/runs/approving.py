@@ -93,7 +93,7 @@ def measured(session: Session, bench: Bench, plan: Plan, auto_approve: bool, dry
             return code
     if more and (code := declined(session, bench, plan, auto_approve)):
         return code
-    run = bench.run(plan)
+    run = bench.run(plan, holder="pico measure")
     screen = Screen(session, Progress(plan))
     watched(run, screen.show if more and not session.json else lambda _: None)
     return run.report

@@ -97,8 +97,8 @@ def do_one(
     where one is to be found.
     """
     _part(setup, seen, component)
-    own = setup.type_of(component).tunables.get(str(arguments.get("tunable")))
-    if name == "auto_range" and own is not None and own.range is None:
+    setting = setup.type_of(component).tunables.get(str(arguments.get("tunable")))
+    if name == "auto_range" and setting is not None and setting.range is None:
         text = f"{component}.{arguments['tunable']} has no `range`, within which to look for the right one"
         raise PicoError(error("range", text, hint="give it one in its type", address=component))
     if name == "auto_range" and "image" in setup.measurables_of(component):
