@@ -184,6 +184,7 @@ class WorldSession:
             assert found.array is not None
             black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
             frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
+            self._tell("operation_progress", operation, key, {"fraction": len(frames) / MOST, "phase": "exposing"})
             wanted = next_exposure(frames[-1], limits)
             if wanted is None:
                 break
