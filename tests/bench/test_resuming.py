@@ -75,9 +75,18 @@ def test_a_resumed_measurement_sets_back_what_was_set_for_it(bench: Bench) -> No
     assert bench.measurements.read("laser", "shutter") != before
     resumed, run = bench.recovery.resume_plan()
     assert [(op.primitive, op.component) for op in resumed.operations] == [("set", "laser")]
-    assert [d.hint for d in resumed.diagnostics if d.code == "unmeasured"] == ["`pico measure cam.dark` measures it"]
+    assert [d.hint for d in resumed.diagnostics if d.code == "left-out"] == ["`pico measure cam.dark` does it anew"]
     assert _run(bench, resumed, run).outcome == "done"
     assert bench.measurements.read("laser", "shutter") == before
+
+
+def test_a_search_for_an_exposure_is_not_taken_up_again_and_that_is_said(bench: Bench) -> None:
+    bench.apply("e1")
+    plan = bench.plans.single("cam", "auto_range", {"tunable": "exposure"})
+    ended_when(bench, plan, lambda event: event.kind == "operation_started", at_once=True)
+    with pytest.raises(PicoError, match="did not come to its end") as refused:
+        bench.recovery.resume_plan()
+    assert refused.value.diagnostics[0].hint == "`pico do cam auto_range exposure` does it anew"
 
 
 def test_a_resumed_move_opens_the_shutter_again_that_was_shut_for_it(bench: Bench) -> None:
