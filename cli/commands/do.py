@@ -16,7 +16,9 @@ SETTINGS = {"ignore_unknown_options": True}
 def do(
     context: typer.Context,
     component: Component,
-    primitive: Annotated[str, typer.Argument(metavar="PRIMITIVE", help="move, stow, set, home, measure.")],
+    primitive: Annotated[
+        str, typer.Argument(metavar="PRIMITIVE", help="move, stow, set, home, scan, measure, auto_range.")
+    ],
     arguments: Pairs = None,
     speed: Speed = None,
     dry_run: DryRun = False,
@@ -31,6 +33,7 @@ def do(
     Examples:
       pico do p2 move x=500 y=420 yaw=30
       pico do p1 home angle
+      pico do cam auto_range
       pico do p2 measure pose
     """
     from pico.model.primitive import primitive as known

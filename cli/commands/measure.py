@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -9,11 +10,15 @@ import typer
 from ..arguments import DryRun, Fidelity, LockTimeout, Yes
 from ..session import Session
 from ..views import measurement as view
+from ..views import report as report_view
 
 
 def measure(
     context: typer.Context,
     what: Annotated[str, typer.Argument(metavar="COMPONENT.MEASURABLE", help="With kernels: 'cam.image | centroid'.")],
+    picture: Annotated[
+        Path | None, typer.Option("--picture", metavar="PNG", help="Keep what the camera saw as a picture.")
+    ] = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
@@ -27,6 +32,7 @@ def measure(
 
     Examples:
       pico measure cam.centroid
+      pico measure cam.image --picture spot.png
       pico measure 'cam.image | background | mode_overlap(radius=450)'
     """
     from pico.diagnostics import ExitCode
@@ -44,9 +50,12 @@ def measure(
     if isinstance(report, int):
         return report
     found = next(iter(report.measurements.values()), None)
-    if report.outcome != "done" or found is None:
+    if report.exit_code or found is None:  # also where it was measured, and what was set for it not set back
+        session.say(report_view.text(report))
         session.report(report.diagnostics)
+    if found is None:
         return int(report.exit_code) or ExitCode.ERROR
     found = bench.measurements.computed(found, kernels) if kernels else found
-    session.show(view, found, run=report.run)
-    return ExitCode.ERROR if found.unknown else ExitCode.DONE
+    session.show(view, found, run=report.run, advice=bench.measurements.advice(found))
+    session.draw(picture, found.address, lambda path: bench.measurements.picture(found, path))
+    return int(report.exit_code) or (ExitCode.ERROR if found.unknown else ExitCode.DONE)

@@ -10,6 +10,7 @@ from pico.diagnostics import ExitCode, PicoError
 from pico.policy.consent import asked_about, lights
 
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import plan as plan_view
 from ..views import report as report_view
 from ..views import verified
@@ -93,9 +94,10 @@ def measured(session: Session, bench: Bench, plan: Plan, auto_approve: bool, dry
             return code
     if more and (code := declined(session, bench, plan, auto_approve)):
         return code
-    run = bench.run(plan)
+    run = bench.run(plan, holder="pico measure")
     screen = Screen(session, Progress(plan))
-    watched(run, screen.show if more and not session.json else lambda _: None)
+    with nullcontext() if more else waiting("Measuring"):
+        watched(run, screen.show if more and not session.json else lambda _: None)
     return run.report
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
@@ -12,7 +13,9 @@ if TYPE_CHECKING:
     from pico.bench.light import Beams
     from pico.optics.beam_table import BeamRow
 
-HEAD = ("component", "after", "radius", "wavefront", "power", "polarization", "clipped", "")
+HEAD = ("component", "after", "radius", "left, up", "wavefront", "power", "polarization", "clipped", "")
+_OFF = HEAD.index("left, up")
+_CENTERED = 1e-3  # mm: nobody minds less
 _WORDS = {"left": "leaves the table", "blocked": "ends here", "detected": "", "passed": "", "reflected": "",
           "divided": ""}  # fmt: skip
 
@@ -38,6 +41,8 @@ def _table(rows: list[BeamRow]) -> list[str]:
     for way in ways:
         cells += [[""] * len(HEAD)] if len(cells) > 1 else []
         cells += [_cells(row) for row in way]
+    if not any(row[_OFF] for row in cells[1:]):
+        cells = [row[:_OFF] + row[_OFF + 1 :] for row in cells]
     head, *rest = columns(cells, indent="  ")
     return [paint("dim", head), *(line.rstrip() for line in rest)]
 
@@ -60,7 +65,16 @@ def _cells(row: BeamRow) -> list[str]:
     clipped = f"{number(100 * row.clipped)} %" if row.clipped >= 5e-4 else ""
     note = "; ".join(w for w in ("ghost" if row.ghost else "", _WORDS[row.event] if row.component else "leaves") if w)
     radius = "unknown" if row.unknown else _radius(row.radii)
-    return [name, f"{row.length:.1f} mm", radius, _front(row), power(row.power), polarization(row), clipped, note]
+    off = _offset(row)
+    return [name, f"{row.length:.1f} mm", radius, off, _front(row), power(row.power), polarization(row), clipped, note]
+
+
+def _offset(row: BeamRow) -> str:
+    """Return how far from the middle of a component a beam comes, to the left and up; empty where it is centered."""
+    if not row.component or math.hypot(*row.offset) < _CENTERED:
+        return ""
+    left, up = (f"{value:.3f}".replace("-0.000", "0.000") for value in row.offset)
+    return f"{left}, {up} mm"
 
 
 def _radius(radii: tuple[float, float]) -> str:

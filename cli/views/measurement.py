@@ -14,8 +14,8 @@ from .style import columns, paint, wrap
 _SETTINGS = {"exposure": "ms", "gain": "dB"}
 
 
-def text(found: Measurement, *, run: str) -> str:
-    """Return the numbers with their standard deviations, and how they came about."""
+def text(found: Measurement, *, run: str, advice: str = "") -> str:
+    """Return the numbers with their standard deviations, and how they came about; `advice`: what to do about it."""
     if found.unknown:
         lines = wrap(f"{found.address}  {paint('yellow', 'unknown')}: {found.unknown}", "")
     elif isinstance(found.value, Mapping):
@@ -32,6 +32,7 @@ def text(found: Measurement, *, run: str) -> str:
     lines += wrap(f"{made}{setting + ', ' if setting else ''}`pico runs show {run}`", "  ")
     for what, why in found.not_assured.items():
         lines += wrap(paint("yellow", f"not assured: {what} ({why})"), "  ")
+    lines += wrap(f"= help: {advice}", "  ") if advice else []
     return "\n".join(lines)
 
 
@@ -45,6 +46,6 @@ def _rows(found: Measurement) -> list[list[str]]:
     ]
 
 
-def data(found: Measurement, *, run: str) -> dict[str, Any]:
+def data(found: Measurement, *, run: str, advice: str = "") -> dict[str, Any]:
     """Return the measurement, schema `pico.measurement/v1`, with the `run` that took it."""
     return {**as_json(found), "run": run}

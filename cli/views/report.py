@@ -56,7 +56,7 @@ def expectations(found: Sequence[Expected]) -> list[str]:
 
 
 def _bench(report: RunReport, undoing: bool) -> list[str]:
-    if report.reached:
+    if report.reached and (report.whole or report.scope or report.outcome == "done"):
         if report.whole:
             return [f"The bench equals {report.goal}."]
         if report.scope:

@@ -8,6 +8,7 @@ from pico.model.catalog import Measurable
 from pico.model.lab import Setup
 from pico.model.measurement import Condition
 from pico.model.observation import Observation
+from pico.planning.checks.interlocks import CLOSED
 from pico.planning.measuring import needed
 
 WANTED: tuple[Condition, ...] = ("shutter", "illumination")
@@ -29,6 +30,16 @@ def conditions(
     return found
 
 
+def _without_shutter(setup: Setup, seen: Observation) -> Iterator[str]:
+    """Yield the sources that stand on the bench, have no shutter, and are not known to be off."""
+    for name in sorted(setup.lab.inventory):
+        kind, part = setup.type_of(name), seen.components.get(name)
+        if kind.optics.element != "source" or "shutter" in kind.tunables or part is None or part.presence == "missing":
+            continue
+        if seen.known_values.get(name, {}).get("emission") is not False:
+            yield f"{name} has no shutter and is not known to be off"
+
+
 def _lamps(setup: Setup) -> bool:
     """Return whether anything lights the room that could be switched: what nobody can switch is as it is."""
     return any("illumination" in setup.type_of(name).tunables for name in setup.lab.inventory)
@@ -48,6 +59,8 @@ def _unmet(
     wants = [need for need in needed(setup, seen, component, measurable) if need.tunable == condition]
     if not wants:
         yield f"no part of this bench has `{condition}`"
+    if condition == "shutter" and measurable.needs[condition] == CLOSED:
+        yield from _without_shutter(setup, seen)
     for need in wants:
         if need.live is None:
             yield f"nobody knows {need.address}"

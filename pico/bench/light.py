@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 
 if TYPE_CHECKING:
     from pico.drawing.picture import Image
     from pico.model.lab import Setup
+    from pico.model.observation import Observation
     from pico.model.pose import Pose
     from pico.optics.axis import Values
     from pico.optics.beam_table import BeamRow
@@ -43,7 +44,8 @@ class Lights:
 
         setup, poses, values, goal = self._standing(revision, manifest)
         light, dark = self._traced(setup, poses, values, source)
-        return Beams(goal, rows(light), dark, troubles(setup, light))
+        unread = () if revision or manifest else _unread(light, self.opened.observe())
+        return Beams(goal, rows(light), dark, (*unread, *troubles(setup, light)))
 
     def picture(
         self, revision: str | None = None, *, manifest: bool = False, source: str | None = None, out: Path | None = None
@@ -83,3 +85,15 @@ class Lights:
         asked = [source] if source else sources
         light = light_of(setup, poses, values, lit=lambda name: name in asked)
         return light, tuple(name for name in asked if is_dark(values.get(name, {})))
+
+
+def _unread(light: Light, seen: Observation) -> tuple[Diagnostic, ...]:
+    """Return a warning for each part that light meets with a tunable that nobody knows."""
+    found = []
+    for name in sorted({c.component for c in light.crossings}):
+        part = seen.components.get(name)
+        for tunable, live in sorted(part.values.items()) if part else ():
+            if live.status == "unknown":
+                text = f"nobody knows {name}.{tunable}: the beam is followed as if it were never set"
+                found.append(warning("unread", text, hint=f"`pico do {name} home` finds out", address=name))
+    return tuple(found)

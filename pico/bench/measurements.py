@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +55,45 @@ class Measurements:
             measurement, value=found.value, sigma=found.sigma, unit=found.unit, unknown=found.unknown or None,
             kernel=kernels, kernel_version=version(pipeline),
         )  # fmt: skip
+
+    def picture(self, measurement: Measurement, out: Path) -> None:
+        """Write the picture of a measurement as PNG, its brightest pixel white, its black level black; raises PicoError
+        where there is none, or it can't be written."""
+        import numpy as np
+
+        from pico.content.arrays import load_array
+        from pico.content.store import store_of
+        from pico.diagnostics import PicoError, error
+        from pico.drawing.picture import write_png
+
+        if measurement.array is None or len(measurement.array.shape) != 2:
+            name = measurement.component
+            text = f"of {measurement.address} no picture was kept"
+            raise PicoError(error("picture", text, hint=f"`pico measure {name}.image` keeps one", address=name))
+        seen = load_array(store_of(self.opened.folder.root), measurement.array).astype(np.float64)
+        seen -= float(measurement.settings.get("black_level", 0.0))
+        grey = np.clip(255 * seen / max(1.0, float(seen.max())), 0, 255).astype(np.uint8)
+        write_png(np.repeat(grey[:, :, None], 3, axis=2), out)
+
+    def advice(self, found: Measurement) -> str:
+        """Return what to do about a measurement without a value, or of too much light; empty where nothing is known."""
+        setup = self.opened.setup
+        if "not saturated" in found.not_assured:
+            kind = setup.type_of(found.component) if found.component in setup.lab.inventory else None
+            if kind and "auto_range" in kind.primitives:
+                return f"`pico do {found.component} auto_range` finds an exposure that suits"
+            return "weaken the beam with a filter, or lower the gain"
+        if not found.unknown:
+            return ""
+        known = self.opened.observe().known_values
+        dark = [
+            f"{name}.{tunable} is {'false' if value is False else value}"
+            for name in sorted(setup.lab.inventory)
+            if setup.type_of(name).optics.element in ("source", "shutter")
+            for tunable, value in sorted(known.get(name, {}).items())
+            if (tunable, value) in (("shutter", "closed"), ("emission", False))
+        ]
+        return ", ".join(dark) or "`pico beam` shows where the light goes"
 
     def _measurables(self) -> frozenset[str]:
         return self.opened.wait(self.opened.edge.describe()).measurables

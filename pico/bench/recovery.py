@@ -33,7 +33,8 @@ class Recovery:
     def resume_plan(self) -> tuple[Plan, str]:
         """Return the plan from the bench as it stands to the goal of the last run, and the id of that run.
 
-        Raises PicoError where the last run reached its end, or is still going on (exit code LOCKED).
+        Raises PicoError where the last run reached its end, or is still going on (exit code LOCKED), and where only
+        what brings about no state is left of it, such as a measurement.
         """
         from pico.execution.resume import renumbered
 
@@ -51,6 +52,10 @@ class Recovery:
         plan = Plans(self.opened).to_state(
             seen, wanted, began.target, targets=only or (), exclude=began.target.exclude or ()
         )
+        left = tuple(_left_out(began, memory, last.run))
+        if left and not plan.operations:
+            raise PicoError([replace(d, severity="error", code="nothing-to-resume") for d in left])
+        plan = replace(plan, diagnostics=(*left, *plan.diagnostics))
         return renumbered(plan, last.resumed + 1), last.run
 
     def undo_plan(self) -> Plan:
@@ -175,10 +180,28 @@ def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, st
 
 
 def _asked(plan: Plan) -> tuple[str, ...]:
-    """The components of a plan that was made for single operations."""
-    if plan.asked:
-        return tuple(sorted({op.component for op in plan.operations if op.reason.kind == "asked"}))
-    return ()
+    """What a plan for single operations was about: their components, and what was to be set for them and back."""
+    if not plan.asked:
+        return ()
+    own = {op.component for op in plan.operations if op.reason.kind == "asked"}
+    along = {f"{op.component}.{op.arguments['tunable']}" for op in plan.operations if op.primitive == "set"}
+    return tuple(sorted({*own, *(one for one in along if one.partition(".")[0] not in own)}))
+
+
+def _left_out(began: Plan, memory: Memory, run: str) -> Iterator[Diagnostic]:
+    """Yield a note for each measurement of a run, or setting that was to be found by one, that it did not come to: no
+    state holds it, so it is not taken up again."""
+    done = {r.key for r in memory.records(run=run) if r.kind == "done"}
+    for op in began.operations:
+        if op.reason.kind == "asked" and not (op.kind.changes == "pose" or "to" in op.arguments):
+            if f"{run}/{op.id}" in done:
+                continue
+            words = [op.primitive, *(str(v) for k, v in op.arguments.items() if k in ("measurable", "tunable"))]
+            command = f"pico do {op.component} {' '.join(words)}"
+            if "measurable" in op.arguments:
+                command = f"pico measure {op.component}.{op.arguments['measurable']}"
+            text = f"`{command}` did not come to its end, and is not taken up again"
+            yield Diagnostic("note", "left-out", text, hint=f"`{command}` does it anew", address=op.component)
 
 
 def _document(memory: Memory, run: RunRecord) -> Plan:

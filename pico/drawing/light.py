@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 WIDTH = 960
 _BEAM = (224, 36, 36)
 _PAPER, _INK, _FAINT, _RULE = (252, 252, 253), (34, 40, 49), (126, 134, 146), (206, 211, 218)
+_BITS = 4  # of a coordinate between pixels
 _SAMPLES = 24
 """Points of a leg at which the radius is drawn."""
 
@@ -59,16 +60,21 @@ def _strip(light: Light, source: str, width: int) -> NDArray[np.uint8]:
     most = _rounded(max(r for _, _, r in points))
     floor = height - foot
 
+    def place(length: float, radius: float) -> tuple[float, float]:
+        return left + (right - left) * length / far, floor - (floor - top) * radius / most
+
     def pixel(length: float, radius: float) -> tuple[int, int]:
-        return round(left + (right - left) * length / far), round(floor - (floor - top) * radius / most)
+        u, v = place(length, radius)
+        return round(u), round(v)
 
     write(panel, f"radius of {source} [mm] on its brightest way", (left, 1.6 * size), size, _INK, weight=600)
     for part in (0.0, 0.5, 1.0):
         u, v = pixel(0.0, part * most)
         cv2.line(panel, (u, v), (round(right), v), _RULE, 1)
         write(panel, f"{part * most:.3g}", (left - 0.5 * size, v + 0.35 * size), 0.9 * size, _FAINT, align="right")
-    line = np.array([pixel(_begun(light, c) + s * (c.beam.length - _begun(light, c)), r) for c, s, r in points])
-    cv2.polylines(panel, [line.reshape(-1, 1, 2)], False, _BEAM, 2, cv2.LINE_AA)
+    line = np.array([place(_begun(light, c) + s * (c.beam.length - _begun(light, c)), r) for c, s, r in points])
+    fine = np.round(line * 2**_BITS).astype(np.int32)
+    cv2.polylines(panel, [fine.reshape(-1, 1, 2)], False, _BEAM, 2, cv2.LINE_AA, _BITS)
     used = -math.inf
     for crossing in way:
         u, _ = pixel(crossing.beam.length, 0.0)

@@ -121,7 +121,8 @@ def leaving(moments: Array, shape: tuple[int, ...]) -> str:
         reach = _INSIDE * 4 * math.sqrt(variance)
         for gap, end in ((middle + 0.5, ends[0]), (size - 0.5 - middle, ends[1])):
             if gap < reach:
-                return f"the spot leaves the frame at the {end}: its middle is {gap:.4g} px from it, not {reach:.4g}"
+                text = f"the spot leaves the frame at the {end}: of what is seen of it the middle is {gap:.4g} px"
+                return f"{text} from there, and it reaches {reach:.4g} px"
     return ""
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from pico.geometry.shape import Shape, placed
@@ -191,6 +191,14 @@ def first_met(table: tuple[float, float], optics: Sequence[Optic], ray: Ray) -> 
         return None, "left", length
     far, _, optic, event = min(found, key=lambda f: f[:2])
     return optic, event, far
+
+
+def beside_the_edge(optic: Optic, ray: Ray, within: float) -> Event | None:
+    """Return what becomes of light around a ray that meets the plane of an optic no further than `within` [mm] beside
+    its clear aperture; None where there is none, or the ray is further off."""
+    if optic.center is None or _through(ray, replace(optic, radius=optic.radius + within)) is None:
+        return None
+    return _ENDS.get(optic.element, "passed")
 
 
 def _shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.lab import Setup
+from pico.model.observation import slot_at
 from pico.model.pose import short
 from pico.optics.axis import Event, Meeting
 from pico.optics.beam import Beam, moments
@@ -125,7 +126,7 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
     for name, part in sorted(light.parts.items()):
         if part.kind.optics.element == "detector" and name not in lit and light.crossings and _stands(setup, part):
             text, near = f"no light comes to {name}", _passing(light, part)
-            hint = "move it into a beam, or a beam onto it" if near else "`pico beam` shows where the beams go"
+            hint = "move it into a beam, or a beam onto it"
             yield warning("dark", f"{text}: {near}" if near else text, hint=hint, address=name)
     for source in light.endless:
         yield warning("endless", f"the beam of {source} goes round and round, and is not followed to its end",
@@ -153,7 +154,10 @@ def _passing(light: Light, part: Part) -> str:
 
 
 def _stands(setup: Setup, part: Part) -> bool:
+    """Whether a part stands on the table, and not in a slot, where it is put away."""
     wide, deep = setup.lab.table.size
+    if slot_at(setup, part.pose):
+        return False
     return 0 <= part.pose.x <= wide and 0 <= part.pose.y <= deep
 
 
@@ -169,9 +173,21 @@ def _too_strong(light: Light, part: Part) -> Iterator[Diagnostic]:
     if found and found.times == 0 and (arrivals := light.at(part.name)):
         text = f"the beam of {arrivals[0].beam.source} comes {_beside(*arrivals[0].center)} the sensor of {part.name}"
         yield warning("dark", f"{text}, and misses it", hint="move it into the beam", address=part.name)
+    elif found and (past := _past_the_sensor(light.at(part.name), part)):
+        yield warning("dark", past, hint="move it into the beam", address=part.name)
     if found and found.times > 1:
         text = f"{part.name} is saturated {_two(found.times)} times over{found.at}"
         yield warning("saturated", text, hint=found.hint, address=part.name)
+
+
+def _past_the_sensor(arrivals: tuple[Any, ...], part: Part) -> str:
+    """Return that the middle of the strongest beam falls beside the sensor of a camera, though some of it is seen."""
+    half = [part.number(n, "pixel", math.inf) * part.number("pixel_size", "um", 1.0) * 5e-4 for n in _SIDES]
+    main = max(arrivals, key=lambda a: a.power, default=None)
+    if main is None or all(abs(at) <= end for at, end in zip(main.center, half, strict=True)):
+        return ""
+    text = f"the middle of the beam of {main.beam.source} comes {_beside(*main.center)} that of {part.name}"
+    return f"{text}, beside its sensor of {2 * half[0]:.3g} x {2 * half[1]:.3g} mm"
 
 
 @dataclass(frozen=True)

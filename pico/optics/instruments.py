@@ -87,9 +87,12 @@ def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, num
     """Return what a power meter reads [mW], or a photodiode behind its amplifier [V].
 
     A meter is wrong by a share, the same for all its readings, of which `uncertainty` is two standard deviations; and
-    each reading has the noise `least_power`.
+    each reading has the noise `least_power`. It takes light to be of the `wavelength` that it is set to, and as each
+    photon gives it as much, a reading of another is wrong by the ratio of the two.
     """
-    power = power_on(tuple(arrivals), part)
+    power = 0.0
+    for wavelength, found in groupby(sorted(arrivals, key=lambda a: a.wavelength), key=lambda a: a.wavelength):
+        power += power_on(tuple(found), part) * wavelength / part.value("wavelength", "nm", wavelength)
     own = np.random.default_rng([seed, *part.name.encode()]).standard_normal()
     noise = np.random.default_rng([seed, number, *part.name.encode()]).standard_normal()
     volts = part.kind.number("saturation", "V")

@@ -18,7 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 from pico.manifest.checks.elements import module_of
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.optics.axis import Event, Optic, Ray, Values, first_met, optic_of
+from pico.optics.axis import Event, Optic, Ray, Values, beside_the_edge, first_met, optic_of
 from pico.optics.beam import Beam, forward, moments
 from pico.optics.emission import emit
 from pico.optics.irradiance import Screen
@@ -27,6 +27,10 @@ from pico.optics.part import Element, Met, Part
 
 FAINT = 1e-10
 """The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
+LEAST = 1e-4
+"""The share of a beam that must pass an aperture beside its chief ray for it not to end on the housing."""
+_WINGS = 2.5
+"""Radii of a beam from its chief ray within which light is looked for: beyond are 4e-6 of it."""
 MOST = 256
 """Stretches after which a beam that goes round and round is followed no more."""
 
@@ -58,7 +62,7 @@ class Light:
     def at(self, component: str) -> tuple[Arrival, ...]:
         """Return what of the light a detector takes."""
         mine = (c for c in self.crossings if c.component == component and c.event == "detected")
-        return tuple(Arrival(c.beam, self.parts[component]) for c in mine)
+        return tuple(Arrival(c.beam, self.parts[component], c.clipped) for c in mine)
 
     def way(self, number: int) -> tuple[Crossing, ...]:
         """Return the crossings from the source to one of them, that the last."""
@@ -68,11 +72,12 @@ class Light:
 
 @dataclass(frozen=True, eq=False)
 class Arrival:
-    """A beam on a detector. Its plane has the axes y, to the left of who looks along the component's x, and z, up, from
-    where the optical axis meets it [mm]."""
+    """A beam on a detector, of which the aperture before it has stopped the share `clipped`. Its plane has the axes y,
+    to the left of who looks along the component's x, and z, up, from where the optical axis meets it [mm]."""
 
     beam: Beam
     part: Part
+    clipped: float = 0.0
 
     @property
     def wavelength(self) -> float:
@@ -82,7 +87,7 @@ class Arrival:
     @property
     def power(self) -> float:
         """The power [mW]."""
-        return self.beam.power
+        return self.beam.power * (1.0 - self.clipped)
 
     @property
     def center(self) -> tuple[float, float]:
@@ -169,10 +174,14 @@ def _crossing(
     """Return what a beam comes to next, and the beams that go on from there."""
     ray = Ray(_point(beam.at), _point(beam.along), beam.length, leaves)
     optic, event, far = first_met(table, optics, ray)
-    if optic is None or event == "blocked":
-        met = Met(forward(beam, far))
-    else:
+    met = Met(forward(beam, far))
+    if optic is not None and event != "blocked":
         met = element(optic.element).meet(parts[optic.name], beam)
+    elif optic is not None and (beside := beside_the_edge(optic, ray, _WINGS * met.came.widths[0])):
+        # the chief ray is stopped, not all that is around it
+        partly = element(optic.element).meet(parts[optic.name], beam)
+        if partly.clipped < 1.0 - LEAST:
+            met, event = partly, beside
     onward = sum(b.power for b in met.onward)
     name = optic.name if optic else ""
     return Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, before), met.onward

@@ -93,9 +93,14 @@ def do_one(
     """Return the plan of a primitive that a device does and that brings about no state; one that takes pictures for it
     needs what a picture needs.
 
-    Raises PicoError for a component that the lab does not have or that is not seen.
+    Raises PicoError for a component that the lab does not have or that is not seen, and for a setting without a range
+    where one is to be found.
     """
     _part(setup, seen, component)
+    setting = setup.type_of(component).tunables.get(str(arguments.get("tunable")))
+    if name == "auto_range" and setting is not None and setting.range is None:
+        text = f"{component}.{arguments['tunable']} has no `range`, within which to look for the right one"
+        raise PicoError(error("range", text, hint="give it one in its type", address=component))
     if name == "auto_range" and "image" in setup.measurables_of(component):
         made = measuring(setup, seen, [(component, "image")], ASKED, motion)
         own = (f"{component}.{arguments.get('tunable')}",)

@@ -30,7 +30,7 @@ def lights(setup: Setup, operations: Sequence[Operation]) -> tuple[str, ...]:
 def _moves(setup: Setup, op: Operation) -> bool:
     if not op.kind.mutating:
         return False
-    return not (op.primitive == "set" and _mover(setup, op) == "electronics")
+    return not (op.primitive in ("set", "auto_range") and _mover(setup, op) == "electronics")
 
 
 def _of_light(setup: Setup, op: Operation) -> bool:

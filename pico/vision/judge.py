@@ -54,7 +54,7 @@ def _by_rays(views: Sequence[MarkerView], plate: MarkerPlate, accuracy: Accuracy
     true_size = abs(size / plate.size - 1) < _SIZE + _SIGMAS * size_sigma(views, accuracy) / plate.size
     estimate = from_rays(views, plate.size if true_size else size)
     limit = _SIGMAS * math.hypot(accuracy.pixels, max(v.marker.noise for v in views))
-    if estimate.residual > limit or estimate.height < -50:
+    if not estimate.residual <= limit or estimate.height < -50:  # not a number where it lies behind a camera
         return Verdict(None, how, "conflict", _apart(views, plate.at[2]))
     wrong = _leaning(estimate) or _height(estimate, plate.at[2], accuracy)
     if wrong:

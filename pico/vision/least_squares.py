@@ -33,7 +33,8 @@ def solve(residuals: Callable[[Array], Array], start: Array, steps: Array, round
     """Return the parameters that make the sum of squared `residuals` least.
 
     `steps` (n,): what a parameter is changed by to find its derivative, in its own unit. Where the matrix of the
-    normal equations is singular its pseudo-inverse is the covariance.
+    normal equations is singular its pseudo-inverse is the covariance. Where residuals are not finite nothing is found:
+    covariance and residuals are not finite, either.
     """
     import numpy as np
 
@@ -55,7 +56,9 @@ def solve(residuals: Callable[[Array], Array], start: Array, steps: Array, round
         if np.all(np.abs(change) < 1e-3 * np.abs(steps)) or gained < 1e-10 * float(left @ left):
             break
         jacobian = _jacobian(residuals, parameters, left, steps)
-    covariance = np.asarray(np.linalg.pinv(jacobian.T @ jacobian), np.float64)
+    normal = jacobian.T @ jacobian
+    lost = not np.isfinite(normal).all()
+    covariance = np.full_like(normal, np.nan) if lost else np.asarray(np.linalg.pinv(normal), np.float64)
     return Solution(parameters, covariance, left)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pico.backends.conditions import conditions
 from pico.backends.sim.readings import FOLDER
 from pico.backends.sim.store import load_world, save_world
 from pico.content.store import store_of
@@ -17,9 +18,9 @@ from pico.diagnostics import PicoError
 from pico.edge.local import embedded
 from pico.manifest.load import load_folder
 from pico.model.catalog import Measurable
-from pico.model.lab import Setup
+from pico.model.lab import Part, Setup
 from pico.model.measurement import PEEKED, Measurement, measurement_from_json
-from pico.model.observation import ObservedRobot, ObservedValue
+from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
 from pico.resources import labs_dir
@@ -143,6 +144,19 @@ def test_what_a_measurable_needs_is_read_back(
 ) -> None:
     found = measured(tmp_path, "cam", "exposure", needing(needs))
     assert ("shutter" in found.assured, dict(found.not_assured)) == (assured, why)
+
+
+@pytest.mark.parametrize(("emission", "why"), [(True, "spare has no shutter and is not known to be off"), (False, "")])
+def test_darkness_is_not_assured_beside_a_laser_that_has_no_shutter(tmp_path: Path, emission: bool, why: str) -> None:
+    setup = needing({"shutter": "closed"})
+    bare = setup.type_of("laser")
+    bare = replace(bare, name="bare", tunables={n: t for n, t in bare.tunables.items() if n != "shutter"})
+    lab = replace(setup.lab, inventory={**setup.lab.inventory, "spare": Part(type="bare", home="none")})
+    two = replace(setup, lab=lab, catalog={**setup.catalog, "bare": bare})
+    laser = ObservedComponent(pose=Pose(100, 100), values={"shutter": ObservedValue(value="closed")})
+    spare = ObservedComponent(pose=Pose(100, 800), values={"emission": ObservedValue(value=emission)})
+    seen = Observation(backend="sim", components={"laser": laser, "spare": spare})
+    assert conditions(two, seen, "cam", two.measurables_of("cam")["exposure"])["shutter"] == why
 
 
 VOLTAGE = """

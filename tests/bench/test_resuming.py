@@ -67,6 +67,37 @@ def test_a_resumed_single_operation_moves_only_what_was_asked(bench: Bench) -> N
     assert {op.component for op in plan.operations if op.primitive == "move"} == {"p2"}
 
 
+def test_a_resumed_measurement_sets_back_what_was_set_for_it(bench: Bench) -> None:
+    bench.apply("e1")
+    before = bench.measurements.read("laser", "shutter")
+    plan = bench.plans.single("cam", "measure", {"measurable": "dark"})
+    ended_when(bench, plan, lambda event: event.data.get("value") == "closed")
+    assert bench.measurements.read("laser", "shutter") != before
+    resumed, run = bench.recovery.resume_plan()
+    assert [(op.primitive, op.component) for op in resumed.operations] == [("set", "laser")]
+    assert [d.hint for d in resumed.diagnostics if d.code == "left-out"] == ["`pico measure cam.dark` does it anew"]
+    assert _run(bench, resumed, run).outcome == "done"
+    assert bench.measurements.read("laser", "shutter") == before
+
+
+def test_a_search_for_an_exposure_is_not_taken_up_again_and_that_is_said(bench: Bench) -> None:
+    bench.apply("e1")
+    plan = bench.plans.single("cam", "auto_range", {"tunable": "exposure"})
+    ended_when(bench, plan, lambda event: event.kind == "operation_started", at_once=True)
+    with pytest.raises(PicoError, match="did not come to its end") as refused:
+        bench.recovery.resume_plan()
+    assert refused.value.diagnostics[0].hint == "`pico do cam auto_range exposure` does it anew"
+
+
+def test_a_resumed_move_opens_the_shutter_again_that_was_shut_for_it(bench: Bench) -> None:
+    bench.apply("e1")
+    before = bench.measurements.read("laser", "shutter")
+    ended_when(bench, bench.plans.single("p2", "move", {"x": "560"}), lambda event: event.data.get("value") == "closed")
+    assert bench.measurements.read("laser", "shutter") != before
+    assert _run(bench, *bench.recovery.resume_plan()).outcome == "done"
+    assert bench.measurements.read("laser", "shutter") == before
+
+
 def test_after_hands_were_emptied_it_is_said_what_goes_on_with_the_run_that_was_cut_short(bench: Bench) -> None:
     id = cut_short(bench, "e1")
     emptied = bench.run(bench.recovery.recover_plan())

@@ -40,6 +40,21 @@ def test_what_is_clipped_missed_and_dark_is_told(shel: Path, pico: Pico) -> None
     assert "ends on the housing of p2" in missed.err and "no light comes to cam" in missed.err
 
 
+def test_after_a_power_failure_light_goes_as_parts_are_and_nobody_knows_how(shel: Path, pico: Pico) -> None:
+    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
+    assert pico("apply", "e1", "--yes").code == 0
+    assert "unread" not in pico("beam").err
+    before = pico("measure", "cam.power", "--json").data["value"]
+    assert pico("sim", "power-cycle").code == 0
+    assert "nobody knows p1.angle" in pico("beam").err
+    assert pico("get", "p1", "--json").data["values"]["angle"]["status"] == "unknown"
+    for setting in ("emission=true", "shutter=open"):
+        assert pico("set", "laser", setting, "--yes").code == 0
+    assert pico("set", "cam", "exposure=10").code == 0
+    after = pico("measure", "cam.power", "--json").data["value"]
+    assert after == pytest.approx(before, rel=0.01)
+
+
 def test_a_picture_and_what_cannot_be(shel: Path, pico: Pico) -> None:
     assert pico("beam", "e1", "--picture", "e1.png").code == 0
     assert (shel / "e1.png").read_bytes().startswith(b"\x89PNG")

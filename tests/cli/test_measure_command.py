@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 from commanding import Pico, edit
 
@@ -25,6 +27,12 @@ def test_the_middle_of_the_spot_is_told_with_its_uncertainty_and_kept_with_the_r
     said = pico("measure", "cam.centroid")
     assert said.code == 0 and "y  -5" in said.out and " ± 0.02" in said.out and "exposure 10 ms" in said.out
     assert "cam.centroid" in pico("runs", "show").out
+    assert "Drew cam.image to spot.png" in pico("measure", "cam.image", "--picture", "spot.png").out
+    assert "`pico measure cam.image` keeps one" in pico("measure", "cam.centroid", "--picture", "none.png").err
+    drawn = cv2.imread(str(crossed / "spot.png"))
+    assert drawn.shape == (2048, 2448, 3) and drawn.max() == 255
+    middle = np.argwhere(drawn[:, :, 0] > 128).mean(axis=0)
+    assert middle[0] == pytest.approx(1023.5 - found["value"]["y"] / 3.45, abs=10), "y is up"
     again = pico("measure", "cam.image | background | centroid", "--json").data
     assert again["value"]["y"] == pytest.approx(found["value"]["y"], abs=0.5)
     assert again["array"]["shape"] == [2048, 2448]

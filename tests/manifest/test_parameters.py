@@ -34,9 +34,26 @@ CAM, SPLITTER = "beam_camera", "beam_splitter_50_50"
         ("linear_polarizer", "{value: 0.8,", "{value: 1.8,", "`transmission` is 1.8", "from 0 to 1"),
         ("hene_laser", "{value: 0.315,", "{value: -1,", "`waist_radius` is -1 mm", "from 0.0001 to 1000 mm"),
         (SPLITTER, "transmittance: {value: 0.", "transmittance: {value: 0.9", "more light leaves", "1 or less"),
+        ("room_lamp", "{value: 700,", "{value: -700,", "`stray_irradiance` is -700 nW/mm^2", "0 or more nW/mm^2"),
+        ("room_lamp", "{value: 700,", "{value: bright,", "`stray_irradiance` is `bright`", "expected a number"),
+        ("iris", "diameter: 11.5", "diameter: -12", "which can't be", "expected above 0 mm"),
+        (CAM, "shutter: closed", "shutter: shut", "`dark` needs `shutter`, which is one of", "a value that it takes"),
+        (
+            CAM,
+            "illumination: false",
+            "illumination: 3",
+            "`image` needs `illumination`, which is true",
+            "a value that it takes",
+        ),
+        (CAM, "{illumination: false}", "{exposure: 5000}", "`image` needs `exposure`, which goes from", "it takes"),
     ],
 )
 def test_it_is_told_where_it_stands(name: str, old: str, new: str, said: str, hint: str) -> None:
     (found,) = told(name, old, new)
     assert found.severity == "error" and found.source is not None
     assert said in found.summary and hint in (found.hint or ""), found
+
+
+def test_a_need_that_nothing_known_has_is_told() -> None:
+    (found,) = told(CAM, "{shutter: closed,", "{shuter: closed,")
+    assert found.severity == "warning" and "`shuter`" in found.summary and found.hint == "did you mean `shutter`?"

@@ -28,6 +28,11 @@ def test_a_power_meter_is_wrong_by_a_share_that_stays() -> None:
     assert np.std(same) < 1e-3 * np.mean(same)
 
 
+def test_a_meter_that_is_set_for_another_wavelength_reads_wrong() -> None:
+    right, wrong = (reading("power_meter", wavelength=told)[0] for told in (632.8, 1064.0))
+    assert wrong / right == pytest.approx(632.8 / 1064.0, rel=1e-3)
+
+
 def test_a_photodiode_gives_volts_by_its_gain_until_its_amplifier_ends() -> None:
     assert reading("photodiode", gain="0 dB")[0] == pytest.approx(1.3e-3 * 0.4 * 1510, abs=1e-3)
     assert reading("photodiode", gain="20 dB")[0] == pytest.approx(1.3e-3 * 0.4 * 15100, abs=1e-3)

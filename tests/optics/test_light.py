@@ -170,6 +170,23 @@ def test_an_edge_stops_what_lies_beside_it() -> None:
         assert bool(arrival.beam.unknown) == (wanted < 0.9)
 
 
+@pytest.mark.parametrize("beyond", [-0.3, -0.01, 0.01, 0.3, 1.0, 3.0])  # of the chief ray, past the edge [mm]
+@pytest.mark.parametrize("name", ["iris", "plano_convex_100", "mirror_tip_tilt", "linear_polarizer", "power_meter"])
+def test_a_beam_whose_chief_ray_misses_an_aperture_passes_with_the_rest(name: str, beyond: float) -> None:
+    kinds = {"laser": kind("hene_laser", waist_radius=1.0, waist_position=240.0), "x": kind(name),
+             "cam": kind("beam_camera")}  # fmt: skip
+    aperture = kinds["x"].geometry.clear_aperture
+    assert aperture
+    away = aperture.diameter / 2 + beyond
+    poses = {"laser": LASER, "x": Pose(400, 400 + away), "cam": Pose(1500, 1000)}
+    first = light(kinds, poses).crossings[0]
+    x, y = np.meshgrid(np.linspace(-3, 3, 1501), np.linspace(-3, 3, 1501))
+    spot = 2 / math.pi * np.exp(-2 * (x**2 + y**2)) * ((y - away) ** 2 + x**2 <= (aperture.diameter / 2) ** 2)
+    wanted = float(spot.sum()) * 0.004**2
+    assert first.component == "x" and 1 - first.clipped == pytest.approx(wanted if wanted > 1e-4 else 1.0, abs=2e-3)
+    assert (first.event == "blocked") == (wanted < 1e-4)
+
+
 def test_bare_faces_of_a_plate_show_ghosts_and_nothing_is_lost() -> None:
     kinds = {"laser": kind("hene_laser"), "cam": kind("beam_camera"),
              "f": kind("neutral_density_filter", optical_density=0.0, thickness=3.0, refractive_index=1.5,

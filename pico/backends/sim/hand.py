@@ -53,7 +53,7 @@ def power_cycle(setup: Setup, world: World) -> World:
 def _powered_up(kind: Tunable, live: ObservedValue) -> ObservedValue:
     if kind.axis is not None:
         if kind.axis.kind == "homed":
-            return ObservedValue(value=None, status="unknown")
+            return replace(live, status="unknown")
         return live if kind.axis.kind == "absolute" or live.value is None else replace(live, status="commanded")
     if kind.mover != "electronics":
         return live

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from pico.backends.last_seen import Taken
-from pico.backends.sim.world import World
+from pico.backends.sim.world import World, read_back
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot
 from pico.model.pose import Pose
@@ -23,7 +23,9 @@ def sensed(setup: Setup, world: World, taken: Mapping[str, Taken], backend: str,
     `taken`: what each hand took last. Whether it still holds it, the distance between its pads says.
     """
     robots = {name: _felt(setup, world, name, taken.get(name)) for name in world.robots}
-    components = {n: ObservedComponent(presence="missing", values=body.values) for n, body in world.components.items()}
+    components = {
+        n: ObservedComponent(presence="missing", values=read_back(body)) for n, body in world.components.items()
+    }
     for name, robot in robots.items():
         if robot.holding:
             pose = tool_of(setup.lab.robots[name], robot.joints).compose(taken[name].pose)

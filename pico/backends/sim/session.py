@@ -184,6 +184,7 @@ class WorldSession:
             assert found.array is not None
             black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
             frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
+            self._tell("operation_progress", operation, key, {"fraction": len(frames) / MOST, "phase": "exposing"})
             wanted = next_exposure(frames[-1], limits)
             if wanted is None:
                 break
@@ -314,7 +315,7 @@ class WorldSession:
             seconds = set_seconds(kind, before, goal)
             if before is None and kind.axis and kind.axis.kind == "homed":  # it must be homed first
                 seconds = home_seconds(kind, None) + set_seconds(kind, kind.axis.home, goal)
-        self._world = self._world.with_value(name, tunable, ObservedValue(value=None, status="unknown"))
+        self._world = self._world.with_value(name, tunable, replace(live, status="unknown"))
         self._keep()
         yield from driven_badly(fault, f"{name}.{tunable}", seconds)
         yield seconds

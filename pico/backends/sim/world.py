@@ -43,8 +43,8 @@ class WorldBody:
     """One component of the simulated table.
 
     `pose` is its planar pose, None where it is `missing`; of a part that is `held` or `toppled`, where its origin is
-    above the table. `free`: its full pose where physics left it off the plane. `type` names an entry of
-    `World.shapes`.
+    above the table. `free`: its full pose where physics left it off the plane. `values`: as they are, also where their
+    status is `unknown` and the bench does not read them. `type` names an entry of `World.shapes`.
     """
 
     type: str
@@ -144,10 +144,17 @@ def footprints(world: World) -> Iterator[tuple[str, Footprint, Pose]]:
         yield name, thing.footprint, thing.pose
 
 
+def read_back(body: WorldBody) -> dict[str, ObservedValue]:
+    """Return what a bench reads of the tunables of a component: an axis that was not homed is somewhere, and nobody
+    knows where."""
+    unknown = ObservedValue(status="unknown")
+    return {name: unknown if live.status == "unknown" else live for name, live in body.values.items()}
+
+
 def observe(world: World, backend: str, observed_at: str) -> Observation:
     """Return the world as an observation without error."""
     components = {
-        name: ObservedComponent(presence=body.presence, pose=body.pose, values=body.values)
+        name: ObservedComponent(presence=body.presence, pose=body.pose, values=read_back(body))
         for name, body in world.components.items()
     }
     return Observation(

@@ -13,6 +13,7 @@ from pico.bench.running.execution import Execution
 from pico.model.event import Event
 
 SAFELY = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"
+UNMOVED = "Stopping: what has begun comes to its end, and nothing else begins (press again to stop at once)"
 AT_ONCE = "Stopping at once: arms brake, shutters close, grippers hold what they hold"
 DEADLINE = 10.0
 """Seconds after SIGTERM or SIGHUP in which a run may come to its safe end."""
@@ -62,7 +63,8 @@ def interrupts(run: Execution, say: Callable[[str], None]) -> Iterator[list[int]
             late.start()
         if first or at_once:
             with suppress(OSError):  # who would read it may be gone
-                say(AT_ONCE if at_once else SAFELY)
+                carries = any(op.kind.carries for op in run.plan.operations)
+                say(AT_ONCE if at_once else SAFELY if carries else UNMOVED)
 
     before = _listen(heard)
     try:

@@ -9,6 +9,7 @@ from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.checks.elements import own
 from pico.manifest.checks.elements import plugged_in as more_elements
 from pico.manifest.checks.kernels import check_kernels
+from pico.manifest.checks.needs import check_needs
 from pico.manifest.checks.parameters import check_parameters
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
@@ -38,6 +39,7 @@ def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
     found += _primitives(document, kind)
     found += _element(document, kind.optics.element)
     found += check_kernels(document, kind)
+    found += check_needs(document, kind)
     found += check_parameters(document, kind)
     return found
 

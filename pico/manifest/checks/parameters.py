@@ -67,13 +67,15 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     },
 }  # fmt: skip
 """The numbers of a type that light is computed from, by its element."""
+ANYWHERE: Mapping[str, Bounds] = {"clear_diameter": _LENGTH, "stray_irradiance": Bounds("nW/mm^2", 0)}
+"""Those of a type of any element."""
 WORDS: Mapping[tuple[str, str], tuple[str, ...]] = {("polarizer", "substrate"): ("film", "ar_glass", "glass")}
 
 
 def check_parameters(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:
     """Yield an error for each parameter of a type's element that can't be what it says."""
     element = kind.optics.element
-    for name, bounds in {**NUMBERS.get(element, {}), "clear_diameter": _LENGTH}.items():
+    for name, bounds in {**NUMBERS.get(element, {}), **ANYWHERE}.items():
         if name in kind.parameters:
             yield from _number(document, kind, name, bounds)
     for (of, name), words in WORDS.items():
@@ -88,6 +90,11 @@ def check_parameters(document: Document, kind: ComponentType) -> Iterator[Diagno
     if element == "detector" and least and greatest and least >= greatest:
         text = f"`least_power` is {least:g} mW, and `greatest_power` {greatest:g} mW"
         yield error("value", text, hint="expected the least below the greatest", source=_at(document, "least_power"))
+    aperture = kind.geometry.clear_aperture
+    if aperture is not None and aperture.diameter <= 0:
+        at = where(document, "geometry", "clear_aperture", "diameter")
+        text = f"the clear aperture is {aperture.diameter:g} mm wide, which can't be"
+        yield error("value", text, hint="expected above 0 mm", source=at)
     polarizing = kind.parameters.get("polarizing")
     if element == "beam_splitter" and not (polarizing and polarizing.value):
         shares = [kind.number(name, "") or 0.0 for name in ("reflectance", "transmittance")]

@@ -7,6 +7,7 @@ from pico.optics.part import Met, Part, arrived, clipped
 
 
 def meet(part: Part, beam: Beam) -> Met:
-    """Take a beam where it meets the sensor, after the clear aperture before it has stopped its part."""
-    passed, lost = clipped(part, arrived(part, beam), part.optic.radius)
-    return Met(arrived(part, passed, at=part.origin), clipped=lost)
+    """Take a beam where it meets the sensor, after the clear aperture before it has stopped its part. The edge is close
+    to the sensor: what it lets through is there as it came."""
+    _, lost = clipped(part, arrived(part, beam), part.optic.radius)
+    return Met(arrived(part, beam, at=part.origin), clipped=lost)

@@ -14,9 +14,9 @@ from pico.optics.polarization import Vector, carried, joined, plane_of_incidence
 from pico.optics.rays import Surface
 
 
-def surfaces(part: Part) -> tuple[Surface, ...]:
-    """Return the two surfaces of a lens, that with the lesser local x first; none where its type does not tell
-    `radius_of_curvature`, `center_thickness` and `refractive_index`.
+def surfaces(part: Part, edge: float) -> tuple[Surface, ...]:
+    """Return the two surfaces of a lens with an edge of a radius [mm], that with the lesser local x first; none where
+    its type does not tell `radius_of_curvature`, `center_thickness` and `refractive_index`.
 
     The parameter is the radius of the side that light along local +x meets first, above 0 where that bulges towards it;
     `radius_of_curvature_back` that of the other, above 0 where that bulges away, flat where it is not given.
@@ -26,7 +26,7 @@ def surfaces(part: Part) -> tuple[Surface, ...]:
         return ()
     radius, thickness, index = (number or 0.0 for number in given)
     back = part.kind.number("radius_of_curvature_back", "mm")
-    along, edge = part.axes[0], part.optic.radius
+    along = part.axes[0]
     half = thickness / 2 * along
     return (
         Surface(part.center - half, along, 1 / radius if radius else 0.0, edge, 1.0, index),
@@ -42,7 +42,8 @@ def meet(part: Part, beam: Beam) -> Met:
     came = arrived(part, beam)
     passed, lost = clipped(part, came, part.optic.radius)
     share = math.sqrt(part.number("transmission", "", 1.0))
-    ways = surfaces(part)
+    # around a chief ray beside the edge there may be light that passes
+    ways = surfaces(part, part.optic.radius + came.widths[0])
     if not ways:
         return Met(came, (scaled(thin(passed, part.center, part.axes[0], power(part)), share),), lost)
     behind: Beam | None = scaled(beam, math.sqrt(1 - lost) * share)

@@ -19,7 +19,7 @@ def beams_in_the_way(
     setup: Setup, seen: Observation, wanted: LabState, changes: Sequence[Change]
 ) -> tuple[Diagnostic, ...]:
     """Return a warning for each beam that would end on a housing, leave the table, come back to its laser or be clipped
-    once the changes are made, and does not so now.
+    once the changes are made, and does not so now: where its laser is off or shut, it does nothing yet.
 
     The lasers that count are those that then shine. Where none does, nothing is traced, nor imported for it.
     """
@@ -30,7 +30,8 @@ def beams_in_the_way(
     lit = {n for n in then if setup.type_of(n).optics.element == "source" and _shines(values.get(n, {}))}
     if not lit:
         return ()
-    before = {(d.code, d.address) for d in _told(setup, now, seen.known_values, lit)}
+    already = {n for n in lit if n in now and _shines(seen.known_values.get(n, {}))}
+    before = {(d.code, d.address) for d in _told(setup, now, seen.known_values, already)} if already else set()
     return tuple(d for d in _told(setup, then, values, lit) if (d.code, d.address) not in before)
 
 

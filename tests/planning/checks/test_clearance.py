@@ -43,7 +43,10 @@ def _seen(name: str, part: ComponentState) -> ObservedComponent:
     ("lens", "found"),
     [
         (Pose(395, AXIS, 0), []),
-        (Pose(395, AXIS + 10.9, 0), [("clipped", "lx_125"), ("beam", "p2")]),  # clear to 11 mm; it bends what passes
+        (
+            Pose(395, AXIS + 10.9, 0),
+            [("clipped", "lx_125"), ("clipped", "p2"), ("beam", "laser")],
+        ),  # it bends what passes
         (Pose(395, AXIS + 18, 0), [("beam", "lx_125")]),
         (Pose(395, AXIS, 90), [("beam", "lx_125")]),
         (Pose(395, AXIS + 40, 0), []),
@@ -55,6 +58,16 @@ def test_what_would_come_into_the_beam_is_told(lens: Pose, found: list[tuple[str
 
 def test_a_laser_that_will_be_dark_lights_nothing() -> None:
     assert told(Pose(395, AXIS + 18, 0), shutter="closed") == told(Pose(395, AXIS + 18, 0), emission=False) == []
+
+
+def test_what_an_opened_laser_would_light_is_told() -> None:
+    """The lens stands in the way already, in the dark."""
+    state = LabState(lab="shel", components=FOLDER.state.components | {"lx_125": ComponentState(pose=Pose(395, 438))})
+    seen = {n: _seen(n, state.components[n]) for n in SETUP.lab.inventory}
+    shut = {**seen["laser"].values, "shutter": ObservedValue(value="closed")}
+    dark = Observation(backend="sim", components={**seen, "laser": replace(seen["laser"], values=shut)})
+    found = beams_in_the_way(SETUP, dark, state, diff_observed(SETUP, dark, state))
+    assert [(d.code, d.address) for d in found] == [("beam", "lx_125")]
 
 
 def test_what_is_so_already_is_not_told_again() -> None:
