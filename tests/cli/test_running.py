@@ -49,7 +49,7 @@ class Interrupted:
     """A run in which Ctrl-C is pressed `presses` times after its first event."""
 
     def __init__(self, presses: int) -> None:
-        self.presses, self.over, self.calls = presses, False, list[str]()
+        self.presses, self.over, self.calls, self.plan = presses, False, list[str](), PLAN
         self.events = iter([event("operation_started", 1), event("operation_done", 1, seconds=9.8, error_mm=0.11),
                             event("operation_skipped", 2, interrupted=True)])  # fmt: skip
         self.seen = 0
