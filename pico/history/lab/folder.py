@@ -377,7 +377,8 @@ def _proposal(own: Setup, described: Setup, read: Manifests) -> Diagnostic:
     """Return that the working tree describes another bench than this one keeps as its own."""
     edited = edited_lab(own, described)
     text = f"this bench is not the one that the lab's files describe: {', '.join(edited)}"
-    hint = "it counts as it is; `pico bench update` shows the difference, and lets the bench adopt it"
+    hint = "plans go by the bench. At a commit of another time there is nothing to do; of an edit `pico bench update`"
+    hint = f"{hint} shows the difference, and lets the bench adopt it"
     source = read.source(edited[0].split()[0]) if edited else None
     return warning(BENCH_LAB, text, hint=hint, source=source)
 
