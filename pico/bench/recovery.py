@@ -49,9 +49,10 @@ class Recovery:
         only = began.target.only or _asked(began)
         seen = self.opened.observe()
         wanted = state_from_json(began.lab.name, began.target.state)
-        plan = Plans(self.opened).to_state(
-            seen, wanted, began.target, targets=only or (), exclude=began.target.exclude or ()
-        )
+        target = began.target
+        if began.asked and not (target.revision or target.title):
+            target = replace(target, title=f"what run {last.run} was to lead to")
+        plan = Plans(self.opened).to_state(seen, wanted, target, targets=only or (), exclude=target.exclude or ())
         left = tuple(_left_out(began, memory, last.run))
         if left and not plan.operations:
             raise PicoError([replace(d, severity="error", code="nothing-to-resume") for d in left])
