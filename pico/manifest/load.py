@@ -12,6 +12,7 @@ from pico.diagnostics import Diagnostic, PicoError, SourceRange, error
 from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_broken
 from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
 from pico.manifest.checks.labs import check_lab, check_setup
+from pico.manifest.checks.own_parameters import check_own_parameters
 from pico.manifest.file_names import TOLD, misnamed_manifest, named_as_manifest
 from pico.manifest.files import decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
@@ -190,6 +191,9 @@ def _bench(
     if lab is None or wrong or any(part.type not in catalog for part in lab.inventory.values()):
         return None, view_of_broken(document, catalog)
     setup = Setup(lab=lab, catalog=catalog)
+    if impossible := [*check_own_parameters(document, setup)]:
+        found.extend(impossible)
+        return None, view_of_broken(document, catalog)
     misfits = check_setup(document, setup)
     found.extend(misfits)
     misfit = any(d.severity == "error" for d in misfits)

@@ -8,8 +8,9 @@ from dataclasses import field, replace
 from typing import Literal
 
 from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind, as_first_written
+from pico.model.parametric import with_parameters
 from pico.model.pose import Pose
-from pico.model.quantities import Angle, Length
+from pico.model.quantities import Angle, Length, Value
 from pico.model.record import digest, record
 
 
@@ -212,7 +213,8 @@ class Tether:
 
 @record
 class Part:
-    """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`."""
+    """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`. `parameters`: of its own, where
+    they are others than its type's, such as the focal length of one of many lenses."""
 
     type: str
     marker: int | None = None
@@ -224,6 +226,7 @@ class Part:
     calibration: Mapping[str, float] = field(default_factory=dict)
     stage: Literal["allowed", "avoid", "never"] = "allowed"
     note: str = ""
+    parameters: Mapping[str, Value] | None = None
 
     def __post_init__(self) -> None:
         if (self.home is None) == (self.pose is None):
@@ -441,8 +444,11 @@ class Setup:
     catalog: Catalog
 
     def type_of(self, component: str) -> ComponentType:
-        """Return the type of `component`; raises KeyError for a part that the inventory does not have."""
-        return self.catalog[self.lab.inventory[component].type]
+        """Return the type of `component`, with the parameters that are the part's own; raises KeyError for a part that
+        the inventory does not have."""
+        part = self.lab.inventory[component]
+        kind = self.catalog[part.type]
+        return with_parameters(kind, part.parameters) if part.parameters else kind
 
     def seating_of(self, component: str) -> SeatingKind:
         """Return how `component` is seated: the part's own word, else its type's."""

@@ -42,6 +42,6 @@ def _of_light(setup: Setup, op: Operation) -> bool:
 
 def _mover(setup: Setup, op: Operation) -> str:
     """Return what drives the tunable that an operation sets; empty where the bench has no such tunable."""
-    part = setup.lab.inventory.get(op.component)
-    kind = setup.catalog[part.type].tunables.get(str(op.arguments.get("tunable"))) if part else None
+    known = op.component in setup.lab.inventory
+    kind = setup.type_of(op.component).tunables.get(str(op.arguments.get("tunable"))) if known else None
     return kind.mover if kind else ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
@@ -69,51 +69,76 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
 """The numbers of a type that light is computed from, by its element."""
 ANYWHERE: Mapping[str, Bounds] = {"clear_diameter": _LENGTH, "stray_irradiance": Bounds("nW/mm^2", 0)}
 """Those of a type of any element."""
-WORDS: Mapping[tuple[str, str], tuple[str, ...]] = {("polarizer", "substrate"): ("film", "ar_glass", "glass")}
+WORDS: Mapping[tuple[str, str], tuple[str, ...]] = {
+    ("polarizer", "substrate"): ("film", "ar_glass", "glass"), ("lens", "form"): ("plano", "bi"),
+}  # fmt: skip
+
+
+Places = Callable[[str], SourceRange | None]
+"""Where a parameter is said."""
 
 
 def check_parameters(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:
     """Yield an error for each parameter of a type's element that can't be what it says."""
-    element = kind.optics.element
-    for name, bounds in {**NUMBERS.get(element, {}), **ANYWHERE}.items():
-        if name in kind.parameters:
-            yield from _number(document, kind, name, bounds)
-    for (of, name), words in WORDS.items():
-        if of == element and name in kind.parameters and (given := kind.parameters[name].value) not in words:
-            hint = did_you_mean(str(given)[:40], words) or f"one of: {', '.join(words)}"
-            yield error("value", f"`{name}` is `{str(given)[:40]}`", hint=hint, source=_at(document, name))
-    black, bits = kind.number("black_level", "count"), kind.number("bit_depth", "bit")
-    if element == "detector" and black and bits and 1 <= bits <= 16 and black >= 2**bits / 2:
-        text = f"`black_level` is {black:g}, more than half of what {bits:g} bits hold"
-        yield error("value", text, hint=f"expected below {2**bits / 2:g}", source=_at(document, "black_level"))
-    least, greatest = kind.number("least_power", "mW"), kind.number("greatest_power", "mW")
-    if element == "detector" and least and greatest and least >= greatest:
-        text = f"`least_power` is {least:g} mW, and `greatest_power` {greatest:g} mW"
-        yield error("value", text, hint="expected the least below the greatest", source=_at(document, "least_power"))
+    yield from wrong_parameters(kind, lambda name: where(document, "parameters", name, "value"))
     aperture = kind.geometry.clear_aperture
     if aperture is not None and aperture.diameter <= 0:
         at = where(document, "geometry", "clear_aperture", "diameter")
         text = f"the clear aperture is {aperture.diameter:g} mm wide, which can't be"
         yield error("value", text, hint="expected above 0 mm", source=at)
+
+
+def wrong_parameters(kind: ComponentType, at: Places) -> Iterator[Diagnostic]:
+    """Yield an error for each parameter that can't be what it says; `at`: where it is said."""
+    element = kind.optics.element
+    for name, bounds in {**NUMBERS.get(element, {}), **ANYWHERE}.items():
+        if name in kind.parameters:
+            yield from _number(kind, name, bounds, at)
+    for (of, name), words in WORDS.items():
+        if of == element and name in kind.parameters and (given := kind.parameters[name].value) not in words:
+            hint = did_you_mean(str(given)[:40], words) or f"one of: {', '.join(words)}"
+            yield error("value", f"`{name}` is `{str(given)[:40]}`", hint=hint, source=at(name))
+    black, bits = kind.number("black_level", "count"), kind.number("bit_depth", "bit")
+    if element == "detector" and black and bits and 1 <= bits <= 16 and black >= 2**bits / 2:
+        text = f"`black_level` is {black:g}, more than half of what {bits:g} bits hold"
+        yield error("value", text, hint=f"expected below {2**bits / 2:g}", source=at("black_level"))
+    least, greatest = kind.number("least_power", "mW"), kind.number("greatest_power", "mW")
+    if element == "detector" and least and greatest and least >= greatest:
+        text = f"`least_power` is {least:g} mW, and `greatest_power` {greatest:g} mW"
+        yield error("value", text, hint="expected the least below the greatest", source=at("least_power"))
+    if element == "lens" and "form" in kind.parameters:
+        yield from _form(kind, at)
     polarizing = kind.parameters.get("polarizing")
     if element == "beam_splitter" and not (polarizing and polarizing.value):
         shares = [kind.number(name, "") or 0.0 for name in ("reflectance", "transmittance")]
         if sum(shares) > 1 + 1e-9:
             text = f"`reflectance` and `transmittance` are {sum(shares):g} together: more light leaves than comes"
-            yield error("value", text, hint="1 or less together", source=_at(document, "reflectance"))
+            yield error("value", text, hint="1 or less together", source=at("reflectance"))
 
 
-def _number(document: Document, kind: ComponentType, name: str, bounds: Bounds) -> Iterator[Diagnostic]:
+def _number(kind: ComponentType, name: str, bounds: Bounds, at: Places) -> Iterator[Diagnostic]:
     value, given = kind.number(name, bounds.unit), kind.parameters[name]
     if value is None:
         text = f"`{name}` is `{str(given.value)[:40]}`" + (f" in {given.unit}" if given.unit else "")
-        yield error(
-            "value", text, hint=f"expected a number [{bounds.unit or '1'}], {bounds}", source=_at(document, name)
-        )
+        yield error("value", text, hint=f"expected a number [{bounds.unit or '1'}], {bounds}", source=at(name))
     elif not bounds.least <= value <= bounds.most or (value == 0 and not bounds.zero):
         text = f"`{name}` is {value:g} {bounds.unit}".rstrip()
-        yield error("value", f"{text}, which can't be", hint=f"expected {bounds}", source=_at(document, name))
+        yield error("value", f"{text}, which can't be", hint=f"expected {bounds}", source=at(name))
 
 
-def _at(document: Document, name: str) -> SourceRange | None:
-    return where(document, "parameters", name, "value")
+def _form(kind: ComponentType, at: Places) -> Iterator[Diagnostic]:
+    """A lens with a form has the radii that its focal length asks for."""
+    for name in ("radius_of_curvature", "radius_of_curvature_back"):
+        if name in kind.parameters:
+            text = f"`{name}` is given, and `form` has it follow from `focal_length`"
+            yield error("value", text, hint="leave one of them out", source=at(name))
+    focal, thickness = kind.number("focal_length", "mm"), kind.number("center_thickness", "mm")
+    index, wide = kind.number("refractive_index", ""), kind.number("clear_diameter", "mm") or 0.0
+    if focal and thickness and index and index > 1:
+        sides = 1 if kind.parameters["form"].value == "plano" else 2
+        least = max(thickness / index, wide / 2 / (sides * (index - 1)))
+        if abs(focal) <= least and (focal > 0 or abs(focal) * sides * (index - 1) <= wide / 2):
+            text = f"no lens {wide:g} mm wide and {thickness:g} mm thick has a focal length of {focal:g} mm"
+            yield error(
+                "value", text, hint=f"expected beyond {least:.3g} mm, or a narrower lens", source=at("focal_length")
+            )

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pico.model.catalog import ComponentType
 from pico.optics import gaussian
 from pico.optics.beam import Beam, beyond, level, scaled
 from pico.optics.part import Met, Part, arrived, clipped
@@ -16,16 +17,16 @@ from pico.optics.rays import Surface
 
 def surfaces(part: Part, edge: float) -> tuple[Surface, ...]:
     """Return the two surfaces of a lens with an edge of a radius [mm], that with the lesser local x first; none where
-    its type does not tell `radius_of_curvature`, `center_thickness` and `refractive_index`.
+    its type does not tell `center_thickness`, `refractive_index`, and `radius_of_curvature` or `form`.
 
     The parameter is the radius of the side that light along local +x meets first, above 0 where that bulges towards it;
     `radius_of_curvature_back` that of the other, above 0 where that bulges away, flat where it is not given.
     """
-    given = [part.kind.number(name, unit) for name, unit in _REAL]
-    if any(number is None for number in given) or "cylinder_axis" in part.kind.parameters:
+    kind = part.kind
+    thickness, index = kind.number("center_thickness", "mm"), kind.number("refractive_index", "")
+    radius, back = _radii(kind, thickness, index)
+    if radius is None or thickness is None or index is None or "cylinder_axis" in kind.parameters:
         return ()
-    radius, thickness, index = (number or 0.0 for number in given)
-    back = part.kind.number("radius_of_curvature_back", "mm")
     along = part.axes[0]
     half = thickness / 2 * along
     return (
@@ -34,7 +35,20 @@ def surfaces(part: Part, edge: float) -> tuple[Surface, ...]:
     )
 
 
-_REAL = (("radius_of_curvature", "mm"), ("center_thickness", "mm"), ("refractive_index", ""))
+def _radii(kind: ComponentType, thickness: float | None, index: float | None) -> tuple[float | None, float | None]:
+    """Return the radii of the first side and of the back [mm], None where they are not known.
+
+    The `form` of a lens has them follow from its focal length, by the lensmaker's equation for a thick one: `plano`,
+    the first side alone, (n - 1) f; `bi`, both alike, 1/f = (n - 1) (2/R - (n - 1) t / (n R^2)).
+    """
+    form, focal = kind.parameters.get("form"), kind.number("focal_length", "mm")
+    if form is None or focal is None or index is None:
+        return kind.number("radius_of_curvature", "mm"), kind.number("radius_of_curvature_back", "mm")
+    plano = focal * (index - 1)
+    if form.value == "plano":
+        return plano, None
+    both = plano * (1 + math.sqrt(max(0.0, 1 - (thickness or 0.0) / (index * focal))))
+    return both, both
 
 
 def meet(part: Part, beam: Beam) -> Met:

@@ -1,0 +1,56 @@
+"""Whether the parameters that a part has of its own are those of its type, and can be what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
+from pico.manifest.checks.parameters import wrong_parameters
+from pico.manifest.text.places import where, where_key
+from pico.manifest.text.tree import Document
+from pico.model.catalog import ComponentType
+from pico.model.lab import Setup
+from pico.model.parametric import value_of
+from pico.model.quantities import QuantityError, Value
+
+
+def check_own_parameters(document: Document, setup: Setup) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the parameters of the parts of a lab, each at its place in the document."""
+    for name, part in setup.lab.inventory.items():
+        if part.parameters and part.type in setup.catalog:
+            yield from _parameters(document, setup, name)
+
+
+def _parameters(document: Document, setup: Setup, name: str) -> Iterator[Diagnostic]:
+    part = setup.lab.inventory[name]
+    kind, own = setup.catalog[part.type], part.parameters or {}
+    places = partial(where, document, "inventory", name, "parameters")
+    wrong = False
+    for parameter, given in own.items():
+        at = where_key(document, "inventory", name, "parameters", parameter)
+        try:
+            value_of(kind.parameters[parameter], given)
+        except KeyError:
+            wrong, text = True, f"{name} ({kind.name}) has no parameter `{parameter[:40]}`"
+            hint = did_you_mean(parameter[:40], kind.parameters) or f"known: {', '.join(kind.parameters) or 'none'}"
+            yield error("unknown-parameter", text, hint=hint, source=at)
+        except QuantityError as exc:
+            wrong, unit = True, kind.parameters[parameter].unit
+            hint = f"its type has {kind.parameters[parameter].value} {unit}".rstrip()
+            yield error("value", f"`{parameter}` of {name}: {exc}", hint=hint, source=places(parameter))
+    if not wrong:
+        known = {(d.code, d.summary) for d in wrong_parameters(kind, lambda _: None)}
+        found = wrong_parameters(setup.type_of(name), places)
+        yield from (d for d in found if (d.code, d.summary) not in known)
+        yield from _radius_and_focal_length(kind, own, places, name)
+
+
+def _radius_and_focal_length(
+    kind: ComponentType, given: Mapping[str, Value], places: Callable[[str], SourceRange], name: str
+) -> Iterator[Diagnostic]:
+    radius = "radius_of_curvature"
+    if kind.optics.element == "lens" and radius in kind.parameters and (radius in given) != ("focal_length" in given):
+        text = f"of {name} one of `focal_length` and `{radius}` is its own, the other that of {kind.name}: they differ"
+        hint = "take a type with a `form`, such as `plano_convex`, whose radius follows; or give both"
+        yield error("value", text, hint=hint, source=places("focal_length" if "focal_length" in given else radius))

@@ -1,0 +1,111 @@
+"""Parts with parameters of their own: read back, refused with their line, and lenses that follow their focal length."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pico.diagnostics import Diagnostic
+from pico.manifest.load import load_folder
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.optics.light import light_of
+from pico.resources import labs_dir
+
+LENS = """
+  extra:
+    type: {kind}
+    marker: 40
+    home: storage/c1
+    parameters: {{{given}}}
+"""
+
+
+def loaded(folder: Path, given: str, kind: str = "plano_convex") -> tuple[Setup | None, list[Diagnostic]]:
+    """Return shel with one part more, and what is wrong with it."""
+    folder.mkdir(exist_ok=True)
+    (folder / "state").mkdir(exist_ok=True)
+    source = labs_dir() / "shel"
+    (folder / "lab.yaml").write_text((source / "lab.yaml").read_text() + LENS.format(kind=kind, given=given)[1:])
+    (folder / "state/table.yaml").write_text((source / "state/table.yaml").read_text())
+    found = load_folder(folder)
+    return found.setup, [d for d in found.diagnostics if d.severity == "error"]
+
+
+@pytest.mark.parametrize(
+    ("given", "focal"), [("focal_length: 80", 80), ("focal_length: 8 cm", 80), ("focal_length: 1 m", 1e3)]
+)
+def test_a_part_has_parameters_of_its_own_in_the_unit_of_its_type(tmp_path: Path, given: str, focal: float) -> None:
+    setup, wrong = loaded(tmp_path / "lab", given)
+    assert setup and not wrong
+    kind = setup.type_of("extra")
+    assert kind.number("focal_length", "mm") == pytest.approx(focal) and kind is setup.type_of("extra")
+    assert kind.title == f"Plano-convex lens; focal_length {focal:g} mm"
+    assert setup.catalog["plano_convex"].number("focal_length", "mm") == 100
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "said", "hint"),
+    [
+        ("plano_convex", "focal_lenght: 80", "extra (plano_convex) has no parameter `focal_lenght`", "`focal_length`?"),
+        ("plano_convex", "focal_length: 80 s", "`80 s` is a time, not a length", "its type has 100"),
+        ("plano_convex", "focal_length: long", "`long` is not a quantity", "its type has 100"),
+        ("plano_convex", "focal_length: 0", "`focal_length` is 0 mm", "other than 0"),
+        ("plano_convex", "focal_length: 12", "no lens 22 mm wide and 3.6 mm thick", "expected beyond 21.4 mm"),
+        ("plano_convex", "radius_of_curvature: 40", "has no parameter `radius_of_curvature`", ""),
+        ("plano_convex", "form: 3", "is not a word", "its type has plano"),
+        ("plano_convex", "form: round", "`form` is `round`", "`bi`, `plano`"),
+        ("plano_convex_100", "focal_length: 80", "one of `focal_length` and `radius_of_curvature`", "with a `form`"),
+        ("neutral_density_filter", "optical_density: -2", "`optical_density` is -2", "from 0 to 20"),
+    ],
+)
+def test_what_a_part_cannot_have_is_told_at_its_line(
+    tmp_path: Path, kind: str, given: str, said: str, hint: str
+) -> None:
+    (wrong,) = loaded(tmp_path / "lab", given, kind)[1]
+    assert said in wrong.summary and hint in (wrong.hint or ""), wrong
+    assert wrong.source and wrong.source.path.endswith("lab.yaml")
+    assert given.split(":", maxsplit=1)[0] in wrong.source.snippet
+
+
+def test_the_lab_is_another_where_a_parameter_is(tmp_path: Path) -> None:
+    digests = {setup.digest() for n in (80, 90) if (setup := loaded(tmp_path / str(n), f"focal_length: {n}")[0])}
+    assert len(digests) == 2
+    plain = load_folder(labs_dir() / "shel").setup
+    assert (
+        plain and replace(plain, lab=replace(plain.lab, inventory=dict(plain.lab.inventory))).digest() == plain.digest()
+    )
+
+
+@given(
+    st.sampled_from([("plano_convex", 1), ("biconvex", 1), ("plano_concave", -1)]), st.floats(40, 500), st.booleans()
+)
+def test_a_lens_has_the_focal_length_that_it_says(kind: tuple[str, int], focal: float, turned: bool) -> None:
+    """What a collimated beam becomes behind a thick lens converges to, or comes from, its focus."""
+    base = SETUP
+    name, sign = kind
+    part = replace(base.lab.inventory["lx_100"], type=name, parameters={"focal_length": sign * focal})
+    catalog = {**base.catalog, name: CATALOG[name]}
+    setup = replace(base, lab=replace(base.lab, inventory={**base.lab.inventory, "lx_100": part}), catalog=catalog)
+    poses = {"laser": Pose(120, 420), "lx_100": Pose(335, 420, 180.0 if turned else 0.0), "cam": Pose(400, 420)}
+    found = light_of(setup, poses, lit=lambda _: True)
+    before, after = found.crossings[0].beam, found.crossings[1].beam
+    # M bends by -1/f: taken back to the middle of the lens, to a thickness
+    back = after.length - before.length
+    there = np.linalg.inv(np.linalg.inv(after.curvature) - back * np.eye(2))
+    assert float((before.curvature - there).real[0, 0]) == pytest.approx(sign / focal, rel=6 / focal + 2e-3)
+
+
+def _catalog() -> dict[str, object]:
+    from pico.manifest.catalog import load_catalog
+
+    return dict(load_catalog())
+
+
+SETUP = load_folder(labs_dir() / "shel").require()[0]
+CATALOG = _catalog()
