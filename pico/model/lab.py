@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
 
-from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind, as_first_written
-from pico.model.parametric import with_parameters
+from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind, as_first_written, with_parameters
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length, Value
 from pico.model.record import digest, record

@@ -9,9 +9,8 @@ from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.manifest.checks.parameters import wrong_parameters
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
-from pico.model.catalog import ComponentType
+from pico.model.catalog import ComponentType, value_of
 from pico.model.lab import Setup
-from pico.model.parametric import value_of
 from pico.model.quantities import QuantityError, Value
 
 
