@@ -6,15 +6,16 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import group
+from ..arguments import group, pairs
 from ..session import Session
 from ..views import catalog as view
 from ..views import component_type as type_view
+from ..views import new_type as new_view
 from ..views import parts as parts_view
 
 app = group(
-    help="List the component types, show one, or list the parts.",
-    examples=("pico catalog", "pico catalog show linear_polarizer", "pico catalog parts --free"),
+    help="List the component types, show or begin one, or list the parts.",
+    examples=("pico catalog", "pico catalog show linear_polarizer", "pico catalog new my_lens --from plano_convex"),
     alone=True,
 )
 
@@ -47,6 +48,31 @@ def show(
 
     session = Session.of(context)
     session.show(type_view, component_type(session.folder, name))
+
+
+@app.command()
+def new(
+    context: typer.Context,
+    name: Annotated[str, typer.Argument(metavar="NAME", help="What the new type is called.")],
+    base: Annotated[str, typer.Option("--from", metavar="TYPE", help="The type that it begins as.")],
+    given: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="PARAMETER=VALUE", help="Another value of a parameter."),
+    ] = None,
+) -> None:
+    """Begin a component type of this lab's own: `types/NAME.yaml`, from one that is there.
+
+    Where only a number is another, a part can say it in `lab.yaml`: `parameters: {focal_length: 80}`.
+
+    Examples:
+      pico catalog new my_lens --from plano_convex --set focal_length=80
+    """
+    from pico.manifest.files import shown_path
+    from pico.manifest.new_type import new_type
+
+    session = Session.of(context)
+    path = new_type(session.folder, name, base, pairs(given))
+    session.show(new_view, shown_path(path), name=name)
 
 
 @app.command()
