@@ -153,7 +153,7 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     geometry, element = kind.geometry, kind.optics.element
     aperture = _aperture(kind) if element not in ("block", "source") else None
     center = aperture.center if aperture else (0.0, 0.0, 0.0)
-    (ahead, left), up = staged(kind, values), _shift(kind, values, "stage_z")
+    (ahead, left), up = staged(kind, values), shift(kind, values, "stage_z")
     x, y = pose.apply(center[0] + ahead, center[1] + left)
     tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if element == "mirror" else (0.0, 0.0)
     opening = values.get("opening") if element == "iris" else None
@@ -164,7 +164,7 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     facing = math.radians(pose.yaw) + tip + (math.pi if element in ("mirror", "roof_mirror") else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None
-    if where is not None and (pushed := _shift(kind, values, "piezo")):
+    if where is not None and (pushed := shift(kind, values, "piezo")):
         where = _sum(where, _times(normal, pushed))
     shape = placed(geometry.footprint, pose)
     width = aperture.diameter if aperture else 0.0
@@ -207,10 +207,10 @@ def beside_the_edge(optic: Optic, ray: Ray, within: float) -> Event | None:
 
 def staged(kind: ComponentType, values: Mapping[str, Any]) -> tuple[float, float]:
     """Return by how much stages have moved the optic of a component, seen from above: ahead and to the left [mm]."""
-    return _shift(kind, values, "stage_x"), _shift(kind, values, "stage_y")
+    return shift(kind, values, "stage_x"), shift(kind, values, "stage_y")
 
 
-def _shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
+def shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
     """Return by how much a stage has moved an optic along an axis of the component [mm]."""
     return _in(kind, values, key, "mm")
 

@@ -33,24 +33,14 @@ def check_lines(document: Document, kind: ComponentType) -> Iterator[Diagnostic]
 
 def _line(document: Document, number: int, line: SpectralLine, carrier: float) -> Iterator[Diagnostic]:
     most = _WIDEST * 1e6 / carrier  # 1/mm
-    reading: tuple[tuple[str, float | str, Callable[[SpectralLine, float], float], str], ...] = (
-        (
-            "center",
-            line.center,
-            SpectralLine.detuning,
-            "a number [MHz] from the parameter `wavelength`, or such as `632.8 nm`",
-        ),
-        (
-            "width",
-            line.width,
-            SpectralLine.width_of,
-            "a number [MHz], or a width with a unit, such as `1.5 GHz` or `40 nm`",
-        ),
+    reading: tuple[tuple[str, float | str, Callable[[float], float], str], ...] = (
+        ("center", line.center, line.detuning, "MHz from the parameter `wavelength`, or a wavelength, `633 nm`"),
+        ("width", line.width, line.width_of, "MHz, or a width with its unit, `1.5 GHz` or `40 nm`"),
     )
     for key, given, read, hint in reading:
         at = where(document, "optics", "lines", number, key)
         try:
-            found = read(line, carrier)
+            found = read(carrier)
         except QuantityError as exc:
             yield error("value", f"the {key} of line {number + 1}: {exc}", hint=f"expected {hint}", source=at)
             return
