@@ -16,7 +16,7 @@ def init(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet.")],
     example: Annotated[
         str | None,
-        typer.Option("--example", metavar="minimal|shel|crowded|two_arms", help="With its history."),
+        typer.Option("--example", metavar="minimal|shel|mach_zehnder|crowded|two_arms", help="With its history."),
     ] = None,
 ) -> None:
     """Make a new lab, or an example with its history.

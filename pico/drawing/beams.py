@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.optics.axis import Values, Vector, beams
+from pico.optics.axis import Axis, Leg, Values, Vector, beams
 from pico.twin.placement import Placement
 
 Place = Pose | Placement
 _UPRIGHT = 3.0  # deg
 _DOWN = 0.005  # m
+_BESIDE = 0.01  # mm
 
 
 def flat(poses: Mapping[str, Place]) -> dict[str, Pose]:
@@ -26,8 +28,15 @@ def beam_paths(
     """Return (source, start, end) [mm] of each straight piece of the beams of the lasers that shine, as far as `values`
     tell: emission not off, and their own shutter not closed."""
     known = values or {}
-    axes = (axis for axis in beams(setup, standing(poses), known) if not _dark(known.get(axis.source, {})))
-    return [(axis.source, leg.start, leg.end) for axis in axes for leg in axis.legs]
+    axes = [axis for axis in beams(setup, standing(poses), known) if not _dark(known.get(axis.source, {}))]
+    return [(axis.source, *piece) for axis in axes for leg in axis.legs for piece in _pieces(axis, leg)]
+
+
+def _pieces(axis: Axis, leg: Leg) -> Iterator[tuple[Vector, Vector]]:
+    """Yield a leg, and what leads to it where it does not begin at the end of the last one: within a roof mirror."""
+    if leg.before is not None and math.dist(axis.legs[leg.before].end, leg.start) > _BESIDE:
+        yield axis.legs[leg.before].end, leg.start
+    yield leg.start, leg.end
 
 
 def _dark(laser: Mapping[str, Any]) -> bool:

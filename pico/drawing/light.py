@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from pico.drawing.beams import Place
+from pico.drawing.canvas import Point
 from pico.drawing.topview import drawn, letters
 from pico.model.lab import Setup
 from pico.twin.lettering import write
@@ -29,17 +30,25 @@ def render_light(setup: Setup, poses: Mapping[str, Place], light: Light, *, widt
     """Return the picture (height, width, 3), sRGB: the bench from above, and a strip for each source."""
     import numpy as np
 
-    lines = [_ends(light, number) for number in range(len(light.crossings))]
+    lines = [line for number in range(len(light.crossings)) for line in _lines(light, number)]
     canvas = drawn(setup, poses, {}, width=width, height=None, ghosts={}, labels=True, beams=lines)
     strips = [_strip(light, source, width) for source in dict.fromkeys(c.beam.source for c in light.crossings)]
     return np.vstack([canvas.finished(), *strips])
 
 
-def _ends(light: Light, number: int) -> tuple[tuple[float, float], tuple[float, float]]:
+def _lines(light: Light, number: int) -> Iterator[tuple[Point, Point]]:
+    """Yield the way of a crossing; before it, what leads across a roof mirror to where it begins."""
     crossing = light.crossings[number]
     away = crossing.beam.length - _begun(light, crossing)
     start = crossing.beam.at - away * crossing.beam.along
-    return (float(start[0]), float(start[1])), (float(crossing.beam.at[0]), float(crossing.beam.at[1]))
+    last = None if crossing.before is None else light.crossings[crossing.before]
+    if last is not None and light.parts[last.component].optic.element == "roof_mirror":
+        yield _point(last.beam.at), _point(start)
+    yield _point(start), _point(crossing.beam.at)
+
+
+def _point(at: NDArray[np.float64]) -> Point:
+    return float(at[0]), float(at[1])
 
 
 def _begun(light: Light, crossing: Crossing) -> float:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.disk import write_whole
 from pico.drawing.beams import Place, beam_paths
+from pico.model.body import Body
 from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
 from pico.motion.engine import require_mujoco
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints
-from pico.optics.axis import Values
+from pico.optics.axis import Values, shift
 from pico.twin.placement import Placement, upright
 
 if TYPE_CHECKING:
@@ -70,7 +72,26 @@ def render(
             values=values, marks=marks, steps=steps, dimensions=dimensions,
         )  # fmt: skip
     light = glow(setup, poses, values=values) if beams else ()
-    return _perspective(setup, poses, joints, width, height, labels, light)
+    return _perspective(carried(setup, values or {}), poses, joints, width, height, labels, light)
+
+
+def carried(setup: Setup, values: Values) -> Setup:
+    """Return a bench on which what rides on stages is where these carry it: such a component has a type of its own."""
+    inventory, catalog = dict(setup.lab.inventory), dict(setup.catalog)
+    for name, part in setup.lab.inventory.items():
+        kind = setup.type_of(name)
+        if not any(body.rides for body in kind.geometry.bodies):
+            continue
+        moved = {key: shift(kind, values.get(name, {}), key) for key in ("stage_x", "stage_y", "stage_z")}
+        bodies = tuple(_moved(body, moved) for body in kind.geometry.bodies)
+        catalog[f"{part.type}/{name}"] = replace(kind, geometry=replace(kind.geometry, bodies=bodies))
+        inventory[name] = replace(part, type=f"{part.type}/{name}")
+    return replace(setup, lab=replace(setup.lab, inventory=inventory), catalog=catalog)
+
+
+def _moved(body: Body, stages: Mapping[str, float]) -> Body:
+    by = [stages[key] if body.rides == key else 0.0 for key in ("stage_x", "stage_y", "stage_z")]
+    return replace(body, at=(body.at[0] + by[0], body.at[1] + by[1], body.at[2] + by[2]))
 
 
 def png(image: Image) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from pico.drawing import parts_list as partslist
 from pico.drawing.beams import Place, beam_paths, flat
@@ -12,14 +13,14 @@ from pico.drawing.svg import Drawing, Point, text_box, text_width
 from pico.model.lab import Box2, Setup, Slot
 from pico.model.pose import Pose
 from pico.motion.kinematics import span
-from pico.optics.axis import Values, Vector
+from pico.optics.axis import Values, Vector, staged
 from pico.twin.surfaces import HOLE_RADIUS
 
 _INK, _FAINT, _EDGE, _HOLE = "#222831", "#6b7480", "#788a8a", "#d3d8de"
 _BEAM, _MOVER, _RULE = "#e02424", "#66738a", "#d6dae0"
 COLORS = {
     "source": "#2a4a80", "lens": "#3a8ac4", "polarizer": "#34886c", "waveplate": "#805cb6", "mirror": "#b0842c",
-    "beam_splitter": "#3c96a0", "detector": "#bc3a32", "none": "#68707c",
+    "roof_mirror": "#b0842c", "beam_splitter": "#3c96a0", "detector": "#bc3a32", "none": "#68707c",
 }  # fmt: skip
 _HALF_SLOT = 36.0
 
@@ -40,7 +41,7 @@ def sheet(setup: Setup, poses: Mapping[str, Place], *, subtitle: str = "", value
     labels = _fixed(drawing, setup, places, size)
     _beams(drawing, beam_paths(setup, poses, values))
     for name, pose in sorted(places.items()):
-        _component(drawing, setup, name, pose)
+        _component(drawing, setup, name, pose, (values or {}).get(name, {}))
     _names(drawing, setup, places, labels, size)
     _list(drawing, table, widths, (margin, head + depth + 5 * size), size, pitch)
     return drawing.finished()
@@ -150,7 +151,7 @@ def _beams(drawing: Drawing, paths: Iterable[tuple[str, Vector, Vector]]) -> Non
         drawing.shape((start[:2], end[:2]), closed=False, stroke=_BEAM, stroke_width=1.5)
 
 
-def _component(drawing: Drawing, setup: Setup, name: str, pose: Pose) -> None:
+def _component(drawing: Drawing, setup: Setup, name: str, pose: Pose, values: Mapping[str, Any]) -> None:
     """Footprint, a line where the optic stands across the beam, and a tick where the component faces."""
     kind = setup.type_of(name)
     color = COLORS.get(kind.optics.element, COLORS["none"])
@@ -160,6 +161,8 @@ def _component(drawing: Drawing, setup: Setup, name: str, pose: Pose) -> None:
     front = print_.disc if print_.disc is not None else max(x for x, _ in print_.vertices)
     aperture = kind.geometry.clear_aperture
     x, y, _ = aperture.center if aperture else kind.frames.optical
+    ahead, left = staged(kind, values)
+    x, y = x + ahead, y + left
     if aperture and kind.optics.element not in ("source", "none"):
         half = max(9.0, aperture.diameter / 2)
         drawing.shape((pose.apply(x, y - half), pose.apply(x, y + half)), closed=False, stroke=color, stroke_width=4)

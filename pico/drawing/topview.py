@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.drawing.beams import Place, beam_paths, flat
 from pico.drawing.canvas import Canvas, Point
@@ -19,7 +19,7 @@ from pico.model.lab import Box2, Robot, Setup
 from pico.model.pose import Pose
 from pico.motion.kinematics import span, tool_pose
 from pico.motion.types import Joints
-from pico.optics.axis import Values
+from pico.optics.axis import Values, staged
 from pico.twin.lettering import Color
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ _COLORS: dict[str, Color] = {
     "polarizer": (52, 136, 108),
     "waveplate": (128, 92, 182),
     "mirror": (176, 132, 44),
+    "roof_mirror": (176, 132, 44),
     "beam_splitter": (60, 150, 160),
     "detector": (188, 58, 50),
     "none": (104, 112, 124),
@@ -113,7 +114,7 @@ def drawn(
         canvas.occupy_line(start, end)
     places = flat(poses)
     for name, pose in sorted(places.items()):
-        _draw_component(canvas, setup, name, pose)
+        _draw_component(canvas, setup, name, pose, (values or {}).get(name, {}))
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model == "xarm7":
             _draw_arm(canvas, name, robot, joints.get(name), size)
@@ -247,7 +248,7 @@ def _draw_reach(canvas: Canvas, setup: Setup, robot: Robot) -> None:
             canvas.dashes(arc, _REACH, 1.2, (8, 5))
 
 
-def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None:
+def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose, values: Mapping[str, Any]) -> None:
     """Footprint, a line where the optic stands across the beam, and a tick where the component faces."""
     kind = setup.type_of(name)
     color = _COLORS.get(kind.optics.element, _COLORS["none"])
@@ -258,7 +259,8 @@ def _draw_component(canvas: Canvas, setup: Setup, name: str, pose: Pose) -> None
     front = _front(kind.geometry.footprint)
     ox, oy, _ = kind.frames.optical
     if kind.geometry.clear_aperture and kind.optics.element not in ("source", "none"):
-        ox, oy, _ = kind.geometry.clear_aperture.center
+        ahead, left = staged(kind, values)
+        ox, oy = kind.geometry.clear_aperture.center[0] + ahead, kind.geometry.clear_aperture.center[1] + left
         half = max(9.0, kind.geometry.clear_aperture.diameter / 2)
         canvas.line((pose.apply(ox, oy - half), pose.apply(ox, oy + half)), color, _OPTIC_WIDTH)
         canvas.line((pose.apply(ox, oy), pose.apply(front, oy)), color, 1.2)

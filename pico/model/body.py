@@ -19,7 +19,8 @@ class Body:
     """One shape of the housing, for the twin and for pictures, in the component's frame [mm]: z = 0 is the table.
 
     `size`: full edge lengths of a `box` along x, y, z; diameter and length of a `cylinder`. `at`: its centre.
-    `axis`: what a cylinder's length runs along.
+    `axis`: what a cylinder's length runs along. `rides`: the stage, one of the tunables `stage_x` to `stage_z`, that
+    carries it; `at` is where it is when that is at 0. Pictures in perspective show it where it is.
     """
 
     name: str
@@ -29,6 +30,7 @@ class Body:
     axis: Literal["x", "y", "z"] = "z"
     yaw: Angle = 0.0
     color: tuple[float, float, float, float] = (0.25, 0.26, 0.28, 1.0)
+    rides: Literal["stage_x", "stage_y", "stage_z"] | None = None
 
     def __post_init__(self) -> None:
         if len(self.size) != (3 if self.shape == "box" else 2):

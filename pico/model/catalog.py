@@ -8,7 +8,17 @@ from dataclasses import field, replace
 from typing import Literal
 
 from pico.model.body import Body, grooved
-from pico.model.quantities import Angle, Length, Mass, Milliseconds, QuantityError, Value, convert, require_unit
+from pico.model.quantities import (
+    Angle,
+    DimensionError,
+    Length,
+    Mass,
+    Milliseconds,
+    QuantityError,
+    Value,
+    convert,
+    require_unit,
+)
 from pico.model.record import record
 
 Mover = Literal["arm", "motor", "electronics", "person", "none"]
@@ -232,15 +242,65 @@ class Frames:
 
 
 @record
+class SpectralLine:
+    """A line of a source's spectrum.
+
+    `center`: by how much it is above the frequency of the type's `wavelength` [MHz], or the wavelength itself, in
+    vacuum, with its unit. `width`: full width at half maximum [MHz], or of the wavelength with its unit; 0 is a line
+    that is always coherent. `share`: how much of the power it has, in parts of the sum of all shares. `polarization`:
+    its angle, that of the type where it is left out; lines of other angles do not interfere with it.
+    """
+
+    center: float | str = 0.0
+    width: float | str = 0.0
+    shape: Literal["gaussian", "lorentzian"] = "gaussian"
+    share: float = 1.0
+    polarization: Angle | None = None
+
+    def detuning(self, wavelength: float) -> float:
+        """Return by how much it is above the frequency of a `wavelength` in vacuum [nm], in waves of 1 mm [1/mm].
+
+        Raises QuantityError for a center that is neither a frequency nor a wavelength above 0.
+        """
+        found = _waves(self.center)
+        if found is not None:
+            return found
+        own = float(convert(self.center, "nm"))
+        if own <= 0:
+            raise QuantityError(f"`{self.center}` is no wavelength")
+        return 1e6 / own - 1e6 / wavelength
+
+    def width_of(self, wavelength: float) -> float:
+        """Return its full width at half maximum, in waves of 1 mm [1/mm]: of a wavelength it is the width over the
+        square of the center. Raises QuantityError as `detuning` does."""
+        found = _waves(self.width)
+        if found is not None:
+            return found
+        return 1e-6 * float(convert(self.width, "nm")) * (1e6 / wavelength + self.detuning(wavelength)) ** 2
+
+
+def _waves(value: float | str) -> float | None:
+    """Return a frequency [MHz] in waves of 1 mm [1/mm], None for a length; raises QuantityError for anything else."""
+    try:
+        return float(convert(value, "MHz")) / 299792.458
+    except DimensionError as exc:
+        if exc.have == "length":
+            return None
+        raise QuantityError(f"`{value}` is neither a frequency nor a wavelength") from exc
+
+
+@record
 class OpticalElement:
     """What a component does to light, by the name of an element; by how much its type's parameters say.
 
     `properties`: those parameters once more, as types of the first release have them. They are lifted on load, see
-    `lifted`, and nothing reads them but the digest of a lab.
+    `lifted`, and nothing reads them but the digest of a lab. `lines`: the spectrum of a source; without, it is one line
+    without a width at its parameter `wavelength`.
     """
 
     element: str
     properties: Mapping[str, Value] = field(default_factory=dict)
+    lines: tuple[SpectralLine, ...] | None = None
 
 
 @record

@@ -30,14 +30,20 @@ _FACTORS: dict[str, tuple[str, float]] = {
     "W": ("power", 1e3),
     "kg": ("mass", 1.0),
     "g": ("mass", 1e-3),
+    "MHz": ("frequency", 1.0),
+    "Hz": ("frequency", 1e-6),
+    "kHz": ("frequency", 1e-3),
+    "GHz": ("frequency", 1e3),
+    "THz": ("frequency", 1e6),
 }
 _DIMENSIONS = {
     "[length]": "length",
     "[time]": "time",
+    "1 / [time]": "frequency",
     "[mass]": "mass",
     "[mass] * [length] ** 2 / [time] ** 3": "power",
 }
-_OTHERS = frozenset({"%", "A", "A/W", "Hz", "V", "V/A", "bit", "count", "dB", "nW", "pixel"})
+_OTHERS = frozenset({"%", "A", "A/W", "V", "V/A", "bit", "count", "dB", "nW", "pixel"})
 """Units besides that component types have: known without an import of pint."""
 # What may follow a number: units with one exponent each. Anything else never reaches pint, which evaluates powers.
 _UNIT = re.compile(

@@ -1,9 +1,9 @@
 """Where a beam goes: the chief ray of a source by geometry alone, in the table frame [mm].
 
 This is the one answer for pictures, planner, policy, validation and ruler. A ray runs straight, passes what it can pass
-through within its clear aperture, is reflected at mirrors (their tip and tilt count) and divided at splitters, and ends
-at a detector, a block, a housing, or where it leaves the table. Lenses do not bend it and shutters are taken as open:
-whoever asks knows what is shut.
+through within its clear aperture, is reflected at mirrors (their tip, tilt and piezo count), divided at splitters, and
+ends at a detector, a block, a housing, or where it leaves the table. Lenses do not bend it and shutters are taken as
+open: whoever asks knows what is shut.
 """
 
 from __future__ import annotations
@@ -26,8 +26,10 @@ Event = Literal["passed", "reflected", "divided", "detected", "blocked", "left"]
 LEGS = 256
 """Straight pieces after which a beam that goes round and round is followed no more."""
 
-_ENDS: Mapping[str, Event] = {"mirror": "reflected", "beam_splitter": "divided", "detector": "detected"}
-_FACES: Mapping[str, float] = {"mirror": -1.0, "detector": 1.0}
+_ENDS: Mapping[str, Event] = {
+    "mirror": "reflected", "roof_mirror": "reflected", "beam_splitter": "divided", "detector": "detected"
+}  # fmt: skip
+_FACES: Mapping[str, float] = {"mirror": -1.0, "roof_mirror": -1.0, "detector": 1.0}
 """Along which side of its normal light must come to an element that has one face."""
 _NEAR = 1e-6  # mm: what a ray has just left
 _RADIANS = {"mrad": 1e-3, "deg": math.pi / 180, "rad": 1.0}
@@ -120,8 +122,8 @@ class Optic:
 def axis_of(setup: Setup, poses: Mapping[str, Pose], source: str, values: Values | None = None) -> Axis:
     """Return the beam of `source` among the components that stand at `poses` (the source one of them).
 
-    `values`: their tunables in the units of the catalog, of which `tip` and `tilt` of mirrors count, 0 where unknown,
-    and the `opening` of an iris, wide open where unknown.
+    `values`: their tunables in the units of the catalog, of which `tip`, `tilt` and `piezo` of mirrors count, stages, 0
+    where unknown, and the `opening` of an iris, wide open where unknown.
     """
     known = values or {}
     optics = [optic_of(setup.type_of(n), n, pose, known.get(n, {})) for n, pose in poses.items()]
@@ -151,7 +153,7 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     geometry, element = kind.geometry, kind.optics.element
     aperture = _aperture(kind) if element not in ("block", "source") else None
     center = aperture.center if aperture else (0.0, 0.0, 0.0)
-    ahead, left, up = (_shift(kind, values, key) for key in ("stage_x", "stage_y", "stage_z"))
+    (ahead, left), up = staged(kind, values), shift(kind, values, "stage_z")
     x, y = pose.apply(center[0] + ahead, center[1] + left)
     tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if element == "mirror" else (0.0, 0.0)
     opening = values.get("opening") if element == "iris" else None
@@ -159,9 +161,11 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
         # what comes along +x is divided to `fold` degrees from it: the coating stands half way
         fold = kind.number("fold", "deg")
         tip = math.radians((90.0 if fold is None else fold) / 2 + 90.0)
-    facing = math.radians(pose.yaw) + tip + (math.pi if element == "mirror" else 0.0)
+    facing = math.radians(pose.yaw) + tip + (math.pi if element in ("mirror", "roof_mirror") else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None
+    if where is not None and (pushed := shift(kind, values, "piezo")):
+        where = _sum(where, _times(normal, pushed))
     shape = placed(geometry.footprint, pose)
     width = aperture.diameter if aperture else 0.0
     if isinstance(opening, int | float):
@@ -201,7 +205,12 @@ def beside_the_edge(optic: Optic, ray: Ray, within: float) -> Event | None:
     return _ENDS.get(optic.element, "passed")
 
 
-def _shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
+def staged(kind: ComponentType, values: Mapping[str, Any]) -> tuple[float, float]:
+    """Return by how much stages have moved the optic of a component, seen from above: ahead and to the left [mm]."""
+    return shift(kind, values, "stage_x"), shift(kind, values, "stage_y")
+
+
+def shift(kind: ComponentType, values: Mapping[str, Any], key: str) -> float:
     """Return by how much a stage has moved an optic along an axis of the component [mm]."""
     return _in(kind, values, key, "mm")
 
@@ -298,9 +307,19 @@ def _onward(ray: Ray, leg: Leg, optic: Optic | None, number: int) -> list[Ray]:
     last = leg.met[-1]
     if optic is None or last.event not in ("reflected", "divided"):
         return []
+    if optic.element == "roof_mirror":
+        assert optic.center is not None
+        back = _sum(optic.center, half_turned(_minus(last.at, optic.center)))
+        return [Ray(back, half_turned(ray.towards), last.length, optic.name, number)]
     turned = _minus(ray.towards, _times(optic.normal, 2 * _dot(ray.towards, optic.normal)))
     ways = [ray.towards, turned] if last.event == "divided" else [turned]
     return [Ray(last.at, way, last.length, optic.name, number) for way in ways]
+
+
+def half_turned(vector: Vector) -> Vector:
+    """Return a vector turned by half a turn about the upright: what two upright mirrors at a right angle make of a
+    direction, and of where a ray meets the plane through their edge, so that the way there and back is as long."""
+    return -vector[0], -vector[1], vector[2]
 
 
 def _to_edge(table: tuple[float, float], ray: Ray) -> float:
@@ -326,6 +345,10 @@ def _dot(a: Vector, b: Vector) -> float:
 
 def _minus(a: Vector, b: Vector) -> Vector:
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def _sum(a: Vector, b: Vector) -> Vector:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def _times(a: Vector, by: float) -> Vector:

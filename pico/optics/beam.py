@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.optics import gaussian
+from pico.optics.coherence import Spectrum
 from pico.optics.gaussian import Matrix
 from pico.optics.polarization import Field, Vector, carried, joined, plane_of_incidence, product, split, stokes
 from pico.optics.rays import Rays, Surface, cross, rays
@@ -43,7 +44,8 @@ class Beam:
 
     `at`, `along`, `across` (3,); `curvature` M (2, 2) [1/mm]; `wavelength` in vacuum [mm], `quality` M^2; `index` of
     the medium; `path`: optical path from the source [mm]; `length`: geometrical. `unknown`: why nobody can say what its
-    spot looks like, empty where one can. `ghost`: it came off a face that is not coated.
+    spot looks like, empty where one can. `ghost`: it came off a face that is not coated. `spectra`: of its groups of
+    waves, in order; without, each is of one frequency.
     """
 
     source: str
@@ -59,6 +61,7 @@ class Beam:
     length: float = 0.0
     unknown: str = ""
     ghost: bool = False
+    spectra: tuple[Spectrum, ...] = ()
 
     @property
     def up(self) -> Vector:

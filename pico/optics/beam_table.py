@@ -17,7 +17,7 @@ from pico.optics.axis import Event, Meeting
 from pico.optics.beam import Beam, moments
 from pico.optics.ends import stray
 from pico.optics.gaussian import front
-from pico.optics.light import Crossing, Light, irradiance
+from pico.optics.light import Crossing, Light, irradiance, out_of_step
 from pico.optics.part import Part
 
 CLIPPED = 0.01
@@ -122,6 +122,9 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
             yield warning("clipped", text, hint=hint, address=name)
     for name in sorted({c.component for c in light.crossings if c.event == "detected"}):
         yield from _too_strong(light, light.parts[name])
+        if why := out_of_step(light.at(name)):
+            text, hint = f"nobody can say how beams interfere on {name}", "put as much glass into each arm"
+            yield warning("unknown-light", f"{text}: {why}", hint=hint, address=name)
     lit = {c.component for c in light.crossings if c.event == "detected"}
     for name, part in sorted(light.parts.items()):
         if part.kind.optics.element == "detector" and name not in lit and light.crossings and _stands(setup, part):

@@ -79,7 +79,7 @@ def in_the_world(
             it = disturbed(environment, seed, name, time)
             walked = {"walk_left": it.left, "walk_up": it.up, "walk_power": it.power}
             set_to[name] = {**values.get(name, {}), **walked}
-        elif kind.optics.element == "mirror":
+        elif kind.optics.element in ("mirror", "roof_mirror"):
             moved, turned = disturbed(environment, seed, name, time).moved, math.radians(poses[name].yaw)
             found[name] = replace(
                 poses[name],

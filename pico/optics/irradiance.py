@@ -2,13 +2,14 @@
 
 The field of each wave is exp of a polynomial of second order in the detector's coordinates y and z, so the product of
 two is as well. But for its term in y z that is a column times a row, so a picture of millions of pixels is a sum of
-outer products, and costs as much as one exponential a pixel only where a beam is turned or skew.
+outer products, and costs as much as one exponential a pixel only where a beam is turned or skew. A narrow line of a
+source's spectrum is one more such product; of a wide one the degree of coherence is taken pixel by pixel.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,12 +17,15 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from pico.optics.beam import Beam, Wave
+from pico.optics.coherence import Spectrum, degree
 
 Axis = NDArray[np.float64]
 _DARK = 45.0
 """Where the logarithm of the irradiance is this much below its greatest, nothing is there."""
 _FLAT = 1e-5
 """A term in y z that stays below this changes nothing."""
+Term = tuple[complex, NDArray[np.complex128]]
+"""The weight of a pair of waves at the peak, and how its exponent goes on from there along y and z."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +41,8 @@ class Screen:
 @dataclass(frozen=True, eq=False)
 class _Gauss:
     """A beam on a screen without what tells its waves apart: the polynomial c + slope . r + r' q r / 2, r = (y, z); the
-    beam's transverse coordinates there, offset + turn r. `size`: the amplitude of a wave whose field is 1 [1/mm]."""
+    beam's transverse coordinates there, offset + turn r. `size`: the amplitude of a wave whose field is 1 [1/mm].
+    `path`: the optical path of the chief ray's wavefront at r = 0, and how it goes on, `ahead` r [mm]."""
 
     c: complex
     slope: NDArray[np.complex128]
@@ -45,6 +50,8 @@ class _Gauss:
     offset: NDArray[np.float64]
     turn: NDArray[np.float64]
     size: float
+    path: float
+    ahead: NDArray[np.float64]
 
 
 def irradiance(
@@ -52,15 +59,14 @@ def irradiance(
 ) -> NDArray[np.floating]:
     """Return the irradiance (len(z), len(y)) [mW/mm2] of beams at the points of a screen, y and z each in order [mm].
 
-    Waves of one source and group interfere; all else adds up.
+    Waves of one source and group interfere, as far as its spectrum leaves them in step; all else adds up.
     """
     total = np.zeros((len(z), len(y)), dtype=dtype)
     shapes = [_gauss(beam, screen) for beam in beams]
     for n, one in enumerate(beams):
         for m in range(n + 1):
-            pairs = list(_pairs(one, beams[m]))
-            if pairs:
-                _add(total, (one, beams[m]), (shapes[n], shapes[m]), pairs, y, z)
+            for spectrum, pairs in _pairs(one, beams[m]).items():
+                _add(total, (one, beams[m]), (shapes[n], shapes[m]), pairs, spectrum, y, z)
     return np.maximum(total, 0.0, out=total)
 
 
@@ -76,22 +82,25 @@ def _gauss(beam: Beam, screen: Screen) -> _Gauss:
         c=complex(0.5 * offset @ m @ offset + 1j * phase), slope=turn.T @ m @ offset + 1j * true * ahead,
         q=turn.T @ m @ turn,
         offset=offset, turn=turn, size=size * math.sqrt(abs(float(beam.along @ screen.along))),
+        path=beam.path + beam.index * float(start @ beam.along), ahead=beam.index * ahead,
     )  # fmt: skip
 
 
-def _pairs(one: Beam, other: Beam) -> Iterator[tuple[Wave, Wave]]:
-    """Yield the waves that interfere, those of one beam each pair once."""
-    if one.source != other.source:
-        return
-    for n, a in enumerate(one.waves):
+def _pairs(one: Beam, other: Beam) -> dict[Spectrum, list[tuple[Wave, Wave]]]:
+    """Return the waves that interfere, those of one beam each pair once, by their spectrum: none for those that are
+    always in step."""
+    found: dict[Spectrum, list[tuple[Wave, Wave]]] = {}
+    for n, a in enumerate(one.waves if one.source == other.source else ()):
         for m, b in enumerate(other.waves):
             if a.group == b.group and (one is not other or m <= n):
-                yield a, b
+                apart = one is not other and bool(one.spectra)
+                found.setdefault(one.spectra[a.group] if apart else (), []).append((a, b))
+    return found
 
 
 def _add(
     total: NDArray[np.floating], beams: tuple[Beam, Beam], shapes: tuple[_Gauss, _Gauss],
-    pairs: Sequence[tuple[Wave, Wave]], y: Axis, z: Axis,
+    pairs: Sequence[tuple[Wave, Wave]], spectrum: Spectrum, y: Axis, z: Axis,
 ) -> None:  # fmt: skip
     """Add what pairs of waves of two beams make together."""
     (one, other), (f, g) = beams, shapes
@@ -105,30 +114,54 @@ def _add(
     dy, dz = y[columns] - peak[0], z[rows] - peak[1]
     if c.real < -300:
         return
-    terms = [_term(one, other, f, g, a, b, peak) for a, b in pairs]
+    terms = [(w * complex(np.exp(c)), slope + s) for w, s in (_term(one, other, f, g, a, b, peak) for a, b in pairs)]
+    part = total[rows, columns]
+    if not spectrum:
+        _outer(part, terms, q, dy, dz)
+        return
+    away = f.ahead - g.ahead
+    delta, span = f.path - g.path + float(away @ peak), float(np.abs(away) @ [np.abs(dy).max(), np.abs(dz).max()])
+    narrow = tuple(line for line in spectrum if line.bends(delta, span) < _FLAT)
+    if narrow:
+        lines = [(complex(degree((line,), delta)), line.slope(delta) * away) for line in narrow]
+        _outer(part, [(w * by, s + more) for w, s in terms for by, more in lines], q, dy, dz)
+    if wide := tuple(line for line in spectrum if line not in narrow):
+        _outer(part, terms, q, dy, dz, degree(wide, delta + away[0] * dy + away[1] * dz[:, None]))
+
+
+def _outer(
+    part: NDArray[np.floating], terms: Sequence[Term], q: NDArray[np.complex128], dy: Axis, dz: Axis,
+    factor: NDArray[np.complex128] | None = None,
+) -> None:  # fmt: skip
+    """Add the real part of the sum of terms, times exp(r' q r / 2) and a `factor` (len(dz), len(dy)), r = (dy, dz)."""
     skew = q[0, 1]
     apart = abs(skew) * np.abs(dy).max() * np.abs(dz).max() > _FLAT
-    column = np.exp(slope[1] * dz + (0 if apart else 0.5 * q[1, 1] * dz**2))
-    row = np.exp(slope[0] * dy + (0 if apart else 0.5 * q[0, 0] * dy**2))
-    kind: Any = np.complex64 if total.dtype == np.float32 else np.complex128
-    first = np.stack([w * np.exp(c) * column * np.exp(s[1] * dz) for w, s in terms], axis=1).astype(kind)
-    second = np.stack([row * np.exp(s[0] * dy) for _, s in terms]).astype(kind)
-    if not apart:
+    column = 0 if apart else 0.5 * q[1, 1] * dz**2
+    row = 0 if apart else 0.5 * q[0, 0] * dy**2
+    kind: Any = np.complex64 if part.dtype == np.float32 else np.complex128
+    first = np.stack([w * np.exp(s[1] * dz + column) for w, s in terms], axis=1).astype(kind)
+    second = np.stack([np.exp(s[0] * dy + row) for _, s in terms]).astype(kind)
+    if not apart and factor is None:
         # the real part of a sum of products of complex numbers, as one real product
-        total[rows, columns] += np.hstack([first.real, -first.imag]) @ np.vstack([second.real, second.imag])
+        part += np.hstack([first.real, -first.imag]) @ np.vstack([second.real, second.imag])
         return
-    real = np.float32 if total.dtype == np.float32 else np.float64
-    size = 0.5 * q[1, 1].real * dz[:, None] ** 2 + skew.real * dz[:, None] * dy + 0.5 * q[0, 0].real * dy**2
     found = first @ second
+    if factor is not None:
+        found = found * factor.astype(kind)
+    if not apart:
+        part += found.real
+        return
+    real = np.float32 if part.dtype == np.float32 else np.float64
+    size = 0.5 * q[1, 1].real * dz[:, None] ** 2 + skew.real * dz[:, None] * dy + 0.5 * q[0, 0].real * dy**2
     turned = 0.5 * q[1, 1].imag * dz[:, None] ** 2 + skew.imag * dz[:, None] * dy + 0.5 * q[0, 0].imag * dy**2
     if np.abs(turned).max() > _FLAT:
         found = found * np.exp(1j * turned)
-    total[rows, columns] += np.exp(size.astype(real)) * found.real
+    part += np.exp(size.astype(real)) * found.real
 
 
 def _term(
     one: Beam, other: Beam, f: _Gauss, g: _Gauss, a: Wave, b: Wave, peak: NDArray[np.float64]
-) -> tuple[complex, NDArray[np.complex128]]:  # fmt: skip
+) -> Term:  # fmt: skip
     """Return the weight of a pair of waves at the peak, and how its exponent goes on from there along y and z."""
     i, j = 1j * one.wave_number * a.shift, -1j * other.wave_number * np.conj(b.shift)
     both = i @ (f.offset + f.turn @ peak) + j @ (g.offset + g.turn @ peak)

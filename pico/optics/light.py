@@ -20,6 +20,7 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.optics.axis import Event, Optic, Ray, Values, beside_the_edge, first_met, optic_of
 from pico.optics.beam import Beam, forward, moments
+from pico.optics.coherence import dispersed
 from pico.optics.emission import emit
 from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
@@ -109,6 +110,16 @@ def irradiance(
         return np.zeros((len(z), len(y)), dtype=dtype)
     part = arrivals[0].part
     return projected([a.beam for a in arrivals], Screen(part.origin, *part.axes), y, z, dtype)
+
+
+def out_of_step(arrivals: tuple[Arrival, ...]) -> str:
+    """Return why nobody can say how beams of one source interfere on a detector: those of a wide spectrum that came
+    through different lengths of glass, of which dispersion is not modelled. Empty where one can."""
+    for source in sorted({a.beam.source for a in arrivals}):
+        mine = [a.beam for a in arrivals if a.beam.source == source]
+        if dispersed((b.path - b.length for b in mine), mine[0].spectra):
+            return f"its beams came through different lengths of glass, and the dispersion of {source} is not modelled"
+    return ""
 
 
 @cache

@@ -20,6 +20,8 @@ from pico.resources import catalog_dir
 CATALOG = load_catalog()
 HELD = [name for name, kind in CATALOG.items() if kind.geometry.grasp]
 FLAT = [name for name in HELD if CATALOG[name].geometry.grasp.fixture == "flat"]
+LATER = ("room_lamp", "delay_stage")
+"""Types of elements that the first release did not have, or had no parameters of."""
 LENSES = (60, 75, 100, 125, 150, 200, 250)
 
 
@@ -62,7 +64,9 @@ def test_lenses_differ_in_nothing_but_their_glass() -> None:
 def test_a_type_says_each_parameter_once_and_lifts_to_itself_from_how_it_was_first_written(name: str) -> None:
     kind = CATALOG[name]
     then = as_first_written(kind)
-    assert not kind.optics.properties and (then.optics.properties or name == "room_lamp")  # which came later
+    assert not kind.optics.properties and (
+        then.optics.properties or name in ("room_lamp", "delay_stage")
+    )  # which came later
     assert as_first_written(lifted(then)) == then
     for key, was in then.optics.properties.items():
         now, parameter = lifted(then).parameters[key], kind.parameters[key]

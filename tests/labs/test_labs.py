@@ -43,14 +43,14 @@ def read(name: str, folder: Path) -> Example:
     return setup, states
 
 
-def test_there_are_four_and_they_load_without_a_word() -> None:
-    assert example_names() == ("crowded", "minimal", "shel", "two_arms")
+def test_there_are_five_and_they_load_without_a_word() -> None:
+    assert example_names() == ("crowded", "mach_zehnder", "minimal", "shel", "two_arms")
     sizes = {}
     for name in example_names():
         manifests = load_folder(labs_dir() / name)
         assert manifests.diagnostics == () and manifests.setup
         sizes[name] = len(manifests.setup.lab.inventory)
-    assert sizes == {"crowded": 30, "minimal": 3, "shel": 9, "two_arms": 14}
+    assert sizes == {"crowded": 30, "mach_zehnder": 13, "minimal": 3, "shel": 9, "two_arms": 14}
 
 
 def standing(setup: Setup, state: LabState) -> dict[str, tuple[Pose, shapely.Geometry]]:
@@ -119,7 +119,10 @@ def planned(setup: Setup, motion: ArmMotion, a: LabState, b: LabState) -> Plan:
     return plan(setup, live, b, motion=motion, backend="sim", fidelity="kinematic", base=Base(), target=Target())
 
 
-EVERY_WAY = [("minimal", True), ("shel", False), pytest.param("shel", True, marks=pytest.mark.slow)]
+EVERY_WAY = [
+    ("minimal", True), ("mach_zehnder", False), ("shel", False),
+    *(pytest.param(name, True, marks=pytest.mark.slow) for name in ("mach_zehnder", "shel")),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "every"), EVERY_WAY)

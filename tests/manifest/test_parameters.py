@@ -20,7 +20,7 @@ def told(name: str, old: str, new: str) -> list[Diagnostic]:
     return list(read_type(parse(source)[0][0])[1])
 
 
-CAM, SPLITTER = "beam_camera", "beam_splitter_50_50"
+CAM, SPLITTER, MODES = "beam_camera", "beam_splitter_50_50", "hene_laser_two_modes"
 
 
 @pytest.mark.parametrize(
@@ -37,6 +37,21 @@ CAM, SPLITTER = "beam_camera", "beam_splitter_50_50"
         ("room_lamp", "{value: 700,", "{value: -700,", "`stray_irradiance` is -700 nW/mm^2", "0 or more nW/mm^2"),
         ("room_lamp", "{value: 700,", "{value: bright,", "`stray_irradiance` is `bright`", "expected a number"),
         ("iris", "diameter: 11.5", "diameter: -12", "which can't be", "expected above 0 mm"),
+        (MODES, "center: -250 MHz", "center: 3 kg", "line 1: `3 kg` is neither a frequency nor", "MHz from the"),
+        (MODES, "center: -250 MHz", "center: -1 nm", "line 1: `-1 nm` is no wavelength", "or a wavelength, `633 nm`"),
+        (MODES, "center: 250 MHz", "center: 900 THz", "the center of line 2 is `900 THz`, which can't be", "MHz"),
+        (MODES, "width: 1 MHz", "width: -1", "the width of line 1 is `-1.0`, which can't be", "MHz, or a width"),
+        (MODES, "width: 1 MHz", "width: wide", "the width of line 1: `wide` is not a quantity", "MHz, or a width"),
+        (MODES, "shape: lorentzian", "shape: lorenzian", "`lorenzian`", "did you mean `lorentzian`?"),
+        (MODES, "shape: lorentzian", "share: -0.5", "the share of line 1 is -0.5", "0 or more"),
+        (
+            "delay_stage",
+            "element: roof_mirror",
+            "element: roof_mirror\n  lines: []",
+            "the spectrum of a source",
+            "leave",
+        ),
+        ("white_light_source", "shape: gaussian", "share: 0", "share no power", "`share` above 0"),
         (CAM, "shutter: closed", "shutter: shut", "`dark` needs `shutter`, which is one of", "a value that it takes"),
         (
             CAM,

@@ -44,6 +44,7 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "reflectance": _SHARE, "retardance": Bounds("deg"), "refractive_index": _INDEX,
         "extinction_coefficient": Bounds("", 0, 100),
     },
+    "roof_mirror": {"reflectance": _SHARE},
     "polarizer": {
         "extinction": Bounds("", 1), "transmission": _SHARE, "refractive_index": _INDEX,
         "thickness": Bounds("mm", 0, 1e3),

@@ -23,6 +23,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the frame, with its brightest pixel (`peak`) and its `mean` [counts]."""
     from pico.optics.beam_table import decibel
     from pico.optics.instruments import camera_frame, sensor_of
+    from pico.optics.light import out_of_step
 
     light = light_on(table)
     arrivals, part = light.at(component), light.parts.get(component)
@@ -32,6 +33,11 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     if unknown := next((a.beam for a in arrivals if a.beam.unknown and a.power > dim), None):
         text = f"what {component} would see of {unknown.source} is not known: {unknown.unknown}"
         raise Failed(error("unknown-light", text, hint="`pico beam` shows where", address=component))
+    if why := out_of_step(tuple(a for a in arrivals if a.power > dim)):
+        hint = "put as much glass into each arm"
+        raise Failed(
+            error("unknown-light", f"what {component} would see is not known: {why}", hint=hint, address=component)
+        )
     counts = camera_frame(
         arrivals, part, stray=room_light(table), errors=table.setup.lab.sim.errors.sensor, seed=table.world.seed,
         number=round(table.world.clock * 1000),

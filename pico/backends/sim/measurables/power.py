@@ -18,11 +18,14 @@ def measures(setup: Setup, component: str, measurable: str) -> bool:
 def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the reading with its standard deviation."""
     from pico.optics.instruments import power_reading
+    from pico.optics.light import out_of_step
 
     light = light_on(table)
     part = light.parts.get(component)
     if part is None:
         raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    if why := out_of_step(light.at(component)):
+        return Reading(None, unknown=f"what {component} would read is not known: {why}")
     found = power_reading(
         light.at(component), part, seed=table.world.seed, number=round(table.world.clock * 1000)
     )  # fmt: skip
