@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..arguments import group, pairs
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import catalog as view
+from ..views import catalog_page as page_view
 from ..views import component_type as type_view
 from ..views import new_type as new_view
 from ..views import parts as parts_view
@@ -73,6 +76,36 @@ def new(
     session = Session.of(context)
     path = new_type(session.folder, name, base, pairs(given))
     session.show(new_view, shown_path(path), name=name)
+
+
+@app.command()
+def page(
+    context: typer.Context,
+    out: Annotated[Path, typer.Option("--out", metavar="HTML", help="Where it goes.")] = Path("catalog.html"),
+) -> None:
+    """Write a page with a drawing of each component type, and all that is to be known of it.
+
+    Examples:
+      pico catalog page
+      pico catalog page --out docs/catalog.html
+    """
+    from base64 import b64encode
+
+    from pico.disk import write_whole
+    from pico.drawing.picture import png
+    from pico.drawing.portrait import portrait
+    from pico.manifest.folders import catalog_of
+
+    session = Session.of(context)
+    kinds = catalog_of(session.folder)
+    pictures = {}
+    with waiting("Drawing the types") as progress:
+        for number, (name, kind) in enumerate(kinds.items()):
+            pictures[name] = f"data:image/png;base64,{b64encode(png(portrait(kind))).decode()}"
+            progress.share = (number + 1) / len(kinds)
+    html = page_view.page("Component types of PICO", kinds, pictures)
+    write_whole(session.folder / out, html.encode())
+    session.show(page_view, str(out), types=len(kinds))
 
 
 @app.command()
