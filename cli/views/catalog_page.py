@@ -11,7 +11,8 @@ from pico.model.catalog import ComponentType, Measurable, Parameter, Tunable
 from .style import count, number
 
 GROUPS = {
-    "Sources": ("source",), "Mirrors": ("mirror", "roof_mirror"), "Lenses": ("lens",), "Polarization": ("polarizer", "waveplate"),
+    "Sources": ("source",), "Mirrors": ("mirror", "roof_mirror"), "Lenses": ("lens",),
+    "Polarization": ("polarizer", "waveplate"),
     "Beam splitters": ("beam_splitter",), "Apertures and filters": ("iris", "filter", "shutter", "block"),
     "Detectors": ("detector",),
 }  # fmt: skip
