@@ -35,7 +35,7 @@ from pico.model.catalog import ComponentType, SpectralLine
 from pico.model.pose import Pose
 from pico.optics.beam_table import troubles
 from pico.optics.coherence import degree, spectra_of
-from pico.optics.instruments import camera_frame, sensor_of
+from pico.optics.instruments import camera_frame, power_on, sensor_of
 from pico.optics.light import irradiance, out_of_step
 
 
@@ -118,6 +118,17 @@ def test_both_ports_add_up_to_one(stage: float, tip: float, tilt: float, piezo: 
 def test_a_piezo_pushes_its_mirror_along_its_normal_towards_the_light(piezo: float) -> None:
     found = read(bench(source(), {"m2_piezo": piezo}))  # at 45 deg the way is shorter by the square root of 2 of that
     assert found == pytest.approx(expected(math.sqrt(2) * piezo * 1e-3, lambda _: 1.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("period", [0.04, 0.02375, 0.012, 0.005])  # mm; the grid's own is 0.02375
+def test_fringes_too_fine_for_its_grid_add_nothing_to_a_meter(period: float) -> None:
+    (one, *_), part = bench(source(), {}).at("meter"), kind("power_meter")
+    angle = math.asin(WAVELENGTH / period)
+    turn = np.array([[math.cos(angle), -math.sin(angle), 0], [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
+    other = replace(one.beam, along=turn @ one.beam.along, across=turn @ one.beam.across)
+    both = (one, replace(one, beam=other))
+    assert part.number("active_diameter", "mm") == 400 * 0.02375
+    assert power_on(both, one.part) == pytest.approx(2 * one.power, rel=1e-6)
 
 
 def test_a_roof_sends_light_back_as_it_came_however_it_is_turned_and_tells_where_its_edge_is_hit() -> None:
