@@ -100,6 +100,15 @@ def test_bisect_finds_the_commit_that_turned_the_mirror_away(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("fidelity", ["kinematic", "physics"])
+def test_the_arm_builds_it_stops_an_arm_of_it_and_clears_it_away(fidelity: str, tmp_path: Path, pico: Pico) -> None:
+    root = str(make_example("mach_zehnder", tmp_path / "bench").root)
+    for state in ("fringes", "one_arm", "parked", "half_way"):
+        assert pico("-C", root, "apply", state, "--auto-approve", "--fidelity", fidelity).code == 0
+        assert pico("-C", root, "verify", state).code == 0
+
+
+@pytest.mark.slow
 def test_the_scan_of_its_readme_shows_fringes_that_go_and_come_back(tmp_path: Path, pico: Pico) -> None:
     readme = (labs_dir() / "mach_zehnder" / "README.md").read_text()
     (script,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
