@@ -4,8 +4,8 @@
 
 The bench is a Mach-Zehnder interferometer of ideal parts with a delay stage (tests/optics/interferometer_benches.py),
 the reference tests/oracles/two_beams.py. Errors are the worst over the points: of irradiance in parts of the brightest,
-of powers and visibility in parts of the laser's power. Frames: how far the kernel `visibility` is from the truth, in
-its own standard deviations. Least times [ms] of the light of one frame.
+of powers in parts of the laser's. Frames: how far the kernel `visibility` is from the truth, in its own standard
+deviations. Last come the least times [ms] of the light of one frame.
 """
 
 from __future__ import annotations

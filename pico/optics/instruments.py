@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import combinations, groupby
 
 import numpy as np
 
@@ -73,14 +73,25 @@ def power_on(arrivals: tuple[Arrival, ...], part: Part) -> float:
     add nothing.
     """
     power = float(sum(a.power for a in arrivals))
-    sources = [a.beam.source for a in arrivals]
-    if len(sources) == len(set(sources)) or power <= 0:
+    if power <= 0 or len({a.beam.source for a in arrivals}) == len(arrivals):
         return power
     line = np.linspace(-1, 1, _GRID) * part.number("active_diameter", "mm", 2 * part.optic.radius) / 2
     inside = line[None, :] ** 2 + line[:, None] ** 2 <= line[-1] ** 2
-    alone = sum((irradiance((a,), line, line) for a in arrivals), np.zeros((_GRID, _GRID)))
-    more = float(((irradiance(arrivals, line, line) - alone) * inside).sum()) * (line[1] - line[0]) ** 2
-    return float(max(0.0, power + more))
+    step, alone = float(line[1] - line[0]), [irradiance((a,), line, line) for a in arrivals]
+    more = sum(
+        float(((irradiance((a, b), line, line) - alone[n] - alone[m]) * inside).sum()) * step**2
+        for (n, a), (m, b) in combinations(enumerate(arrivals), 2)
+        if a.beam.source == b.beam.source and _period(a, b) > 2 * step
+    )
+    return max(0.0, power + more)
+
+
+def _period(one: Arrival, other: Arrival) -> float:
+    """Return how far fringes of two beams are apart on a detector [mm]."""
+    _, left, up = one.part.axes
+    turned = other.beam.along - one.beam.along
+    size = math.hypot(float(turned @ left), float(turned @ up))
+    return one.beam.wavelength / size if size else math.inf
 
 
 def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, number: int = 0) -> Power:

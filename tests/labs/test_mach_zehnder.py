@@ -15,7 +15,9 @@ import pytest
 from commanding import Pico
 
 from pico.bench.picture_contents import standing, wanted
+from pico.drawing.beams import beam_paths
 from pico.drawing.beams import standing as upright
+from pico.drawing.picture import carried
 from pico.history.examples.example import make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.lab import Setup
@@ -77,6 +79,15 @@ def test_however_the_mirrors_are_turned_beams_stay_in_the_plane_of_the_table(sta
                 assert abs(rise) <= STEEP * run**0.5
 
 
+def test_pictures_show_the_carriage_where_it_is_and_the_beam_across_its_roof(states: dict[str, State]) -> None:
+    setup, poses, values = states["revival"]
+    bodies = [carried(setup, values).type_of("delay").geometry.bodies, setup.type_of("delay").geometry.bodies]
+    moved = {one.name: one.at[0] - other.at[0] for one, other in zip(*bodies, strict=True)}
+    assert moved["mirror_left"] == moved["carriage"] == 305 and moved["base"] == moved["motor"] == 0
+    paths = [(start, end) for _, start, end in beam_paths(setup, poses, values)]
+    assert any(start[:2] == pytest.approx((935, 320)) and end[:2] == pytest.approx((935, 370)) for start, end in paths)
+
+
 def test_bisect_finds_the_commit_that_turned_the_mirror_away(
     bench: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -86,6 +97,15 @@ def test_bisect_finds_the_commit_that_turned_the_mirror_away(
     commit = subprocess.run(["git", "rev-parse", "--short=7", "cleaned"], capture_output=True, text=True, check=True)
     assert f"{commit.stdout.strip()} (cleaned) is the first bad commit" in answer.out
     assert "m1            turned +90°" in answer.out
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fidelity", ["kinematic", "physics"])
+def test_the_arm_builds_it_stops_an_arm_of_it_and_clears_it_away(fidelity: str, tmp_path: Path, pico: Pico) -> None:
+    root = str(make_example("mach_zehnder", tmp_path / "bench").root)
+    for state in ("fringes", "one_arm", "parked", "half_way"):
+        assert pico("-C", root, "apply", state, "--auto-approve", "--fidelity", fidelity).code == 0
+        assert pico("-C", root, "verify", state).code == 0
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ from interferometer_benches import (
     source,
     wanted,
 )
-from light_benches import kind, setup_of
+from light_benches import kind, light, setup_of
 from oracles import two_beams
 
 from pico.kernels.frame import Frame
@@ -35,7 +35,7 @@ from pico.model.catalog import ComponentType, SpectralLine
 from pico.model.pose import Pose
 from pico.optics.beam_table import troubles
 from pico.optics.coherence import degree, spectra_of
-from pico.optics.instruments import camera_frame, sensor_of
+from pico.optics.instruments import camera_frame, power_on, sensor_of
 from pico.optics.light import irradiance, out_of_step
 
 
@@ -112,6 +112,40 @@ def test_both_ports_add_up_to_one(stage: float, tip: float, tilt: float, piezo: 
     values = {"delay_stage_x": stage, "m3_tip": tip, "m3_tilt": tilt, "m2_piezo": piezo}
     found = bench(laser, values, cam=(meter, POSES["cam"]))
     assert read(found) + read(found, "cam") == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("piezo", [0.1, 0.2, 1.0])
+def test_a_piezo_pushes_its_mirror_along_its_normal_towards_the_light(piezo: float) -> None:
+    found = read(bench(source(), {"m2_piezo": piezo}))  # at 45 deg the way is shorter by the square root of 2 of that
+    assert found == pytest.approx(expected(math.sqrt(2) * piezo * 1e-3, lambda _: 1.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("period", [0.04, 0.02375, 0.012, 0.005])  # mm; the grid's own is 0.02375
+def test_fringes_too_fine_for_its_grid_add_nothing_to_a_meter(period: float) -> None:
+    (one, *_), part = bench(source(), {}).at("meter"), kind("power_meter")
+    angle = math.asin(WAVELENGTH / period)
+    turn = np.array([[math.cos(angle), -math.sin(angle), 0], [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
+    other = replace(one.beam, along=turn @ one.beam.along, across=turn @ one.beam.across)
+    both = (one, replace(one, beam=other))
+    assert part.number("active_diameter", "mm") == 400 * 0.02375
+    assert power_on(both, one.part) == pytest.approx(2 * one.power, rel=1e-6)
+
+
+def test_a_roof_sends_light_back_as_it_came_however_it_is_turned_and_tells_where_its_edge_is_hit() -> None:
+    for yaw, aside in ((0.0, 10.0), (2.0, 10.0), (-3.0, -12.0)):
+        poses = {"laser": Pose(100, 400), "roof": Pose(500, 400 - aside, yaw)}
+        found = light({"laser": source(), "roof": kind("delay_stage")}, poses, {"roof": {"stage_x": 100.0}})
+        back = found.crossings[-1].beam
+        assert np.abs(back.along - [-1, 0, 0]).max() < 1e-12 and not back.unknown
+        edge = Pose(500, 400 - aside, yaw).apply(-55, 0)
+        assert back.at[1] == pytest.approx(2 * edge[1] - 400, abs=1e-9)
+        assert back.power == pytest.approx(0.975**2)
+        # from the exit to the plane through the edge across the light, and back to the housing beside the exit
+        assert back.length == pytest.approx(2 * (edge[0] - 160), abs=1e-9)
+    poses["roof"] = Pose(500, 400.5)
+    assert (
+        "edge of its roof" in light({"laser": source(), "roof": kind("delay_stage")}, poses).crossings[-1].beam.unknown
+    )
 
 
 @pytest.mark.parametrize("delta", [0.0, 200.0, 600.0])
