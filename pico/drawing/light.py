@@ -42,7 +42,7 @@ def _lines(light: Light, number: int) -> Iterator[tuple[Point, Point]]:
     away = crossing.beam.length - _begun(light, crossing)
     start = crossing.beam.at - away * crossing.beam.along
     last = None if crossing.before is None else light.crossings[crossing.before]
-    if last is not None and light.parts[last.component].optic.element == "roof_mirror":
+    if last is not None and light.parts[last.component].optic.element in ("roof_mirror", "retroreflector"):
         yield _point(last.beam.at), _point(start)
     yield _point(start), _point(crossing.beam.at)
 

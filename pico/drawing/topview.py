@@ -38,6 +38,8 @@ _COLORS: dict[str, Color] = {
     "waveplate": (128, 92, 182),
     "mirror": (176, 132, 44),
     "roof_mirror": (176, 132, 44),
+    "retroreflector": (176, 132, 44),
+    "plate_splitter": (60, 150, 160),
     "beam_splitter": (60, 150, 160),
     "detector": (188, 58, 50),
     "none": (104, 112, 124),

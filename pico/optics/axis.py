@@ -27,9 +27,12 @@ LEGS = 256
 """Straight pieces after which a beam that goes round and round is followed no more."""
 
 _ENDS: Mapping[str, Event] = {
-    "mirror": "reflected", "roof_mirror": "reflected", "beam_splitter": "divided", "detector": "detected"
+    "mirror": "reflected", "roof_mirror": "reflected", "retroreflector": "reflected", "beam_splitter": "divided",
+    "plate_splitter": "divided", "detector": "detected",
 }  # fmt: skip
-_FACES: Mapping[str, float] = {"mirror": -1.0, "roof_mirror": -1.0, "detector": 1.0}
+MIRRORS = ("mirror", "roof_mirror", "retroreflector", "plate_splitter")
+"""Elements whose face looks along local -x."""
+_FACES: Mapping[str, float] = {"mirror": -1.0, "roof_mirror": -1.0, "retroreflector": -1.0, "detector": 1.0}
 """Along which side of its normal light must come to an element that has one face."""
 _NEAR = 1e-6  # mm: what a ray has just left
 _RADIANS = {"mrad": 1e-3, "deg": math.pi / 180, "rad": 1.0}
@@ -155,13 +158,15 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     center = aperture.center if aperture else (0.0, 0.0, 0.0)
     (ahead, left), up = staged(kind, values), shift(kind, values, "stage_z")
     x, y = pose.apply(center[0] + ahead, center[1] + left)
-    tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if element == "mirror" else (0.0, 0.0)
+    tip, tilt = (
+        (_turn(kind, values, key) for key in ("tip", "tilt")) if element in ("mirror", "plate_splitter") else (0.0, 0.0)
+    )
     opening = values.get("opening") if element == "iris" else None
     if element == "beam_splitter":
         # what comes along +x is divided to `fold` degrees from it: the coating stands half way
         fold = kind.number("fold", "deg")
         tip = math.radians((90.0 if fold is None else fold) / 2 + 90.0)
-    facing = math.radians(pose.yaw) + tip + (math.pi if element in ("mirror", "roof_mirror") else 0.0)
+    facing = math.radians(pose.yaw) + tip + (math.pi if element in MIRRORS else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None
     if where is not None and (pushed := shift(kind, values, "piezo")):
@@ -311,6 +316,10 @@ def _onward(ray: Ray, leg: Leg, optic: Optic | None, number: int) -> list[Ray]:
         assert optic.center is not None
         back = _sum(optic.center, half_turned(_minus(last.at, optic.center)))
         return [Ray(back, half_turned(ray.towards), last.length, optic.name, number)]
+    if optic.element == "retroreflector":
+        assert optic.center is not None
+        back = _minus(_times(optic.center, 2.0), last.at)
+        return [Ray(back, _times(ray.towards, -1.0), last.length, optic.name, number)]
     turned = _minus(ray.towards, _times(optic.normal, 2 * _dot(ray.towards, optic.normal)))
     ways = [ray.towards, turned] if last.event == "divided" else [turned]
     return [Ray(last.at, way, last.length, optic.name, number) for way in ways]

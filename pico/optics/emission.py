@@ -14,10 +14,11 @@ from pico.optics.part import Part
 
 def emit(part: Part) -> Beam:
     """Return the beam at the exit: from the parameters `wavelength`, `power`, `waist_radius`, `waist_position` (of the
-    waist, ahead of the exit), `quality` (M2), `polarization`, `polarization_ratio`, of which a tunable of the same name
-    wins. Its way may be turned by `walk_left` and `walk_up` [mrad], and
-    its power be another by the share `walk_power`: what the world does, and no tunable of a type. What is
-    polarized across does not interfere with the rest, nor do lines of its spectrum that are polarized otherwise."""
+    waist, ahead of the exit), `waist_radius_up` and `waist_position_up` where upright it is another, `quality` (M2),
+    `polarization`, `polarization_ratio`, of which a tunable of the same name wins. Its way may be turned by `walk_left`
+    and `walk_up` [mrad], and its power be another by the share `walk_power`: what the world does, and no tunable of a
+    type. What is polarized across does not interfere with the rest, nor do lines of its spectrum that are polarized
+    otherwise."""
     wavelength = part.value("wavelength", "nm", part.number("wavelength", "nm", 632.8)) * 1e-6
     power = part.value("power", "mW", part.number("power", "mW", 1.0))
     power *= max(0.0, 1 + float(part.values.get("walk_power", 0.0)))
@@ -44,6 +45,9 @@ def emit(part: Part) -> Beam:
                 spectra.append(spectrum)
     behind = -part.number("waist_position", "mm", 0.0)
     curvature = gaussian.from_waist(waist, wavelength * quality, behind)
+    if (own := part.kind.number("waist_radius_up", "mm")) is not None:
+        later = -part.number("waist_position_up", "mm", -behind)
+        curvature[1, 1] = gaussian.from_waist(own, wavelength * quality, later)[1, 1]
     return Beam(
         part.name, wavelength, part.origin, along, left, curvature, tuple(waves), quality,
         spectra=tuple(spectra) if any(spectra) else (),

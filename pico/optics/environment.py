@@ -14,6 +14,7 @@ from typing import Any
 
 from pico.model.lab import Environment, Setup
 from pico.model.pose import Pose
+from pico.optics.axis import MIRRORS
 
 _WARM = 900.0
 """How fast a laser warms up [s]."""
@@ -79,7 +80,7 @@ def in_the_world(
             it = disturbed(environment, seed, name, time)
             walked = {"walk_left": it.left, "walk_up": it.up, "walk_power": it.power}
             set_to[name] = {**values.get(name, {}), **walked}
-        elif kind.optics.element in ("mirror", "roof_mirror"):
+        elif kind.optics.element in MIRRORS:
             moved, turned = disturbed(environment, seed, name, time).moved, math.radians(poses[name].yaw)
             found[name] = replace(
                 poses[name],

@@ -32,7 +32,8 @@ _INDEX = Bounds("", 1e-3, 10)
 NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     "source": {
         "wavelength": Bounds("nm", 10, 1e5), "power": Bounds("mW", 0, 1e9), "waist_radius": Bounds("mm", 1e-4, 1e3),
-        "waist_position": Bounds("mm", -1e7, 1e7), "quality": Bounds("", 1, 1e4), "polarization": Bounds("deg"),
+        "waist_position": Bounds("mm", -1e7, 1e7), "waist_radius_up": Bounds("mm", 1e-4, 1e3),
+        "waist_position_up": Bounds("mm", -1e7, 1e7), "quality": Bounds("", 1, 1e4), "polarization": Bounds("deg"),
         "polarization_ratio": Bounds("", 1),
     },
     "lens": {
@@ -42,9 +43,23 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     },
     "mirror": {
         "reflectance": _SHARE, "retardance": Bounds("deg"), "refractive_index": _INDEX,
+        "radius_of_curvature": Bounds("mm", zero=False),
         "extinction_coefficient": Bounds("", 0, 100),
     },
     "roof_mirror": {"reflectance": _SHARE},
+    "retroreflector": {"reflectance": _SHARE},
+    "plate_splitter": {
+        "reflectance": _SHARE, "transmittance": _SHARE, "reflectance_below": _SHARE, "transmittance_below": _SHARE,
+        "cut_on": Bounds("nm", 10, 1e5), "thickness": Bounds("mm", 0, 1e3), "refractive_index": _INDEX,
+        "rear_reflectance": _SHARE,
+    },
+    "slit": {"width": Bounds("mm", 1e-4, 1e3), "angle": Bounds("deg")},
+    "bandpass": {
+        "center_wavelength": Bounds("nm", 10, 1e5), "bandwidth": Bounds("nm", 1e-6, 1e5), "transmission": _SHARE,
+        "blocking": Bounds("", 0, 20), "effective_index": Bounds("", 1, 10), "thickness": Bounds("mm", 0, 1e3),
+        "refractive_index": _INDEX,
+    },
+    "isolator": {"transmission": _SHARE, "isolation": Bounds("dB", 0, 120), "output": Bounds("deg")},
     "polarizer": {
         "extinction": Bounds("", 1), "transmission": _SHARE, "refractive_index": _INDEX,
         "thickness": Bounds("mm", 0, 1e3),
@@ -111,10 +126,17 @@ def wrong_parameters(kind: ComponentType, at: Places) -> Iterator[Diagnostic]:
         yield from _form(kind, at)
     polarizing = kind.parameters.get("polarizing")
     if element == "beam_splitter" and not (polarizing and polarizing.value):
-        shares = [kind.number(name, "") or 0.0 for name in ("reflectance", "transmittance")]
-        if sum(shares) > 1 + 1e-9:
-            text = f"`reflectance` and `transmittance` are {sum(shares):g} together: more light leaves than comes"
-            yield error("value", text, hint="1 or less together", source=at("reflectance"))
+        yield from _together(kind, ("reflectance", "transmittance"), at)
+    if element == "plate_splitter":
+        yield from _together(kind, ("reflectance", "transmittance"), at)
+        yield from _together(kind, ("reflectance_below", "transmittance_below"), at)
+
+
+def _together(kind: ComponentType, names: tuple[str, str], at: Places) -> Iterator[Diagnostic]:
+    shares = sum(kind.number(name, "") or 0.0 for name in names)
+    if shares > 1 + 1e-9:
+        text = f"`{names[0]}` and `{names[1]}` are {shares:g} together: more light leaves than comes"
+        yield error("value", text, hint="1 or less together", source=at(names[0]))
 
 
 def _number(kind: ComponentType, name: str, bounds: Bounds, at: Places) -> Iterator[Diagnostic]:

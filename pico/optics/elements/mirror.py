@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from pico.optics.beam import Amplitudes, Beam, beyond
+from pico.optics.beam import Amplitudes, Beam, beyond, scaled
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.polarization import fresnel
 from pico.optics.rays import Surface
 
 
 def meet(part: Part, beam: Beam) -> Met:
-    """Reflect a beam."""
+    """Reflect a beam, off a sphere where its type has a `radius_of_curvature`, above 0 where that is hollow."""
     normal = np.array(part.optic.normal)
     came = arrived(part, beam, normal=normal)
     passed, lost = clipped(part, came, part.optic.radius)
+    radius = part.kind.number("radius_of_curvature", "mm")
+    if radius:  # away from its middle the face lies before or behind the plane at which the beam came
+        curved = Surface(part.center, normal, 1 / radius)
+        sent = beyond(scaled(beam, math.sqrt(1 - lost)), curved, reflect=True, amplitudes=amplitudes(part))
+        return Met(came, (replace(sent, unknown=passed.unknown),) if sent else (), lost)
     sent = beyond(passed, Surface(part.center, normal), reflect=True, amplitudes=amplitudes(part))
     return Met(came, (sent,) if sent else (), lost)
 

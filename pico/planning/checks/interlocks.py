@@ -17,7 +17,7 @@ from pico.model.setpoint import set_seconds
 from pico.planning.checks.beams import shutter_of
 from pico.planning.parts.phrases import listed
 
-STEERING = ("beam_splitter", "lens", "mirror", "roof_mirror", "waveplate")
+STEERING = ("beam_splitter", "lens", "mirror", "plate_splitter", "retroreflector", "roof_mirror", "waveplate")
 """Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter
 behind it. A polarizer only dims it."""
 OPEN, CLOSED = "open", "closed"

@@ -1,0 +1,35 @@
+"""A Faraday isolator: light passes along local +x, and hardly the other way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from pico.optics.beam import Beam, Wave
+from pico.optics.part import Met, Part, arrived, clipped
+from pico.optics.polarization import Field, product
+
+
+def meet(part: Part, beam: Beam) -> Met:
+    """Pass what is level along local +x, turned by 45 degrees, and `transmission` of it: the field is then at `output`
+    [deg]. What comes the other way leaves level, less by `isolation` [dB], however it is polarized."""
+    came = arrived(part, beam)
+    passed, lost = clipped(part, came, part.optic.radius)
+    ahead, left, up = part.axes
+    forward = float(came.along @ ahead) > 0
+    output = math.radians(part.number("output", "deg", 45.0))
+    leaves = math.cos(output) * left + math.sin(output) * up if forward else left
+    leaves = leaves - (leaves @ came.along) * came.along
+    leaves = leaves / np.linalg.norm(leaves)
+    enters = product(came.along, product(left, came.along))
+    enters = enters / np.linalg.norm(enters)
+    share = part.number("transmission", "", 1.0) if forward else 10 ** (-part.number("isolation", "dB", 30.0) / 10)
+
+    def behind(wave: Wave) -> Field:
+        size = complex(wave.field @ enters) if forward else complex(np.linalg.norm(wave.field))
+        return np.asarray(math.sqrt(share) * size * leaves, dtype=np.complex128)
+
+    waves = tuple(replace(w, field=behind(w)) for w in passed.waves)
+    return Met(came, (replace(passed, waves=waves),), lost)
