@@ -17,10 +17,11 @@ from pico.model.pose import Pose, angle_between
 def require_applicable(plan: Plan, able: Capabilities) -> None:
     """Raise PicoError where `plan` must not be executed by this backend, saying everything that is in the way.
 
-    Exit codes: IMPOSSIBLE for a plan with errors, STALE for another lab, else ERROR.
+    Exit codes: IMPOSSIBLE for a plan with errors (DENIED where the beam audit alone has any), STALE for another lab,
+    else ERROR.
     """
     if plan.errored:
-        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
+        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], plan.exit_code)
     if plan.lab.digest != able.lab_digest:
         raise PicoError(stale("", "the lab or its component types were edited since"), ExitCode.STALE)
     require_able(plan, able)

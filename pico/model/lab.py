@@ -212,7 +212,8 @@ class Tether:
 
 @record
 class Part:
-    """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`."""
+    """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`. `ends_beams`: this one is meant to
+    end beams (or is not), whatever its type says."""
 
     type: str
     marker: int | None = None
@@ -224,6 +225,7 @@ class Part:
     calibration: Mapping[str, float] = field(default_factory=dict)
     stage: Literal["allowed", "avoid", "never"] = "allowed"
     note: str = ""
+    ends_beams: bool | None = None
 
     def __post_init__(self) -> None:
         if (self.home is None) == (self.pose is None):
@@ -447,6 +449,12 @@ class Setup:
     def seating_of(self, component: str) -> SeatingKind:
         """Return how `component` is seated: the part's own word, else its type's."""
         return self.lab.inventory[component].seating or self.type_of(component).seating
+
+    def ends_beams(self, component: str) -> bool:
+        """Return whether `component` is meant to end beams: the part's own word, else its type's; a block is."""
+        own, optics = self.lab.inventory[component].ends_beams, self.type_of(component).optics
+        said = optics.ends_beams if own is None else own
+        return optics.element == "block" if said is None else said
 
     def movable(self, component: str) -> bool:
         """Return whether an arm may move `component`: not bolted, has a grasp, and its type says that an arm does."""
