@@ -26,12 +26,13 @@ SCANNED = 5
 @dataclass(frozen=True)
 class Lit:
     """A bench with light on it: where things stand, what they are set to, and the `lasers` that shine at some time;
-    `opened`: those of them that a plan lets out."""
+    `opened`: those of them that a plan lets out; `enclosed`: no beam leaves the enclosure around it."""
 
     poses: Mapping[str, Pose]
     values: Values
     lasers: tuple[str, ...]
     opened: frozenset[str] = frozenset()
+    enclosed: bool = False
 
 
 Judge = Callable[[Setup, Lit], Audit | None]
@@ -69,7 +70,8 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
         scanned |= op.primitive == "scan"
     lasers = lasers_of(setup, poses, values)
     apart = any(setup.type_of(name).optics.element != "source" for name in opened)
-    return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned))
+    return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned),
+               bool(setup.lab.policy.enclosed))  # fmt: skip
 
 
 def _lets_out(setup: Setup, op: Operation) -> bool:
@@ -122,12 +124,12 @@ def told_of(plan: Plan, audit: Audit, lit: Lit) -> tuple[Diagnostic, ...]:
     """Return what the audit says of a plan: errors where that opens a laser above class 2, or carries a part by."""
     revision = f" {plan.target.revision}" if plan.target.revision else ""
     drawn = "`pico beam --picture beams.png`" if plan.asked else f"`pico plan{revision} --picture beams.png`"
-    carried = {f.source for f in audit.findings if f.kind == "carried"}
+    carried = {f.source for f in audit.findings if f.kind == "carried" and not lit.enclosed}
     first = [f for f in audit.findings if f.kind == "carried"]
     rest = replace(audit, findings=tuple(f for f in audit.findings if f.kind != "carried"))
     return (
         *told(replace(audit, findings=tuple(first)), refused=frozenset(carried), drawn=drawn),
-        *told(rest, refused=lit.opened, drawn=drawn),
+        *told(rest, refused=frozenset() if lit.enclosed else lit.opened, drawn=drawn),
     )
 
 

@@ -28,7 +28,8 @@ def check_light(read: Manifests) -> tuple[Diagnostic, ...]:
         verdict = audit(setup, poses, values, lasers)
         ends = {f.source for f in verdict.findings if f.kind == "end"}
         drawn = "`pico beam --manifest --picture beams.png`"
+        refused = frozenset() if setup.lab.policy.enclosed else frozenset(lasers)
         for one in verdict.findings:
-            said = told(replace(verdict, findings=(one,)), refused=frozenset(lasers), drawn=drawn)
+            said = told(replace(verdict, findings=(one,)), refused=refused, drawn=drawn)
             found += tuple(replace(d, source=read.source(f"{one.source}.emission")) for d in said)
     return (*found, *stray_beams(setup, state, ends))
