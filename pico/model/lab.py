@@ -260,8 +260,8 @@ class Policy:
     shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico drift --watch
     --heal` may bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift.
     `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
-    a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam leaves;
-    what the beam audit finds is then only told."""
+    a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam
+    leaves; what the beam audit finds is then only told."""
 
     open_beam: bool = False
     enclosed: bool | None = None

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
@@ -110,6 +110,8 @@ def _set(setup: Setup, wanted: LabState, name: str, own: Mapping[str, Any]) -> d
 def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Judge = judge) -> tuple[Audit, Lit]:
     """Return the verdict on the light of a plan, and the bench that it is about; where no laser shines, nothing is
     traced, nor imported for it. What `judged` does not know is left out."""
+    if _dark(setup, plan, seen):
+        return Audit(lasers={}), Lit({}, {}, ())
     lit = lit_by(setup, plan, seen)
     verdicts = [judged(setup, one) for one in (lit, *_scans(setup, plan, lit))] if lit.lasers else []
     known = [verdict for verdict in verdicts if verdict is not None]
@@ -118,6 +120,18 @@ def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Judge = judge)
     classes = {n: laser_class(setup, n, lit.values.get(n, {}))[0] for n in lit.lasers}
     unsaid = sorted({name for verdict in known for name in verdict.unjudged})
     return Audit(findings=(*findings.values(), *carried), lasers=classes, unjudged=tuple(unsaid)), lit
+
+
+def require_safe(setup: Setup, plan: Plan, seen: Observation) -> None:
+    """Raise PicoError (exit code DENIED) where the audit refuses a plan on the bench as it is now."""
+    if plan.operations and (wrong := [d for d in told_of(plan, *audit_of(setup, plan, seen)) if d.severity == "error"]):
+        raise PicoError(wrong, ExitCode.DENIED)
+
+
+def _dark(setup: Setup, plan: Plan, seen: Observation) -> bool:
+    """Whether no laser shines before a plan, and it sets none."""
+    sources = [n for n in setup.lab.inventory if setup.type_of(n).optics.element == "source"]
+    return not (set(sources) & {op.component for op in plan.operations}) and not _shining(setup, seen, sources)
 
 
 def told_of(plan: Plan, audit: Audit, lit: Lit) -> tuple[Diagnostic, ...]:
@@ -149,9 +163,10 @@ def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[
     """Yield a finding for each part that an arm carries while a laser above class 2 may be open: on its way a part may
     reflect a beam anywhere, and nobody can trace that."""
     carrying = [op for op in plan.operations if op.kind.carries]
-    if not carrying or (not lit.lasers and not _shining(setup, seen)):
+    sources = [n for n in setup.lab.inventory if setup.type_of(n).optics.element == "source"]
+    lasers = sorted({*lit.lasers, *_shining(setup, seen, sources)})
+    if not carrying or not lasers:
         return
-    lasers = sorted({*lit.lasers, *_shining(setup, seen)})
     opened, told_already = open_beams(setup, plan.operations, seen, lasers), set[tuple[str, str]]()
     for op in carrying:
         for laser in opened[op.id]:
@@ -169,7 +184,8 @@ def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[
             )  # fmt: skip
 
 
-def _shining(setup: Setup, seen: Observation) -> tuple[str, ...]:
-    """Return the lasers that shine before a plan begins."""
-    there = [n for n, c in seen.components.items() if c.presence == "seen" and n in setup.lab.inventory]
-    return lasers_of(setup, there, seen.known_values)
+def _shining(setup: Setup, seen: Observation, sources: Iterable[str]) -> tuple[str, ...]:
+    """Return the lasers among `sources` that shine before a plan begins."""
+    there = [n for n in sources if n in seen.components and seen.components[n].presence == "seen"]
+    values = {n: {k: v.value for k, v in seen.components[n].values.items() if v.status == "known"} for n in there}
+    return lasers_of(setup, there, values)

@@ -16,6 +16,7 @@ from commanding import Pico
 from pico.bench.bench import Bench
 from pico.runs.journal import VERSION, Journal
 
+
 def enclose(lab: Path) -> None:
     """Say of a laboratory that no beam leaves its enclosure. That of `crowded` comes back into its laser, and since
     beams are audited no plan opens it else: that rule is newer than what is kept here, but it is about light."""

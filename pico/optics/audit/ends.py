@@ -50,17 +50,18 @@ def ending(branches: Branches, crossing: Crossing) -> str:
         return ""
     element, declared = part.kind.optics.element, branches.setup.ends_beams(name)
     if element == "source":
-        return f"comes back to {name}" if name == branches.laser else f"comes to the laser {name}"
+        comes = f"comes back to {name}" if name == branches.laser else f"comes to the laser {name}"
+        return "" if declared else comes
     if crossing.event == "detected" or crossing.clipped >= 1.0:
         return "" if declared else f"ends on {name}, which is not declared to end beams"
-    if part.optic.center is not None or not declared:
-        return f"ends on the housing of {name} at {spot(crossing)}"
-    return _beside(branches, crossing, part)
+    return _outside(branches, crossing, part)
 
 
-def _beside(branches: Branches, crossing: Crossing, part: Part) -> str:
-    """Return in words where a beam comes beside the mouth of a block; empty where that takes it. A block that gives no
-    `opening` (nor `diameter`) takes what comes to it from any side."""
+def _outside(branches: Branches, crossing: Crossing, part: Part) -> str:
+    """Return in words where a beam ends on the outside of a part; empty where that is a block, and takes it. A block
+    that gives no `opening` (nor `diameter`) takes what comes to it from any side."""
+    if part.optic.center is not None or not branches.setup.ends_beams(part.name):
+        return f"ends on the housing of {part.name} at {spot(crossing)}"
     opening = part.kind.number("opening", "mm") or part.kind.number("diameter", "mm")
     if opening is None:
         return ""
@@ -87,7 +88,7 @@ KEEPS = frozenset((
 def _hint(branches: Branches, crossing: Crossing) -> str:
     part = branches.part(crossing)
     if part is not None and part.kind.optics.element == "source":
-        return "turn what sends it back, or put a block or an isolator before it"
+        return f"turn what sends it back, or declare that its head takes it: `ends_beams: true` for {part.name}"
     if part is not None and branches.setup.ends_beams(part.name):
         return f"move {part.name} into the beam, facing it"
     return _BLOCK
