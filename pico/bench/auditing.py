@@ -35,7 +35,11 @@ def with_audit(opened: Opened, plan: Plan, seen: Observation) -> Plan:
 
     audit, lit = audit_plan(opened, plan, seen)
     found = told_of(plan, audit, lit)
-    return replace(plan, diagnostics=(*plan.diagnostics, *found)).sealed() if found else plan
+    told = {d.address for d in found}
+    rest = tuple(
+        d for d in plan.diagnostics if d.code != "beam" or d.address not in told
+    )  # the same, without a verdict
+    return replace(plan, diagnostics=(*rest, *found)).sealed() if found else plan
 
 
 def audit_plan(opened: Opened, plan: Plan, seen: Observation) -> tuple[Audit, Lit]:

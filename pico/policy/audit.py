@@ -179,8 +179,8 @@ def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[
             where = f"may be sent anywhere by {op.component} while {op.robot} carries it"
             hint = f"close the shutter of {laser} first; `policy: {{open_beam: true}}` is for lasers up to class 2"
             yield Finding(
-                kind="carried", source=laser, laser_class=of, way=(), where=where, power=power, limit=None, path=path,
-                hint=hint,
+                kind="carried", source=laser, laser_class=of, way=(), where=where, component=op.component, power=power,
+                limit=None, path=path, hint=hint,
             )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -11,7 +12,10 @@ from audited import Bench, carrying, plan_of, said, setting, shipped, states
 
 from pico.model.operation import Operation
 from pico.optics.audit.audit import audit
+from pico.optics.audit.branches import Branches
 from pico.optics.audit.limits import class_1, class_of
+from pico.optics.audit.plane import _steep, elevation
+from pico.optics.light import light_of
 from pico.policy.audit import audit_of
 
 
@@ -244,6 +248,42 @@ def test_beams_of_one_laser_that_end_together_are_added_up() -> None:
     bench = bench.without("ly_200")
     (found,) = [d.summary for d in said(bench) if "leaves the table at (400, 0)" in d.summary]
     assert "side → bs → leaves the table at (400, 0): 1.36 mW" in found.replace("far", "side")
+
+
+def test_no_turn_of_mirrors_within_their_range_lifts_a_beam_above_its_bound() -> None:
+    bench = two_folds(30.0).set("laser", emission=True, shutter="open")
+
+    def branches(changed: Bench) -> Branches:
+        light = light_of(changed.setup, changed.poses, changed.values, astray=lambda _: 0.039)
+        return Branches(changed.setup, light, "laser", "3R", 0.39)
+
+    nominal = branches(bench)
+    bounds = {nominal.light.crossings[n].component: rise for n, rise in _steep(nominal)}
+    assert set(bounds) == {"m", "end"}
+    draw, found = random.Random(1), dict.fromkeys(bounds, 0.0)
+    for _ in range(40):
+        turned = bench
+        for name in ("fold", "m"):
+            turned = turned.set(name, tip=draw.choice((-30, 0, 30)), tilt=draw.choice((-30, draw.uniform(-30, 30), 30)))
+        for crossing in branches(turned).light.crossings:
+            after = crossing.before is not None and nominal.light.crossings[crossing.before].component
+            if after in ("fold", "m"):
+                goal = "m" if after == "fold" else "end"
+                found[goal] = max(found[goal], abs(elevation(crossing)))
+    for goal, bound in bounds.items():
+        assert 0.8 * bound < found[goal] <= 1.01 * bound, goal
+
+
+@pytest.mark.parametrize(
+    ("index", "coating", "share"), [(1.5, "none", 0.04), (1.7, "none", 0.49 / 7.29), (1.5, "v", 0.005)]
+)
+def test_the_faces_of_a_window_send_back_what_fresnel_says(index: float, coating: str, share: float) -> None:
+    bench = shel().put("window", "sample_holder", 700, 420, 0, refractive_index=index, coating=coating)
+    light = light_of(bench.setup, bench.poses, bench.values, lit=lambda _: True, astray=lambda _: 1e-3)
+    (window,) = (n for n, c in enumerate(light.crossings) if c.component == "window" and not c.beam.ghost)
+    (back,) = (c for c in light.crossings if c.before == window and c.beam.ghost)
+    assert back.power == pytest.approx(2 * share * light.crossings[window].power, rel=1e-6)
+    assert back.beam.along == pytest.approx([-1, 0, 0], abs=1e-9)
 
 
 def test_a_part_without_a_threshold_is_said_to_be_unjudged() -> None:

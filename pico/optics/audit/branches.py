@@ -44,6 +44,7 @@ class Branches:
         return Finding(
             kind=kind, source=self.laser, laser_class=self.laser_class,
             way=tuple(c.component for c in way[:-1]), where=where, power=power, at=(x, y, z),
+            component=way[-1].component,
             path=tuple((round(float(p[0]), 2), round(float(p[1]), 2)) for p in points),
             **{"limit": self.limit, **more},
         )  # fmt: skip

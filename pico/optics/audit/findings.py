@@ -19,8 +19,8 @@ it."""
 @record
 class Finding:
     """One branch that is dangerous: from `source` through the parts of `way`, in order, to the point `at` [mm] that
-    `where` speaks of. `power` and `limit` [mW], the latter None where no limit is known; of `damage` both are
-    irradiances [mW/mm2]. `path`: the branch from above, as points [mm]."""
+    `where` speaks of, on a `component` or, where that is empty, off the table. `power` and `limit` [mW], the
+    latter None where no limit is known; of `damage` both are irradiances [mW/mm2]. `path`: the branch from above, as points [mm]."""
 
     kind: Kind
     source: str
@@ -29,6 +29,7 @@ class Finding:
     where: str
     power: float
     limit: float | None
+    component: str = ""
     at: tuple[float, float, float] = (0.0, 0.0, 0.0)
     path: tuple[tuple[float, float], ...] = ()
     hint: str = ""
@@ -88,7 +89,6 @@ def told(audit: Audit, *, refused: frozenset[str], drawn: str) -> tuple[Diagnost
         wrong = one.dangerous and one.source in refused
         hint = "; ".join(words for words in (one.hint, f"{drawn} draws it in red" if one.path else "") if words)
         tell = error if wrong else warning
-        name = next((part for part in reversed(one.way)), one.source)
         text = f"the beam of {one.source} (class {one.laser_class}) is not safe: {one.text}"
-        found.append(tell(AUDIT, text, hint=hint, address=name))
+        found.append(tell(AUDIT, text, hint=hint, address=one.component or one.source))
     return tuple(found)
