@@ -30,6 +30,7 @@ SMALLEST = {
     "interferometers": "--frames 1 --points 3 --size 128 96 --repeat 1",
     "kernels": "--seeds 1 --shape 1000 1200",
     "kills": "--kills 50 --applies 1 --git 9",
+    "beam_audit": "--repeat 1",
     "light": "--repeat 1",
     "links": "--kills 1",
     "locks": "--trials 1",

@@ -20,8 +20,8 @@ def validate(
     """Check the manifests.
 
     Also that everything has room where the state wants it, that an arm can grip what it is to move and reaches where
-    it belongs, and where beams end. All errors at once, each with its place. Does not ask the bench; asks Git what it
-    keeps out of the folder, and what its merge kept.
+    it belongs, and that beams end where they may. All errors at once, each with its place. Does not ask the bench; asks
+    Git what it keeps out of the folder, and what its merge kept.
 
     Examples:
       pico validate
@@ -31,7 +31,7 @@ def validate(
     from pico.history.merge.checked import overlapping
     from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
-    from pico.optics.ends import stray_beams
+    from pico.optics.audit.state import check_light
     from pico.planning.checks.bolted import check_bolted
     from pico.planning.checks.grips import check_grips, check_reach
 
@@ -42,7 +42,7 @@ def validate(
             *check_grips(read),
             *check_reach(read),
             *overlapping(read),
-            *stray_beams(*read.require()),
+            *check_light(read),
             *doubts_in(root, read),
             *waiting(root),
         ],

@@ -50,12 +50,16 @@ class Lights:
     def picture(
         self, revision: str | None = None, *, manifest: bool = False, source: str | None = None, out: Path | None = None
     ) -> Image:
-        """Return a picture (height, width, 3) from above with the beams as they run; raises PicoError."""
+        """Return a picture (height, width, 3) from above with the beams as they run, in red those that the beam audit
+        finds fault with; raises PicoError."""
         from pico.drawing.light import render_light
         from pico.drawing.picture import write_png
+        from pico.optics.audit.audit import audit
 
         setup, poses, values, _ = self._standing(revision, manifest)
-        image = render_light(setup, poses, self._traced(setup, poses, values, source)[0])
+        light = self._traced(setup, poses, values, source)[0]
+        verdict = audit(setup, poses, values, {c.beam.source for c in light.crossings})
+        image = render_light(setup, poses, light, red=[f.path for f in verdict.findings])
         if out is not None:
             write_png(image, out)
         return image

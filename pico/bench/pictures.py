@@ -65,10 +65,18 @@ class Pictures:
             marks=marks(self.folder.setup, drawn) if drawn else (),
             steps=steps(drawn) if drawn else (),
             values=values,
+            red=self._not_safe(drawn) if drawn else (),
         )
         if out is not None:
             write_png(image, out)
         return image
+
+    def _not_safe(self, plan: Plan) -> tuple[tuple[tuple[float, float], ...], ...]:
+        """Return the branches that the beam audit finds fault with in a plan, as lines [mm]."""
+        from pico.bench.auditing import audit_plan
+
+        audit, _ = audit_plan(self.opened, plan, self.opened.observe())
+        return tuple(f.path for f in audit.findings if f.path)
 
     def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:
         """Return a drawing of the bench from above as SVG at true scale, with its parts list: as it is, or as a

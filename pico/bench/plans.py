@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.bench.auditing import with_audit
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
@@ -115,7 +116,8 @@ class Plans:
         return {"backend": self.opened.backend_name, "fidelity": self.opened.fidelity, "base": base}
 
     def _judged(self, plan: Plan, seen: Observation) -> Plan:
-        """Return the plan with what the policy of the lab says of it."""
+        """Return the plan with what the beam audit and the policy of the lab say of it."""
+        plan = with_audit(self.opened, plan, seen)
         if not self.opened.setup.lab.policy.rules:
             return plan
         from pico.policy.rules import judged

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from pico.drawing.beams import Place
@@ -26,12 +26,16 @@ _SAMPLES = 24
 """Points of a leg at which the radius is drawn."""
 
 
-def render_light(setup: Setup, poses: Mapping[str, Place], light: Light, *, width: int = WIDTH) -> NDArray[np.uint8]:
-    """Return the picture (height, width, 3), sRGB: the bench from above, and a strip for each source."""
+def render_light(
+    setup: Setup, poses: Mapping[str, Place], light: Light, *, width: int = WIDTH,
+    red: Sequence[Sequence[tuple[float, float]]] = (),
+) -> NDArray[np.uint8]:  # fmt: skip
+    """Return the picture (height, width, 3), sRGB: the bench from above, and a strip for each source. `red`: branches
+    that are not safe."""
     import numpy as np
 
     lines = [line for number in range(len(light.crossings)) for line in _lines(light, number)]
-    canvas = drawn(setup, poses, {}, width=width, height=None, ghosts={}, labels=True, beams=lines)
+    canvas = drawn(setup, poses, {}, width=width, height=None, ghosts={}, labels=True, beams=lines, red=red)
     strips = [_strip(light, source, width) for source in dict.fromkeys(c.beam.source for c in light.crossings)]
     return np.vstack([canvas.finished(), *strips])
 

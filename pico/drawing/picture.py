@@ -54,6 +54,7 @@ def render(
     marks: Sequence[Mark] = (),
     steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
+    red: Sequence[Sequence[tuple[float, float]]] = (),
     values: Values | None = None,
 ) -> Image:
     """Return a picture (height, width, 3) of the bench, sRGB; without a `height` as high as what is in it.
@@ -62,14 +63,15 @@ def render(
     missing are not drawn. `joints`: of each robot [rad], parked where missing. `beams`: draw the light of sources up to
     what stops it; with `values`, as those say: mirrors tipped, nothing of a laser that is off. In the view from above
     only: `ghosts`, where components are to go, dashed; `marks`, what is in whose way, red; `steps`, what is moved
-    where, numbered, with a list below that makes the picture higher; `dimensions`, lengths.
+    where, numbered, with a list below that makes the picture higher; `dimensions`, lengths; `red`, beams that
+    are not safe.
     """
     if view == "top":
         from pico.drawing.topview import draw
 
         return draw(
             setup, poses, joints, width=width, height=height, ghosts=ghosts or {}, labels=labels, beams=beams,
-            values=values, marks=marks, steps=steps, dimensions=dimensions,
+            values=values, marks=marks, steps=steps, dimensions=dimensions, red=red,
         )  # fmt: skip
     light = glow(setup, poses, values=values) if beams else ()
     return _perspective(carried(setup, values or {}), poses, joints, width, height, labels, light)

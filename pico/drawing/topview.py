@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _PAPER, _TABLE, _EDGE = (252, 252, 253), (240, 242, 245), (120, 128, 138)
 _HOLES, _INK, _FAINT = (212, 216, 222), (34, 40, 49), (126, 134, 146)
 _REGION, _SLOT, _REACH = (226, 235, 246), (168, 176, 187), (122, 152, 190)
-_BEAM, _FORBIDDEN = (224, 36, 36), (196, 60, 60)
+_BEAM, _FORBIDDEN, _PALE = (224, 36, 36), (196, 60, 60), (240, 178, 170)
 _ARM = (150, 164, 184)
 _COLORS: dict[str, Color] = {
     "source": (42, 74, 128),
@@ -45,6 +45,7 @@ _COLORS: dict[str, Color] = {
     "none": (104, 112, 124),
 }
 _OPTIC_WIDTH = 3.0  # pixels
+_END = 9.0  # mm, of the circle where a line that nobody must miss ends
 REACH_LEGEND = "dashed arcs: reach of the arm · tick: where a component faces"
 _PLATE = 36.0  # mm, half of what is drawn for a slot
 _LENS = 16.0  # mm, of a camera's circle
@@ -67,11 +68,12 @@ def draw(
     marks: Sequence[Mark] = (),
     steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
+    red: Sequence[Sequence[Point]] = (),
 ) -> NDArray[np.uint8]:
     """Return the drawing (height, width, 3); see `pico.drawing.picture.render`."""
     canvas = drawn(
         setup, poses, joints, width=width, height=height, ghosts=ghosts, labels=labels, beams=beams, values=values,
-        marks=marks, steps=steps, dimensions=dimensions,
+        marks=marks, steps=steps, dimensions=dimensions, red=red,
     )  # fmt: skip
     return with_list(canvas.finished(), steps, 0.95 * letters(width, height))
 
@@ -99,9 +101,10 @@ def drawn(
     marks: Sequence[Mark] = (),
     steps: Sequence[DrawnStep] = (),
     dimensions: Sequence[Dimension] = (),
+    red: Sequence[Sequence[Point]] = (),
 ) -> Canvas:
     """Return the canvas with everything on it but the list of the steps. `beams`: those of the sources, or these lines
-    [mm]."""
+    [mm]; `red`: lines of points [mm] that nobody must miss, beside which other beams are pale."""
     canvas, size = new_canvas(setup, width, height), letters(width, height)
     _draw_table(canvas, setup)
     _draw_areas(canvas, setup)
@@ -112,11 +115,14 @@ def drawn(
     if isinstance(beams, bool):
         beams = [(start[:2], end[:2]) for _, start, end in beam_paths(setup, poses, values)] if beams else ()
     for start, end in beams:
-        canvas.line((start, end), _BEAM, 1.2)
+        canvas.line((start, end), _PALE if red else _BEAM, 1.2)
         canvas.occupy_line(start, end)
     places = flat(poses)
     for name, pose in sorted(places.items()):
         _draw_component(canvas, setup, name, pose, (values or {}).get(name, {}))
+    for line in red:
+        canvas.line(line, _BEAM, 3.0)
+        canvas.line(circle(line[-1], _END, 24), _BEAM, 3.0, closed=True)
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model == "xarm7":
             _draw_arm(canvas, name, robot, joints.get(name), size)

@@ -17,10 +17,11 @@ from pico.model.pose import Pose, angle_between
 def require_applicable(plan: Plan, able: Capabilities) -> None:
     """Raise PicoError where `plan` must not be executed by this backend, saying everything that is in the way.
 
-    Exit codes: IMPOSSIBLE for a plan with errors, STALE for another lab, else ERROR.
+    Exit codes: IMPOSSIBLE for a plan with errors (DENIED where the beam audit alone has any), STALE for another lab,
+    else ERROR.
     """
     if plan.errored:
-        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
+        raise PicoError([d for d in plan.diagnostics if d.severity == "error"], plan.exit_code)
     if plan.lab.digest != able.lab_digest:
         raise PicoError(stale("", "the lab or its component types were edited since"), ExitCode.STALE)
     require_able(plan, able)
@@ -35,11 +36,14 @@ def require_able(plan: Plan, able: Capabilities) -> None:
 
 def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
     """Raise PicoError (exit code DENIED) where a mandatory rule of the lab does not hold of `plan` on the bench as it
-    is now; and where the state expects what makes no sense."""
+    is now, or the beam audit refuses it; and where the state expects what makes no sense."""
+    from pico.policy.audit import require_safe
+
     if plan.target.expect and not plan.target.scope:
         from pico.policy.expectations import require_expressions
 
         require_expressions(setup, [one.that for one in plan.target.expect])
+    require_safe(setup, plan, seen)
     if setup.lab.policy.rules:
         from pico.policy import rules
 

@@ -293,6 +293,8 @@ def _waves(value: float | str) -> float | None:
 class OpticalElement:
     """What a component does to light, by the name of an element; by how much its type's parameters say.
 
+    `ends_beams`: whether it is meant to end any beam that comes to it within its aperture, as blocks are by their
+    element; an iris or a shutter does so on its leaves.
     `properties`: those parameters once more, as types of the first release have them. They are lifted on load, see
     `lifted`, and nothing reads them but the digest of a lab. `lines`: the spectrum of a source; without, it is one line
     without a width at its parameter `wavelength`.
@@ -301,6 +303,7 @@ class OpticalElement:
     element: str
     properties: Mapping[str, Value] = field(default_factory=dict)
     lines: tuple[SpectralLine, ...] | None = None
+    ends_beams: bool | None = None
 
 
 @record
@@ -389,6 +392,16 @@ _SINCE: Mapping[tuple[str, str], Value] = {
     ("detector", "dark_current"): 1,
 }
 """What types of the catalog say since light is simulated, of parts that are the same as before."""
+_THRESHOLDS: Mapping[str, Mapping[str, Value]] = {
+    "detector": {"beam_camera": 500, "photodiode": 100, "power_meter": 200},
+    "lens": {"": 10000},
+    "mirror": {"": 5000},
+    "polarizer": {"": 1000},
+    "waveplate": {"": 10000},
+    "beam_splitter": {"": 5000},
+    "filter": {"": 500},
+}
+"""Damage thresholds that the types of the catalog give since beams are audited, by element and type."""
 _SCALES = {"nW": 1e-6}  # to mW
 
 
@@ -410,12 +423,16 @@ def as_first_written(kind: ComponentType) -> ComponentType:
         written = {n: _plain(parameter) for n, parameter in found.items()}
         alone = {n for n in written if (element, n) in _THERE_ALONE}
     own = {n: p for n, p in kind.parameters.items() if n not in alone and _SINCE.get((element, n)) != p.value}
+    threshold, known = own.get("damage_threshold"), _THRESHOLDS.get(element, {})
+    if threshold is not None and threshold.value == known.get(kind.name, known.get("")):
+        own.pop("damage_threshold")
     measured = {n: m for n, m in kind.measurables.items() if m.kernel is None and n != "dark"}  # the rest is computed
     for name, one in measured.items():  # a lab without a lamp has nothing to switch
         measured[name] = replace(one, needs={k: v for k, v in one.needs.items() if k != "illumination"})
     can = tuple(p for p in kind.primitives if p != "auto_range")
     return replace(
-        kind, parameters=own, measurables=measured, primitives=can, optics=replace(kind.optics, properties=written)
+        kind, parameters=own, measurables=measured, primitives=can,
+        optics=replace(kind.optics, properties=written, ends_beams=None),
     )  # fmt: skip
 
 

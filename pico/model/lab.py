@@ -213,7 +213,8 @@ class Tether:
 @record
 class Part:
     """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`. `parameters`: of its own, where
-    they are others than its type's, such as the focal length of one of many lenses."""
+    they are others than its type's, such as the focal length of one of many lenses. `ends_beams`: this one is meant to
+    end beams (or is not), whatever its type says."""
 
     type: str
     marker: int | None = None
@@ -226,6 +227,7 @@ class Part:
     stage: Literal["allowed", "avoid", "never"] = "allowed"
     note: str = ""
     parameters: Mapping[str, Value] | None = None
+    ends_beams: bool | None = None
 
     def __post_init__(self) -> None:
         if (self.home is None) == (self.pose is None):
@@ -260,9 +262,11 @@ class Policy:
     shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico drift --watch
     --heal` may bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift.
     `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
-    a warning, or with `strict` a conflict."""
+    a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam
+    leaves; what the beam audit finds is then only told."""
 
     open_beam: bool = False
+    enclosed: bool | None = None
     rules: tuple[PolicyRule, ...] = ()
     heal: bool = False
     ignore: tuple[str, ...] = ()
@@ -452,6 +456,12 @@ class Setup:
     def seating_of(self, component: str) -> SeatingKind:
         """Return how `component` is seated: the part's own word, else its type's."""
         return self.lab.inventory[component].seating or self.type_of(component).seating
+
+    def ends_beams(self, component: str) -> bool:
+        """Return whether `component` is meant to end beams: the part's own word, else its type's; a block is."""
+        own, optics = self.lab.inventory[component].ends_beams, self.type_of(component).optics
+        said = optics.ends_beams if own is None else own
+        return optics.element == "block" if said is None else said
 
     def movable(self, component: str) -> bool:
         """Return whether an arm may move `component`: not bolted, has a grasp, and its type says that an arm does."""

@@ -14,6 +14,8 @@ from pico.model.record import Document, Format, as_json, canonical, digest, reco
 from pico.model.state import Expectation
 
 FORMAT = Format("pico.plan")
+AUDIT = "beam-audit"
+"""The code of what the beam audit tells: a plan is denied for it, though nothing physical is in its way."""
 
 
 @record
@@ -111,7 +113,9 @@ class Plan:
     @property
     def exit_code(self) -> ExitCode:
         """Why the plan can't be run, or DONE."""
-        return ExitCode.IMPOSSIBLE if self.errored else ExitCode.DENIED if self.denied else ExitCode.DONE
+        if any(d.severity == "error" and d.code != AUDIT for d in self.diagnostics):
+            return ExitCode.IMPOSSIBLE
+        return ExitCode.DENIED if self.errored or self.denied else ExitCode.DONE
 
     @property
     def denied(self) -> bool:

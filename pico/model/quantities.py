@@ -43,7 +43,7 @@ _DIMENSIONS = {
     "[mass]": "mass",
     "[mass] * [length] ** 2 / [time] ** 3": "power",
 }
-_OTHERS = frozenset({"%", "A", "A/W", "V", "V/A", "bit", "count", "dB", "nW", "pixel"})
+_OTHERS = frozenset({"%", "A", "A/W", "V", "V/A", "bit", "count", "dB", "mW/mm^2", "nW", "pixel"})
 """Units besides that component types have: known without an import of pint."""
 # What may follow a number: units with one exponent each. Anything else never reaches pint, which evaluates powers.
 _UNIT = re.compile(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.lab import Setup
@@ -11,12 +11,16 @@ from pico.model.state import LabState, place_of
 from pico.optics.axis import Meeting, beams
 
 
-def stray_beams(setup: Setup, state: LabState) -> tuple[Diagnostic, ...]:
+def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tuple[Diagnostic, ...]:
     """Return a warning for each beam of a laser that the state turns on, where it leaves the table or ends on a part
-    that is no block: shutters count as open."""
+    that is no block: shutters count as open. `but`: not of these lasers."""
     poses = {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
     values = {name: part.values for name, part in state.components.items()}
-    on = (axis for axis in beams(setup, poses, values) if values.get(axis.source, {}).get("emission") is True)
+    on = (
+        axis
+        for axis in beams(setup, poses, values)
+        if values.get(axis.source, {}).get("emission") is True and axis.source not in but
+    )
     return tuple(found for axis in on for end in axis.meetings for found in stray(setup, axis.source, end))
 
 

@@ -24,7 +24,7 @@ from pico.optics.coherence import dispersed
 from pico.optics.emission import emit
 from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
-from pico.optics.part import Element, Met, Part
+from pico.optics.part import Element, Met, Part, Straying
 
 FAINT = 1e-10
 """The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
@@ -34,6 +34,10 @@ _WINGS = 2.5
 """Radii of a beam from its chief ray within which light is looked for: beyond are 4e-6 of it."""
 MOST = 256
 """Stretches after which a beam that goes round and round is followed no more."""
+MOST_ASTRAY = 1024
+"""The same where reflections of coated faces are followed, too."""
+Least = Callable[[Beam], float]
+"""The power [mW] below which what comes of a source's beam is followed no more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,12 +133,14 @@ def element(name: str) -> Element:
 
 
 def light_of(
-    setup: Setup, poses: Mapping[str, Pose], values: Values | None = None, *, lit: Callable[[str], bool] | None = None
-) -> Light:
+    setup: Setup, poses: Mapping[str, Pose], values: Values | None = None, *, lit: Callable[[str], bool] | None = None,
+    astray: Least | None = None,
+) -> Light:  # fmt: skip
     """Return the light of the sources among what stands at `poses`.
 
     `values`: tunables by component, in the units of the catalog; those of shutters, stages, mirrors, irises, polarizers
     and wave plates count. `lit`: which sources shine; without, all that `values` do not say are off or shut.
+    `astray`: follow what faces of glass send astray, too, and all down to so many mW; without, down to `FAINT`.
     """
     known = values or {}
     parts = {name: _part(setup, name, pose, known) for name, pose in poses.items()}
@@ -144,9 +150,9 @@ def light_of(
     for name in sorted(parts):
         if parts[name].kind.optics.element == "source" and shines(name):
             begun = len(crossings)
-            follow = _followed(setup.lab.table.size, parts, name, begun)
+            follow = _followed(setup.lab.table.size, parts, name, begun, astray)
             for crossing in follow:
-                if len(crossings) - begun == MOST:
+                if len(crossings) - begun == (MOST_ASTRAY if astray else MOST):
                     endless.append(name)
                     break
                 crossings.append(crossing)
@@ -165,14 +171,16 @@ def _part(setup: Setup, name: str, pose: Pose, values: Values) -> Part:
     return Part(name, kind, own, pose, optic_of(kind, name, pose, seen))
 
 
-def _followed(table: tuple[float, float], parts: Mapping[str, Part], source: str, begun: int) -> Iterator[Crossing]:
+def _followed(
+    table: tuple[float, float], parts: Mapping[str, Part], source: str, begun: int, astray: Least | None
+) -> Iterator[Crossing]:
     """Yield the crossings of a source's beam, breadth first; the first has the number `begun`."""
     optics = [part.optic for part in parts.values()]
     first = emit(parts[source])
-    least, number = FAINT * first.power, begun
+    least, number = astray(first) if astray else FAINT * first.power, begun
     rays: list[tuple[Beam, str, int | None]] = [(first, source, None)]
     for beam, leaves, before in rays:
-        crossing, onward = _crossing(table, parts, optics, beam, leaves, before)
+        crossing, onward = _crossing(table, parts, optics, beam, leaves, before, astray is not None)
         yield crossing
         rays += [(b, crossing.component, number) for b in onward if b.power > least]
         number += 1
@@ -180,9 +188,9 @@ def _followed(table: tuple[float, float], parts: Mapping[str, Part], source: str
 
 def _crossing(
     table: tuple[float, float], parts: Mapping[str, Part], optics: list[Optic], beam: Beam, leaves: str,
-    before: int | None,
+    before: int | None, astray: bool,
 ) -> tuple[Crossing, tuple[Beam, ...]]:  # fmt: skip
-    """Return what a beam comes to next, and the beams that go on from there."""
+    """Return what a beam comes to next, and the beams that go on from there, with those that go `astray`."""
     ray = Ray(_point(beam.at), _point(beam.along), beam.length, leaves)
     optic, event, far = first_met(table, optics, ray)
     met = Met(forward(beam, far))
@@ -195,7 +203,14 @@ def _crossing(
             met, event = partly, beside
     onward = sum(b.power for b in met.onward)
     name = optic.name if optic else ""
-    return Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, before), met.onward
+    crossing = Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, before)
+    return crossing, (*met.onward, *_strays(parts[name], beam, met)) if astray and met.onward else met.onward
+
+
+def _strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what a part sends astray, none of an element that does not say."""
+    found = element(part.kind.optics.element)
+    return cast(Straying, found).strays(part, beam, met) if hasattr(found, "strays") and met.clipped < 1.0 else ()
 
 
 def _point(vector: NDArray[np.float64]) -> tuple[float, float, float]:

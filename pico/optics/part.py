@@ -96,6 +96,14 @@ class Element(Protocol):
         ...
 
 
+class Straying(Element, Protocol):
+    """A file of an element that sends beams astray, too; see `pico.optics.strays`."""
+
+    def strays(self, part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+        """Return the beams that a component sends astray of one that it has met, beside those of `met`."""
+        ...
+
+
 def arrived(part: Part, beam: Beam, *, at: Vector | None = None, normal: Vector | None = None) -> Beam:
     """Return a beam where its chief ray meets the plane of an element: that across its axis through its center."""
     across = part.axes[0] if normal is None else normal

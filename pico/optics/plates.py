@@ -33,7 +33,7 @@ def plate(part: Part, came: Beam) -> tuple[Beam, ...]:
 
 
 def _bare(before: Beam, front: Surface, rear: Surface, index: float) -> tuple[Beam, ...]:
-    enters, leaves = _faces(1.0, index), _faces(index, 1.0)
+    enters, leaves = faces(1.0, index), faces(index, 1.0)
     inside = beyond(before, front, amplitudes=enters[1])
     if inside is None:
         return ()
@@ -50,7 +50,7 @@ def _bare(before: Beam, front: Surface, rear: Surface, index: float) -> tuple[Be
     return tuple(b for b in (main, *(replace(g, ghost=True) for g in ghosts if g)) if b)
 
 
-def _faces(before: float, after: float) -> tuple[Amplitudes, Amplitudes]:
+def faces(before: float, after: float) -> tuple[Amplitudes, Amplitudes]:
     """Return the amplitudes that a face sends back and lets through, of which the squares are shares of the power."""
 
     def back(cosine: float) -> tuple[complex, complex]:

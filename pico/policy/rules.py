@@ -12,6 +12,7 @@ from pico.model.lab import PolicyRule, Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, spoken_of, values_of
+from pico.policy.audit import audit_of
 from pico.policy.context import policy_values
 from pico.policy.expectations import shown
 from pico.policy.reaching import reaching
@@ -41,6 +42,9 @@ def verdicts(setup: Setup, plan: Plan, seen: Observation) -> tuple[Mapping[str, 
     spoken = [n for n in spoken_of(setup, (rule.that for rule in rules)) if n not in POLICY_NAMES]
     values, unknown = values_of(setup, seen, spoken)
     values |= policy_values(setup, plan, seen)
+    if any("audit" in rule.that for rule in rules):
+        audit, _ = audit_of(setup, plan, seen)
+        values["audit"] = {"passes": audit.passes, "findings": [f.text for f in audit.findings]}
     if seen.person is not None:
         values["human_present"] = seen.person
     language = Language({**names_of(setup, spoken), **POLICY_NAMES}, functions_of(setup, seen, reaching(setup, seen)))

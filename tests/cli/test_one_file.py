@@ -122,7 +122,7 @@ def test_a_type_of_one_file_is_listed_checked_planned_and_moved(
     shutil.copytree(labs_dir() / "minimal", lab)
     monkeypatch.chdir(lab)
     edit(lab / "lab.yaml", "  lens:\n", "  hole: {type: pinhole_25, marker: 2, home: storage/a1}\n  lens:\n")
-    edit(lab / "state" / "table.yaml", "  lens: ", "  hole: {pose: {x: 560, y: 420, yaw: 90}}\n  lens: ")
+    edit(lab / "state" / "table.yaml", "  lens: ", "  hole: {pose: {x: 560, y: 340, yaw: 90}}\n  lens: ")
     assert "pinhole_25" in pico("catalog", "list").out
     assert pico("validate").code == 0
     plan = pico("plan", "--json").data

@@ -16,6 +16,14 @@ from commanding import Pico
 from pico.bench.bench import Bench
 from pico.runs.journal import VERSION, Journal
 
+
+def enclose(lab: Path) -> None:
+    """Say of a laboratory that no beam leaves its enclosure. That of `crowded` comes back into its laser, and since
+    beams are audited no plan opens it else: that rule is newer than what is kept here, but it is about light."""
+    table = lab / "lab.yaml"
+    table.write_text(table.read_text().replace("inventory:\n", "policy: {enclosed: true}\ninventory:\n"))
+
+
 EACH = pytest.mark.parametrize("kept", keeping.LABS, ids=lambda path: f"{path.parent.name}-{path.name}")
 SMALL = pytest.mark.parametrize(
     "kept",
@@ -50,6 +58,8 @@ def test_it_is_told_as_the_version_that_made_it_told_it(kept: Path, lab: Path, p
 
 @SMALL
 def test_its_goals_are_reached(kept: Path, lab: Path, pico: Pico) -> None:
+    if kept.name == "crowded":
+        enclose(lab)
     told = pico("recover", "--auto-approve")
     assert told.code == 0 or "nothing to recover" in told.err, told
     for goal in ("main", *sorted(known(kept)["plans"])[-2:]):
@@ -70,6 +80,8 @@ def test_a_killed_run_is_taken_up_again(tmp_path: Path, monkeypatch: pytest.Monk
     killed = next(path for path in keeping.LABS if path.name == "crowded")
     keeping.restore(killed, tmp_path / "lab")
     monkeypatch.chdir(tmp_path / "lab")
+    assert pico("resume", "--auto-approve").code == 7
+    enclose(tmp_path / "lab")
     assert pico("resume", "--auto-approve").code == 0
     assert pico("plan", "exchange", "--detailed-exitcode").code == 0
 

@@ -42,7 +42,7 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "refractive_index": _INDEX, "transmission": _SHARE, "cylinder_axis": Bounds("deg"),
     },
     "mirror": {
-        "reflectance": _SHARE, "retardance": Bounds("deg"), "refractive_index": _INDEX,
+        "reflectance": _SHARE, "transmittance": _SHARE, "retardance": Bounds("deg"), "refractive_index": _INDEX,
         "radius_of_curvature": Bounds("mm", zero=False),
         "extinction_coefficient": Bounds("", 0, 100),
     },
@@ -83,10 +83,14 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     },
 }  # fmt: skip
 """The numbers of a type that light is computed from, by its element."""
-ANYWHERE: Mapping[str, Bounds] = {"clear_diameter": _LENGTH, "stray_irradiance": Bounds("nW/mm^2", 0)}
+ANYWHERE: Mapping[str, Bounds] = {
+    "clear_diameter": _LENGTH, "stray_irradiance": Bounds("nW/mm^2", 0), "face_reflectance": _SHARE,
+    "damage_threshold": Bounds("mW/mm^2", 1e-9),
+}  # fmt: skip
 """Those of a type of any element."""
 WORDS: Mapping[tuple[str, str], tuple[str, ...]] = {
-    ("polarizer", "substrate"): ("film", "ar_glass", "glass"), ("lens", "form"): ("plano", "bi"),
+    ("polarizer", "substrate"): ("film", "ar_glass", "glass"), ("polarizer", "rejected"): ("absorbed", "reflected"),
+    ("lens", "form"): ("plano", "bi"),
 }  # fmt: skip
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from pico.optics.beam import Beam, beyond
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.rays import Surface
+from pico.optics.strays import GLASS, astray, face, passing
 
 
 def meet(part: Part, beam: Beam) -> Met:
@@ -30,3 +31,16 @@ def meet(part: Part, beam: Beam) -> Met:
     on = beyond(passed, coating, amplitudes=lambda _: (t_s, t_p))
     sent = beyond(passed, coating, reflect=True, amplitudes=lambda _: (1j * r_s, -1j * r_p))
     return Met(came, tuple(b for b in (on, sent) if b is not None and b.waves), lost)
+
+
+def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what the faces of the cube send back: that where light comes in, and each where it goes out, of which the
+    coating makes two."""
+    back, _ = face(part, 1.0, part.number("refractive_index", "", GLASS))
+    found: list[Beam] = []
+    for one, enters in ((passing(met), True), *((b, False) for b in met.onward)):
+        square = max(part.axes[:2], key=lambda axis: abs(float(axis @ one.along)))
+        sent = beyond(one, Surface(one.at, square), reflect=True, amplitudes=back)
+        if sent is not None:
+            found += [sent] if enters else meet(part, sent).onward
+    return astray(*found)

@@ -13,6 +13,7 @@ from pico.optics.beam import Beam, beyond, level, scaled
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.polarization import Vector, carried, joined, plane_of_incidence, product, split
 from pico.optics.rays import Surface
+from pico.optics.strays import GLASS, astray, face, of_plate
 
 
 def surfaces(part: Part, edge: float) -> tuple[Surface, ...]:
@@ -98,3 +99,21 @@ def thin(came: Beam, center: Vector, axis: Vector, bends: Vector) -> Beam:
         replace(w, field=joined(*split(w.field, came.along, s), along, s), shift=back @ w.shift) for w in came.waves
     )
     return replace(came, along=along, across=across, curvature=curvature, waves=waves)
+
+
+def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what the two faces of a lens send back, and the ghost of both; of a thin one as of a flat plate."""
+    ways = surfaces(part, part.optic.radius + met.came.widths[0])
+    if not ways:
+        return of_plate(part, met)
+    begun = scaled(beam, math.sqrt(1.0 - met.clipped))
+    first, last = ways if beam.along @ part.axes[0] > 0 else ways[::-1]
+    glass = part.number("refractive_index", "", GLASS)
+    (sends, lets), (keeps, frees) = face(part, 1.0, glass), face(part, glass, 1.0)
+    entered = beyond(begun, first, amplitudes=lets)
+    back = entered and beyond(entered, last, reflect=True, amplitudes=keeps)
+    again = back and beyond(back, first, reflect=True, amplitudes=keeps)
+    return astray(
+        beyond(begun, first, reflect=True, amplitudes=sends), back and beyond(back, first, amplitudes=frees),
+        again and beyond(again, last, amplitudes=frees),
+    )  # fmt: skip

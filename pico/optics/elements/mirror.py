@@ -12,6 +12,7 @@ from pico.optics.beam import Amplitudes, Beam, beyond, scaled
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.polarization import fresnel
 from pico.optics.rays import Surface
+from pico.optics.strays import astray, passing
 
 
 def meet(part: Part, beam: Beam) -> Met:
@@ -38,3 +39,9 @@ def amplitudes(part: Part) -> Amplitudes:
     size = math.sqrt(part.number("reflectance", "", 1.0))
     late = cmath.exp(1j * math.radians(part.number("retardance", "deg", 0.0)))
     return lambda cosine: (-size, size * late)
+
+
+def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what passes a mirror: its `transmittance`, none where its type does not say."""
+    share = part.number("transmittance", "", 0.0)
+    return astray(scaled(passing(met), math.sqrt(share))) if share else ()

@@ -6,10 +6,14 @@ import math
 from dataclasses import replace
 from typing import cast
 
-from pico.optics.beam import Beam
+import numpy as np
+
+from pico.optics.beam import Beam, beyond, scaled
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.plane_waves import Substrate, linear, polarized
 from pico.optics.plates import plate
+from pico.optics.rays import Surface
+from pico.optics.strays import astray, of_plate, passing
 
 
 def meet(part: Part, beam: Beam) -> Met:
@@ -27,3 +31,16 @@ def meet(part: Part, beam: Beam) -> Met:
     if why and not behind.unknown:
         behind = replace(behind, unknown=f"{why}: what {part.name} makes of it is more than its axis turning evenly")
     return Met(came, plate(part, behind), lost)
+
+
+def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what its faces send back, and where it says `rejected: reflected` what it does not pass, sent by `fold`
+    degrees (90) to its left; a film absorbs that."""
+    came = passing(met)
+    lost = came.power - sum(b.power for b in met.onward)
+    if part.word("rejected", "absorbed") != "reflected" or lost <= 0:
+        return of_plate(part, met)
+    facing = math.radians(part.pose.yaw + part.number("fold", "deg", 90.0) / 2 + 90.0)
+    coating = Surface(part.center, np.array([math.cos(facing), math.sin(facing), 0.0]))
+    sent = beyond(scaled(came, math.sqrt(lost / came.power)), coating, reflect=True)
+    return (*of_plate(part, met), *astray(sent))

@@ -12,6 +12,7 @@ from pico.optics.beam import Beam, scaled
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.plates import plate
 from pico.optics.polarization import Vector, product
+from pico.optics.strays import of_plate
 
 
 def meet(part: Part, beam: Beam) -> Met:
@@ -35,3 +36,8 @@ def retarded(beam: Beam, fast: Vector, phase: float) -> Beam:
     early, late = cmath.exp(-0.5j * phase), cmath.exp(0.5j * phase)
     parts = ((w, w.field @ seen, w.field @ slow) for w in beam.waves)
     return replace(beam, waves=tuple(replace(w, field=early * a * seen + late * b * slow) for w, a, b in parts))
+
+
+def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what its faces send back."""
+    return of_plate(part, met)

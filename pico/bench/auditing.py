@@ -1,0 +1,95 @@
+"""The beam audit of a bench, and what it said before: `.pico/audit.json`, by a digest of lab, types and state.
+
+It may be deleted at any time; one that is damaged answers nothing.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.bench.opened import Opened
+from pico.disk import write_whole
+from pico.model.observation import Observation
+from pico.model.plan import Plan
+from pico.model.record import as_json, digest
+from pico.optics.audit.findings import Audit, audit_from_json
+
+if TYPE_CHECKING:
+    from pico.model.lab import Setup
+    from pico.policy.audit import Lit
+
+VERSION = 1
+"""Of the rules of the audit; a verdict by others is not believed."""
+MOST = 32
+"""So many verdicts are kept, the newest."""
+
+
+def with_audit(opened: Opened, plan: Plan, seen: Observation) -> Plan:
+    """Return a plan with what the beam audit says of it, sealed anew where that is anything. One that does nothing is
+    told what is known already: nothing is traced for it."""
+    from pico.policy.audit import told_of
+
+    audit, lit = audit_plan(opened, plan, seen)
+    found = told_of(plan, audit, lit)
+    told = {d.address for d in found}
+    rest = tuple(
+        d for d in plan.diagnostics if d.code != "beam" or d.address not in told
+    )  # the same, without a verdict
+    return replace(plan, diagnostics=(*rest, *found)).sealed() if found else plan
+
+
+def audit_plan(opened: Opened, plan: Plan, seen: Observation) -> tuple[Audit, Lit]:
+    """Return the verdict on the light of a plan, and the bench that it is about; kept, so that it is found once."""
+    from pico.policy.audit import audit_of
+
+    def judged(setup: Setup, lit: Lit) -> Audit | None:
+        return known_or_found(opened.root, setup, lit, find=bool(plan.operations))
+
+    return audit_of(opened.setup, plan, seen, judged)
+
+
+def known_or_found(root: Path, setup: Setup, lit: Lit, *, find: bool) -> Audit | None:
+    """Return the verdict that is kept of a bench with light on it; where there is none, find and keep it, or None."""
+    path = root / ".pico" / "audit.json"
+    known, key = _read(path), _key(setup, lit)
+    if key in known:
+        try:
+            return audit_from_json(known[key])
+        except (KeyError, TypeError, ValueError):
+            pass
+    if not find:
+        return None
+    from pico.policy.audit import judge
+
+    audit = judge(setup, lit)
+    kept = {**dict(list(known.items())[-MOST + 1 :]), key: as_json(audit)}
+    _write(path, {"version": VERSION, "audits": kept})
+    return audit
+
+
+def _key(setup: Setup, lit: Lit) -> str:
+    lab = setup.lab
+    bench = {"table": lab.table, "inventory": lab.inventory, "catalog": setup.catalog}
+    return digest([VERSION, bench, lit.poses, lit.values, lit.lasers])
+
+
+def _read(path: Path) -> Mapping[str, Any]:
+    try:
+        content = json.loads(path.read_bytes())
+        return dict(content["audits"]) if content["version"] == VERSION else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def _write(path: Path, content: Mapping[str, Any]) -> None:
+    from pico.diagnostics import PicoError
+
+    try:
+        path.parent.mkdir(exist_ok=True)
+        write_whole(path, json.dumps(content).encode())
+    except (OSError, PicoError):
+        pass  # a folder that can't be written keeps nothing

@@ -1,0 +1,63 @@
+"""The beam audit: every branch of every laser that shines, judged.
+
+Light is followed as `pico.optics.light` does, with what faces of glass send astray (`pico.optics.strays`), down to a
+tenth of the class 1 limit: ten branches below that would have to meet. Where no limit is known a millionth of the
+laser's power is followed, and every branch counts. The limits are those of IEC 60825-1, see `pico.optics.audit.limits`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from functools import partial
+
+from pico.model.lab import Setup
+from pico.model.pose import Pose
+from pico.optics.audit.branches import Branches
+from pico.optics.audit.damage import damaged, unjudged
+from pico.optics.audit.ends import open_ends
+from pico.optics.audit.findings import Audit, Finding
+from pico.optics.audit.lasers import lasers_of
+from pico.optics.audit.limits import class_1, class_of
+from pico.optics.audit.plane import out_of_plane
+from pico.optics.axis import Values
+from pico.optics.beam import Beam
+from pico.optics.light import Light, light_of
+
+FOLLOWED = 0.1
+"""The share of the class 1 limit below which a branch is followed no more."""
+STRICT = 1e-6
+"""The same as a share of the laser's power, where no limit is known."""
+
+
+def audit(setup: Setup, poses: Mapping[str, Pose], values: Values, lasers: Collection[str] | None = None) -> Audit:
+    """Return the verdict on the light among what stands at `poses`, tunables set to `values` in the units of the
+    catalog; of these `lasers`, else of those that shine."""
+    lit = tuple(sorted(lasers)) if lasers is not None else lasers_of(setup, poses, values)
+
+    def traced(laser: str, changed: Values) -> Light:
+        return light_of(setup, poses, changed, lit=lambda name: name == laser, astray=_least)
+
+    found: list[Finding] = []
+    classes, unsaid = {}, set[str]()
+    for laser in lit:
+        light = traced(laser, values)
+        if not light.crossings:
+            continue
+        first = light.crossings[0]
+        wavelength = first.beam.wavelength * 1e6
+        classes[laser] = class_of(first.power, wavelength)
+        branches = Branches(setup, light, laser, classes[laser], class_1(wavelength))
+        found += _judged(branches, partial(traced, laser), values)
+        unsaid |= set(unjudged(branches))
+    return Audit(findings=tuple(found), lasers=classes, unjudged=tuple(sorted(unsaid)))
+
+
+def _judged(branches: Branches, traced: Callable[[Values], Light], values: Values) -> Iterator[Finding]:
+    yield from open_ends(branches)
+    yield from out_of_plane(branches, traced, values)
+    yield from damaged(branches)
+
+
+def _least(first: Beam) -> float:
+    limit = class_1(first.wavelength * 1e6)
+    return STRICT * first.power if limit is None else FOLLOWED * limit

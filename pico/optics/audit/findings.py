@@ -1,0 +1,95 @@
+"""What the beam audit found, as plain data: it is kept in a cache, and read back without numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pico.diagnostics import Diagnostic, error, warning
+from pico.model.plan import AUDIT
+from pico.model.record import record
+from pico.optics.audit.limits import LaserClass, above_class_2
+
+Kind = Literal["end", "edge", "plane", "damage", "lost", "endless", "carried"]
+"""`end`: it ends on no block; `edge`: what an aperture stops; `plane`: it may leave the plane of the table; `damage`:
+too strong for a part; `lost`: a part keeps it and does not say how; `endless`; `carried`: an arm carries a part through
+it."""
+
+
+@record
+class Finding:
+    """One branch that is dangerous: from `source` through the parts of `way`, in order, to the point `at` [mm] that
+    `where` speaks of, on a `component` or, where that is empty, off the table. `power` and `limit` [mW], the latter
+    None where no limit is known; of `damage` both are irradiances [mW/mm2]. `path`: the branch from above, as points
+    [mm]."""
+
+    kind: Kind
+    source: str
+    laser_class: LaserClass
+    way: tuple[str, ...]
+    where: str
+    power: float
+    limit: float | None
+    component: str = ""
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    path: tuple[tuple[float, float], ...] = ()
+    hint: str = ""
+
+    @property
+    def dangerous(self) -> bool:
+        """Whether it is of a laser that must not be opened for it: one above class 2."""
+        return above_class_2(self.laser_class)
+
+    @property
+    def branch(self) -> str:
+        """The branch in words: `laser → bs → leaves the table at (1200, 420)`."""
+        return " → ".join([self.source, *self.way, self.where])
+
+    @property
+    def text(self) -> str:
+        """The branch with its power and the limit."""
+        unit = "mW/mm²" if self.kind == "damage" else "mW"
+        if self.kind == "carried":
+            return f"{self.branch}: {self.power:.3g} mW, class {self.laser_class}"
+        if self.limit is None:
+            return f"{self.branch}: {self.power:.3g} mW, and no limit is known at its wavelength"
+        of = "" if self.kind == "damage" else " of class 1"
+        return f"{self.branch}: {self.power:.3g} {unit}, above the limit{of} of {self.limit:.3g} {unit}"
+
+
+@record
+class Audit:
+    """The verdict on the light of a bench. `lasers`: the class of each that shines; `unjudged`: parts in beams above
+    the class 1 limit that give no `damage_threshold`."""
+
+    findings: tuple[Finding, ...] = ()
+    lasers: Mapping[str, LaserClass]
+    unjudged: tuple[str, ...] = ()
+
+    @property
+    def passes(self) -> bool:
+        """Whether nothing was found of a laser above class 2."""
+        return not any(f.dangerous for f in self.findings)
+
+
+def audit_from_json(data: Mapping[str, Any]) -> Audit:
+    """Return the audit whose `as_json` gave `data`; raises KeyError, TypeError or ValueError for anything else."""
+    findings = []
+    for one in data["findings"]:
+        path = tuple((float(x), float(y)) for x, y in one["path"])
+        x, y, z = one["at"]
+        findings.append(Finding(**{"limit": None, **one, "way": tuple(one["way"]), "at": (x, y, z), "path": path}))
+    return Audit(findings=tuple(findings), lasers=dict(data["lasers"]), unjudged=tuple(data["unjudged"]))
+
+
+def told(audit: Audit, *, refused: frozenset[str], drawn: str) -> tuple[Diagnostic, ...]:
+    """Return the findings as diagnostics: an error where it is of a laser above class 2 among `refused`, else a
+    warning. `drawn`: what to type for a picture with the branch in red."""
+    found = []
+    for one in audit.findings:
+        wrong = one.dangerous and one.source in refused
+        hint = "; ".join(words for words in (one.hint, f"{drawn} draws it in red" if one.path else "") if words)
+        tell = error if wrong else warning
+        text = f"the beam of {one.source} (class {one.laser_class}) is not safe: {one.text}"
+        found.append(tell(AUDIT, text, hint=hint, address=one.component or one.source))
+    return tuple(found)

@@ -1,0 +1,191 @@
+"""The beam audit of a plan: of the light that it lets out, or leaves on, where it leads to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation
+from pico.model.plan import Plan
+from pico.model.pose import Pose, angle_between
+from pico.model.state import LabState, place_of, state_from_json
+from pico.optics.audit.findings import Audit, Finding, told
+from pico.optics.audit.lasers import laser_class, lasers_of
+from pico.optics.audit.limits import above_class_2
+from pico.optics.axis import Values, axis_of
+from pico.policy.beams import open_beams
+
+SCANNED = 5
+"""At so many values of what a raster search scans is its light judged; mirrors over all of their range anyway."""
+
+
+@dataclass(frozen=True)
+class Lit:
+    """A bench with light on it: where things stand, what they are set to, and the `lasers` that shine at some time;
+    `opened`: those of them that a plan lets out; `enclosed`: no beam leaves the enclosure around it."""
+
+    poses: Mapping[str, Pose]
+    values: Values
+    lasers: tuple[str, ...]
+    opened: frozenset[str] = frozenset()
+    enclosed: bool = False
+
+
+Judge = Callable[[Setup, Lit], Audit | None]
+"""Tells the verdict on a bench; None where nobody knows it yet, and it is not worth finding out."""
+
+
+def judge(setup: Setup, lit: Lit) -> Audit:
+    """Return the verdict on a bench with light on it; imports numpy."""
+    from pico.optics.audit.audit import audit
+
+    return audit(setup, lit.poses, lit.values, lit.lasers)
+
+
+def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
+    """Return the bench that a plan leads to, with all that it lets light out of open.
+
+    What stands within tolerance of where the target wants it counts as there: so the same bench is the same each time.
+    """
+    wanted = state_from_json(plan.lab.name, plan.target.state)
+    poses = {n: _settled(setup, wanted, n, c.pose) for n, c in seen.components.items()
+             if c.pose is not None and c.presence == "seen" and n in setup.lab.inventory}  # fmt: skip
+    values = {n: _set(setup, wanted, n, own) for n, own in seen.known_values.items() if n in setup.lab.inventory}
+    opened, scanned = set[str](), False
+    lifted = {(op.component, op.arguments.get("tunable")) for op in plan.operations if _lets_out(setup, op)}
+    for op in plan.operations:
+        to, tunable = op.arguments.get("to"), op.arguments.get("tunable")
+        if isinstance(to, Mapping) and "pose" in to:
+            poses[op.component] = Pose(**to["pose"])
+        elif op.primitive == "set" and tunable is not None and op.component in setup.lab.inventory:
+            own = values.setdefault(op.component, {})
+            lets = _lets_out(setup, op)
+            if lets or (op.component, tunable) not in lifted:  # what is open at some time counts as open
+                own[str(tunable)] = max(own.get(str(tunable), 0.0), to) if lets and _number(to) else to
+            opened |= {op.component} if lets else set()
+        scanned |= op.primitive == "scan"
+    lasers = lasers_of(setup, poses, values)
+    apart = any(setup.type_of(name).optics.element != "source" for name in opened)
+    return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned),
+               bool(setup.lab.policy.enclosed))  # fmt: skip
+
+
+def _lets_out(setup: Setup, op: Operation) -> bool:
+    """Whether an operation lets light out: opens a shutter, or sets a laser to anything but dark."""
+    if op.primitive != "set" or op.component not in setup.lab.inventory:
+        return False
+    emits = setup.type_of(op.component).optics.element == "source"
+    tunable, to = op.arguments.get("tunable"), op.arguments.get("to")
+    return (tunable == "shutter" and to != "closed") or (emits and to not in ("closed", False, 0))
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _settled(setup: Setup, wanted: LabState, name: str, pose: Pose) -> Pose:
+    """Return where a part is wanted where it stands there within its tolerance, else where it stands."""
+    if name not in wanted.components:
+        return pose
+    goal, tolerance = place_of(setup, wanted, name)[1], setup.type_of(name).pose.tolerance
+    near = pose.distance(goal) <= tolerance.position and abs(angle_between(pose.yaw, goal.yaw)) <= tolerance.yaw
+    return goal if near else pose
+
+
+def _set(setup: Setup, wanted: LabState, name: str, own: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tunables of a part, those within their tolerance of what is wanted as wanted."""
+    goal = wanted.components[name].values if name in wanted.components else {}
+    kinds, found = setup.type_of(name).tunables, dict(own)
+    for key, value in own.items():
+        target = goal.get(key)
+        if key in kinds and _number(value) and _number(target) and abs(value - target) <= kinds[key].tolerance:
+            found[key] = target
+    return found
+
+
+def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Judge = judge) -> tuple[Audit, Lit]:
+    """Return the verdict on the light of a plan, and the bench that it is about; where no laser shines, nothing is
+    traced, nor imported for it. What `judged` does not know is left out."""
+    if _dark(setup, plan, seen):
+        return Audit(lasers={}), Lit({}, {}, ())
+    lit = lit_by(setup, plan, seen)
+    verdicts = [judged(setup, one) for one in (lit, *_scans(setup, plan, lit))] if lit.lasers else []
+    known = [verdict for verdict in verdicts if verdict is not None]
+    findings = {f.branch: f for verdict in known for f in verdict.findings}
+    carried = tuple(_carried(setup, plan, seen, lit))
+    classes = {n: laser_class(setup, n, lit.values.get(n, {}))[0] for n in lit.lasers}
+    unsaid = sorted({name for verdict in known for name in verdict.unjudged})
+    return Audit(findings=(*findings.values(), *carried), lasers=classes, unjudged=tuple(unsaid)), lit
+
+
+def require_safe(setup: Setup, plan: Plan, seen: Observation) -> None:
+    """Raise PicoError (exit code DENIED) where the audit refuses a plan on the bench as it is now."""
+    if plan.operations and (wrong := [d for d in told_of(plan, *audit_of(setup, plan, seen)) if d.severity == "error"]):
+        raise PicoError(wrong, ExitCode.DENIED)
+
+
+def _dark(setup: Setup, plan: Plan, seen: Observation) -> bool:
+    """Whether no laser shines before a plan, and it sets none."""
+    sources = [n for n in setup.lab.inventory if setup.type_of(n).optics.element == "source"]
+    return not (set(sources) & {op.component for op in plan.operations}) and not _shining(setup, seen, sources)
+
+
+def told_of(plan: Plan, audit: Audit, lit: Lit) -> tuple[Diagnostic, ...]:
+    """Return what the audit says of a plan: errors where that opens a laser above class 2, or carries a part by."""
+    revision = f" {plan.target.revision}" if plan.target.revision else ""
+    drawn = "`pico beam --picture beams.png`" if plan.asked else f"`pico plan{revision} --picture beams.png`"
+    carried = {f.source for f in audit.findings if f.kind == "carried" and not lit.enclosed}
+    first = [f for f in audit.findings if f.kind == "carried"]
+    rest = replace(audit, findings=tuple(f for f in audit.findings if f.kind != "carried"))
+    return (
+        *told(replace(audit, findings=tuple(first)), refused=frozenset(carried), drawn=drawn),
+        *told(rest, refused=frozenset() if lit.enclosed else lit.opened, drawn=drawn),
+    )
+
+
+def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[Lit]:
+    """Yield the bench at values over the range of each tunable that is scanned."""
+    for op in plan.operations:
+        tunable = str(op.arguments.get("tunable"))
+        kind = setup.type_of(op.component).tunables.get(tunable) if op.component in setup.lab.inventory else None
+        if op.primitive == "scan" and kind is not None and kind.range is not None:
+            low, high = kind.range
+            for n in range(SCANNED):
+                own = {**lit.values.get(op.component, {}), tunable: low + (high - low) * n / (SCANNED - 1)}
+                yield replace(lit, values={**lit.values, op.component: own})
+
+
+def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[Finding]:
+    """Yield a finding for each part that an arm carries while a laser above class 2 may be open: on its way a part may
+    reflect a beam anywhere, and nobody can trace that."""
+    carrying = [op for op in plan.operations if op.kind.carries]
+    sources = [n for n in setup.lab.inventory if setup.type_of(n).optics.element == "source"]
+    lasers = sorted({*lit.lasers, *_shining(setup, seen, sources)})
+    if not carrying or not lasers:
+        return
+    opened, told_already = open_beams(setup, plan.operations, seen, lasers), set[tuple[str, str]]()
+    for op in carrying:
+        for laser in opened[op.id]:
+            of, power = laser_class(setup, laser, lit.values.get(laser, {}))
+            if not above_class_2(of) or (laser, op.component) in told_already:
+                continue
+            told_already.add((laser, op.component))
+            legs = axis_of(setup, lit.poses, laser, lit.values).legs if laser in lit.poses else ()
+            path = tuple((round(x, 2), round(y, 2)) for leg in legs for x, y, _ in (leg.start, leg.end))
+            where = f"may be sent anywhere by {op.component} while {op.robot} carries it"
+            hint = f"close the shutter of {laser} first; `policy: {{open_beam: true}}` is for lasers up to class 2"
+            yield Finding(
+                kind="carried", source=laser, laser_class=of, way=(), where=where, component=op.component, power=power,
+                limit=None, path=path, hint=hint,
+            )  # fmt: skip
+
+
+def _shining(setup: Setup, seen: Observation, sources: Iterable[str]) -> tuple[str, ...]:
+    """Return the lasers among `sources` that shine before a plan begins."""
+    there = [n for n in sources if n in seen.components and seen.components[n].presence == "seen"]
+    values = {n: {k: v.value for k, v in seen.components[n].values.items() if v.status == "known"} for n in there}
+    return lasers_of(setup, there, values)
