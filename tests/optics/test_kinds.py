@@ -12,7 +12,7 @@ from light_benches import kind, light, setup_of
 
 from pico.model.pose import Pose
 from pico.optics.axis import axis_of
-from pico.optics.light import Light
+from pico.optics.light import Light, light_of
 
 LASER = Pose(100, 400)  # its exit at x = 160
 WIDE = {"waist_radius": 1.0, "waist_position": 240.0}
@@ -113,6 +113,14 @@ def test_a_bandpass_moves_to_shorter_waves_where_it_is_tilted(wavelength: float,
     kinds = {"laser": kind("hene_laser", wavelength=wavelength), "x": kind("bandpass_filter")}
     found = light(kinds, {"laser": LASER, "x": Pose(400, 400, yaw)})
     assert found.crossings[0].onward == pytest.approx(passes, rel=1e-6)
+
+
+def test_what_a_bandpass_does_not_pass_goes_back_where_light_is_audited() -> None:
+    kinds = {"laser": kind("hene_laser", wavelength=700.0), "x": kind("bandpass_filter")}
+    poses = {"laser": LASER, "x": Pose(400, 400, 3)}
+    found = light_of(setup_of(kinds), poses, lit=lambda _: True, astray=lambda first: 1e-6 * first.power)
+    back = [c for c in found.crossings if c.before == 0 and c.beam.along[0] < 0]
+    assert sum(c.power for c in back) == pytest.approx(1 - 1e-4, rel=1e-9)
 
 
 def test_an_isolator_passes_one_way() -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from pico.optics.beam import Beam, Wave
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.polarization import Field, product
+from pico.optics.strays import of_plate
 
 
 def meet(part: Part, beam: Beam) -> Met:
@@ -33,3 +34,8 @@ def meet(part: Part, beam: Beam) -> Met:
 
     waves = tuple(replace(w, field=behind(w)) for w in passed.waves)
     return Met(came, (replace(passed, waves=waves),), lost)
+
+
+def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
+    """Return what its faces send back; what its polarizers reject ends inside."""
+    return of_plate(part, met)
