@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -113,3 +114,12 @@ def test_rules_of_a_lab_see_the_verdict(shel: Path, pico: Pico) -> None:
     across(shel)
     holds = {r["rule"]: r["holds"] for r in pico("plan", "--json").data["policy"] if "level" in r}
     assert not holds["clean"]
+
+
+def test_a_check_of_a_commit_fails_where_its_light_is_not_safe(shel: Path, pico: Pico) -> None:
+    assert pico("check").code == 0
+    across(shel)
+    subprocess.run(["git", "commit", "-qam", "p2 across"], check=True)
+    told = pico("check", "--json")
+    (policy,) = (c for c in told.data["labs"][0]["checks"] if c["question"] == "policy")
+    assert told.code != 0 and policy["verdict"] == "failed" and "; the beam audit finds 1" in policy["text"]

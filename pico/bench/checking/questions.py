@@ -88,21 +88,25 @@ def feasible(plan: Plan) -> Check:
 
 
 def policy(case: Case, plan: Plan) -> tuple[Check, tuple[Mapping[str, Any], ...]]:
-    """Return whether the rules of the lab hold of a plan, and what became of each."""
-    rules = case.setup.lab.policy.rules
-    if not rules or not plan.operations:
-        text = "nothing moves" if rules else "the lab has no rules"
-        return Check(question="policy", verdict="passed", text=text), ()
-    from pico.policy.rules import verdicts
+    """Return whether the rules of the lab hold of a plan, and the beam audit; and what became of each rule."""
+    from pico.policy.audit import audit_of, told_of
 
-    judged = verdicts(case.setup, plan, case.seen)
+    rules = case.setup.lab.policy.rules if plan.operations else ()
+    judged: tuple[Mapping[str, Any], ...] = ()
+    if rules:
+        from pico.policy.rules import verdicts
+
+        judged = verdicts(case.setup, plan, case.seen)
     broken = tuple(_broken(rule) for rule in judged if not rule["holds"])
-    denied = any(d.severity == "error" for d in broken)
+    light = told_of(plan, *audit_of(case.setup, plan, case.seen)) if plan.operations else ()
+    none = "nothing moves" if case.setup.lab.policy.rules else "the lab has no rules"
+    text = f"{len(judged) - len(broken)} of {len(judged)} rules hold" if rules else none
+    denied = any(d.severity == "error" for d in (*broken, *light))
     return Check(
         question="policy",
-        verdict="failed" if denied else "advised" if broken else "passed",
-        text=f"{len(judged) - len(broken)} of {len(judged)} rules hold",
-        diagnostics=broken,
+        verdict="failed" if denied else "advised" if broken or light else "passed",
+        text=f"{text}; the beam audit finds {len(light)}" if light else text,
+        diagnostics=(*broken, *light),
     ), judged
 
 

@@ -18,10 +18,12 @@ it."""
 
 @record
 class Finding:
-    """One branch that is dangerous: from `source` through the parts of `way`, in order, to the point `at` [mm] that
-    `where` speaks of, on a `component` or, where that is empty, off the table. `power` and `limit` [mW], the latter
-    None where no limit is known; of `damage` both are irradiances [mW/mm2]. `path`: the branch from above, as points
-    [mm]."""
+    """One branch that is dangerous.
+
+    It goes from `source` through the parts of `way`, in order, to the point `at` [mm] that `where` speaks of, on a
+    `component` or, where that is empty, off the table. `power` and `limit` [mW], the latter None where none is known;
+    of `damage` both are irradiances [mW/mm2]. `path`: the branch from above, as points [mm].
+    """
 
     kind: Kind
     source: str
