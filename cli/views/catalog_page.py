@@ -11,10 +11,10 @@ from pico.model.catalog import ComponentType, Measurable, Parameter, Tunable
 from .style import count, number
 
 GROUPS = {
-    "Sources": ("source",), "Mirrors": ("mirror", "roof_mirror", "retroreflector"), "Lenses": ("lens",),
+    "Sources": ("source",), "Mirrors": ("mirror", "roof_mirror", "retroreflector"), "Lenses": ("lens", "beam_expander"),
     "Polarization": ("polarizer", "waveplate", "isolator"),
     "Beam splitters": ("beam_splitter", "plate_splitter"),
-    "Apertures and filters": ("iris", "slit", "filter", "bandpass", "shutter", "block"),
+    "Apertures and filters": ("iris", "slit", "filter", "bandpass", "chopper", "shutter", "block"),
     "Detectors": ("detector",),
 }  # fmt: skip
 """Headings with the optical elements below them; what else there is comes last."""

@@ -169,13 +169,17 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     facing = math.radians(pose.yaw) + tip + (math.pi if element in MIRRORS else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None
+    height = geometry.height
+    if values.get("flip") == "down":  # out of the way, as high as its type says
+        low = kind.number("height_down", "mm")
+        where, height = None, height if low is None else low
     if where is not None and (pushed := shift(kind, values, "piezo")):
         where = _sum(where, _times(normal, pushed))
     shape = placed(geometry.footprint, pose)
     width = aperture.diameter if aperture else 0.0
     if isinstance(opening, int | float):
         width = min(width, float(opening))
-    return Optic(name, element, shape, geometry.height, where, normal, width / 2)
+    return Optic(name, element, shape, height, where, normal, width / 2)
 
 
 def _aperture(kind: ComponentType) -> ClearAperture | None:

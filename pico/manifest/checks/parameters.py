@@ -59,6 +59,8 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "blocking": Bounds("", 0, 20), "effective_index": Bounds("", 1, 10), "thickness": Bounds("mm", 0, 1e3),
         "refractive_index": _INDEX,
     },
+    "beam_expander": {"magnification": Bounds("", 1e-3, 1e3), "transmission": _SHARE},
+    "chopper": {"duty": _SHARE},
     "isolator": {"transmission": _SHARE, "isolation": Bounds("dB", 0, 120), "output": Bounds("deg")},
     "polarizer": {
         "extinction": Bounds("", 1), "transmission": _SHARE, "refractive_index": _INDEX,
