@@ -402,6 +402,8 @@ _THRESHOLDS: Mapping[str, Mapping[str, Value]] = {
     "filter": {"": 500},
 }
 """Damage thresholds that the types of the catalog give since beams are audited, by element and type."""
+_DECLARED = ("beam_camera", "photodiode", "power_meter", "shutter")
+"""Types of the catalog that are declared to end beams since beams are audited."""
 _SCALES = {"nW": 1e-6}  # to mW
 
 
@@ -430,9 +432,10 @@ def as_first_written(kind: ComponentType) -> ComponentType:
     for name, one in measured.items():  # a lab without a lamp has nothing to switch
         measured[name] = replace(one, needs={k: v for k, v in one.needs.items() if k != "illumination"})
     can = tuple(p for p in kind.primitives if p != "auto_range")
+    ends = None if kind.name in _DECLARED and kind.optics.ends_beams else kind.optics.ends_beams
     return replace(
         kind, parameters=own, measurables=measured, primitives=can,
-        optics=replace(kind.optics, properties=written, ends_beams=None),
+        optics=replace(kind.optics, properties=written, ends_beams=ends),
     )  # fmt: skip
 
 

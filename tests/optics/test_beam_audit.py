@@ -327,3 +327,16 @@ def test_what_stands_within_tolerance_of_where_it_is_wanted_counts_as_there() ->
         plan = replace(plan, target=replace(plan.target, state=state))
         audit_of(bench.setup, plan, bench.move("p1", dy=dy).seen, lambda _, lit: asked.append(lit))
     assert asked[0].poses == asked[1].poses
+
+
+def test_a_declaration_of_a_lab_is_in_its_digest_and_those_of_the_catalog_are_as_they_were() -> None:
+    """Plans of earlier releases stay fresh, and a bench that keeps its Lab notices what is declared anew."""
+    bench = shel().put("mine", "linear_polarizer", 700, 420)
+    before = bench.made("mine").setup.digest()
+    assert bench.made("mine", ends=True).setup.digest() != before
+    assert bench.made("mine", damage_threshold=7.0).setup.digest() != before
+    catalog = {**bench.setup.catalog}
+    catalog["beam_camera"] = replace(
+        catalog["beam_camera"], optics=replace(catalog["beam_camera"].optics, ends_beams=None)
+    )
+    assert replace(bench.setup, catalog=catalog).digest() == bench.setup.digest()

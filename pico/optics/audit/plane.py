@@ -4,7 +4,7 @@ What is bounded exactly: how far a beam can rise or fall. Along each branch the 
 by e, its height by v. Over a stretch of length L v grows by L e. A mirror whose tilt may differ by t adds 2 t cos i to
 e, with the least incidence i that tips and misplacement allow: the elevation of what a mirror with normal n sends back
 of a beam d is d_z - 2 (d.n) n_z, and a tip, a misplaced yaw or position changes d.n only. A lens adds v / f (v no more
-than its aperture), its faces reflect with 4 v / R; splitters, plates and cubes stand upright and add nothing. First
+than its aperture), a face that reflects 4 v / R; splitters, plates and cubes stand upright and add nothing. First
 order in e and t: at 100 mrad it is right to 1 %.
 
 What is sampled: where a branch may leave `MOST_RISE`, each mirror on its way is turned to the corners, edges and middle
@@ -92,23 +92,28 @@ def _along(branches: Branches, start: Spread, before: Crossing | None, crossing:
 
 def _behind(start: Spread, part: Part, before: Crossing, onward: Crossing) -> Spread:
     """Return the spread of a beam behind a part."""
-    element = part.kind.optics.element
     yaw = math.radians(part.kind.pose.tolerance.yaw + 3 * part.kind.repeatability.yaw)
-    if element == "mirror" and before.event == "reflected":
+    rise = turn = 0.0
+    if before.event == "reflected":
         (low, high), now = reach(part, "tilt"), turned(part, "tilt")
         tip = max(abs(end - turned(part, "tip")) for end in reach(part, "tip"))
         square = abs(float(before.beam.along @ part.optic.normal))
         aside = start.turn + tip + yaw
         least = max(0.0, math.acos(min(1.0, square)) - aside)
         rise = 2 * math.cos(least) * max(abs(low - now), abs(high - now)) + 2 * abs(now) * aside
-        return Spread(start.rise + rise, start.height, start.turn + 2 * (tip + yaw))
-    if element == "lens":
-        aside = min(start.height, 2 * part.optic.radius)
-        power = 1 / abs(part.number("focal_length", "mm", math.inf))
-        if onward.beam.ghost and (radius := part.kind.number("radius_of_curvature", "mm")):
-            power += 4 / abs(radius)
-        return Spread(start.rise + aside * power, start.height, start.turn + 2 * part.optic.radius * power)
-    return Spread(start.rise, start.height, start.turn + 2 * yaw)
+        turn = 2 * tip
+    bend = _bends(part, onward)
+    rise += min(start.height, 2 * part.optic.radius) * bend
+    return Spread(start.rise + rise, start.height, start.turn + turn + 2 * yaw + 2 * part.optic.radius * bend)
+
+
+def _bends(part: Part, onward: Crossing) -> float:
+    """Return by how much more a part bends a beam for each mm that it comes off its axis [1/mm], at most: 1 / f, and of
+    a face that reflects twice its curvature, through glass and back out of it no more than four times."""
+    bend = 1 / abs(part.number("focal_length", "mm", math.inf) or math.inf)
+    curved = part.kind.optics.element != "lens" or onward.beam.ghost
+    radii = [part.kind.number(name, "mm") for name in ("radius_of_curvature", "radius_of_curvature_back")]
+    return bend + (max((4 / abs(r) for r in radii if r), default=0.0) if curved else 0.0)
 
 
 def reach(part: Part, tunable: str) -> tuple[float, float]:
@@ -138,7 +143,7 @@ def _radians(kind: ComponentType, tunable: str, value: float) -> float:
 
 
 def _tilts(part: Part | None) -> bool:
-    return part is not None and part.kind.optics.element == "mirror" and "tilt" in part.kind.tunables
+    return part is not None and "tilt" in part.kind.tunables
 
 
 def _settings(branches: Branches, mirrors: tuple[str, ...], values: Values) -> list[Mapping[str, Any]]:
