@@ -79,7 +79,8 @@ def _outside(branches: Branches, crossing: Crossing, part: Part) -> str:
 
 _ROUND_OFF = 1e-6
 KEEPS = frozenset((
-    "beam_splitter", "block", "detector", "filter", "iris", "lens", "mirror", "none", "polarizer", "shutter", "source",
+    "bandpass", "beam_expander", "beam_splitter", "block", "chopper", "detector", "filter", "iris", "isolator", "lens",
+    "mirror", "none", "plate_splitter", "polarizer", "retroreflector", "roof_mirror", "shutter", "slit", "source",
     "waveplate",
 ))  # fmt: skip
 """Elements that absorb what they neither send on nor send astray."""
