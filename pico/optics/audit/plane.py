@@ -108,6 +108,13 @@ def _behind(start: Spread, part: Part, before: Crossing, onward: Crossing) -> Sp
         if onward.beam.ghost and (radius := part.kind.number("radius_of_curvature", "mm")):
             power += 4 / abs(radius)
         return Spread(start.rise + aside * power, start.height, start.turn + 2 * part.optic.radius * power)
+    if element == "expander":
+        by = part.number("magnification", "", 1.0)
+        by = by if before.beam.along @ part.axes[0] > 0 else 1 / by
+        height = start.height * abs(by) + part.number("length", "mm", 0.0) * start.rise
+        return Spread(start.rise / abs(by), height, start.turn / abs(by) + 2 * yaw)
+    if element == "grating":  # orders leave at other angles than they come: no bound on how far about the upright
+        return Spread(start.rise, start.height, math.pi)
     return Spread(start.rise, start.height, start.turn + 2 * yaw)
 
 
