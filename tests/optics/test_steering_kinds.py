@@ -140,3 +140,27 @@ def test_an_expander_magnifies_an_offset_and_divides_an_angle() -> None:
     offset = float((before.at[:2] - center + 20 * axis) @ left)
     assert float((start[:2] - center - 20 * axis) @ left) == pytest.approx(3 * offset + 40 * slope, abs=1e-9)
     assert float(behind.along[:2] @ left / (behind.along[:2] @ axis)) == pytest.approx(slope / 3, abs=1e-12)
+
+
+@pytest.mark.parametrize("position", range(1, 7))
+def test_a_filter_wheel_weakens_by_the_filter_in_the_beam(position: int) -> None:
+    found = bench("filter_wheel", Pose(400, 400), {"position": f"at_{position}"})
+    density = [0, 0.5, 1, 2, 3, 4][position - 1]
+    assert found.crossings[0].onward == pytest.approx(10**-density, rel=1e-9)
+
+
+def test_a_filter_wheel_at_no_known_position_is_taken_for_clear() -> None:
+    found = bench("filter_wheel", Pose(400, 400))
+    assert found.crossings[0].onward == pytest.approx(1.0, rel=1e-9)
+    assert "nobody knows which filter" in found.crossings[1].beam.unknown
+
+
+def test_an_avalanche_photodiode_reads_a_microwatt() -> None:
+    from pico.optics.instruments import power_reading
+
+    kinds = {"laser": kind("hene_laser", power=1e-3, waist_radius=0.1, waist_position=240.0),
+             "x": kind("avalanche_photodiode")}  # fmt: skip
+    found = light(kinds, {"laser": LASER, "x": Pose(412, 400)})
+    read = power_reading(found.at("x"), found.parts["x"])
+    # 1 uW at 20 A/W into 50 kV/A are 1 V
+    assert read.value == pytest.approx(1.0, abs=6 * 0.0012) and not read.saturated

@@ -59,6 +59,7 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "blocking": Bounds("", 0, 20), "effective_index": Bounds("", 1, 10), "thickness": Bounds("mm", 0, 1e3),
         "refractive_index": _INDEX,
     },
+    "filter_wheel": {f"density_{n}": Bounds("", 0, 20) for n in range(1, 13)},
     "expander": {"magnification": Bounds("", 0.01, 100), "length": Bounds("mm", 0, 1e4), "transmission": _SHARE},
     "grating": {
         "lines": Bounds("1/mm", 0, 1e4), "efficiency_0": _SHARE, "efficiency_plus_1": _SHARE,
