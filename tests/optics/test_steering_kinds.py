@@ -164,3 +164,33 @@ def test_an_avalanche_photodiode_reads_a_microwatt() -> None:
     read = power_reading(found.at("x"), found.parts["x"])
     # 1 uW at 20 A/W into 50 kV/A are 1 V
     assert read.value == pytest.approx(1.0, abs=6 * 0.0012) and not read.saturated
+
+
+def test_the_table_of_elements_names_all_that_light_reads() -> None:
+    from pathlib import Path
+
+    from pico.manifest.checks.elements import own
+    from pico.manifest.checks.parameters import NUMBERS
+
+    page = (Path(__file__).parents[2] / "docs/how-to/light.md").read_text()
+    rows = {line.split("`")[1]: line for line in page.splitlines() if line.startswith("| `")}
+    assert set(own()) <= set(rows)
+    for name, numbers in NUMBERS.items():
+        if name != "filter_wheel":
+            assert all(f"`{number}`" in rows[name] for number in numbers), name
+
+
+@pytest.mark.parametrize(("name", "yaw"), [("right_angle_prism", 2.0), ("wollaston_prism", 3.0)])
+def test_light_that_is_sent_back_finds_its_way(name: str, yaw: float) -> None:
+    from dataclasses import replace
+
+    from pico.optics.light import element
+
+    found = bench(name, Pose(400, 400, yaw), polarization=0.0, extinction=None, transmission=1.0)
+    first, behind, part = found.crossings[0].beam, found.crossings[1].beam, found.parts["x"]
+    back = replace(behind, along=-behind.along, across=-behind.across, path=0.0, length=0.0)
+    (again,) = (b for b in element(part.optic.element).meet(part, back).onward)
+    assert again.along == pytest.approx(-first.along, abs=1e-12)
+    aside = again.at - first.at
+    assert aside - (aside @ first.along) * first.along == pytest.approx([0, 0, 0], abs=1e-9)
+    assert again.power == pytest.approx(first.power, rel=1e-6)
