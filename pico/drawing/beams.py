@@ -8,7 +8,8 @@ from typing import Any
 
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.optics.axis import Axis, Leg, Values, Vector, beams
+from pico.optics.axis import Axis, Leg, Values, beams
+from pico.optics.geometry import Vector
 from pico.twin.placement import Placement
 
 Place = Pose | Placement

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.optics.light import Crossing, Light
+    from pico.optics.geometry import geometry_of
+from pico.optics.light import Crossing, Light
 
 WIDTH = 960
 _BEAM = (224, 36, 36)
@@ -46,7 +47,7 @@ def _lines(light: Light, number: int) -> Iterator[tuple[Point, Point]]:
     away = crossing.beam.length - _begun(light, crossing)
     start = crossing.beam.at - away * crossing.beam.along
     last = None if crossing.before is None else light.crossings[crossing.before]
-    if last is not None and light.parts[last.component].optic.element in ("roof_mirror", "retroreflector"):
+    if last is not None and geometry_of(light.parts[last.component].optic.element).across:
         yield _point(last.beam.at), _point(start)
     yield _point(start), _point(crossing.beam.at)
 

@@ -13,7 +13,8 @@ from pico.drawing.svg import Drawing, Point, text_box, text_width
 from pico.model.lab import Box2, Setup, Slot
 from pico.model.pose import Pose
 from pico.motion.kinematics import span
-from pico.optics.axis import Values, Vector, staged
+from pico.optics.axis import Values, staged
+from pico.optics.geometry import Vector
 from pico.twin.surfaces import HOLE_RADIUS
 
 _INK, _FAINT, _EDGE, _HOLE = "#222831", "#6b7480", "#788a8a", "#d3d8de"

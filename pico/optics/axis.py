@@ -11,29 +11,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
 
 from pico.geometry.shape import Shape, placed
 from pico.model.catalog import ClearAperture, ComponentType
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
+from pico.optics.geometry import Event, Kick, Struck, Vector, geometry_of
 
-Vector = tuple[float, float, float]
 Values = Mapping[str, Mapping[str, Any]]
 """Tunables of components by name, in the units of the catalog."""
-Event = Literal["passed", "reflected", "divided", "detected", "blocked", "left"]
 LEGS = 256
 """Straight pieces after which a beam that goes round and round is followed no more."""
 
-_ENDS: Mapping[str, Event] = {
-    "mirror": "reflected", "roof_mirror": "reflected", "retroreflector": "reflected", "beam_splitter": "divided",
-    "plate_splitter": "divided", "detector": "detected",
-}  # fmt: skip
-MIRRORS = ("mirror", "roof_mirror", "retroreflector", "plate_splitter")
-"""Elements whose face looks along local -x."""
-_FACES: Mapping[str, float] = {"mirror": -1.0, "roof_mirror": -1.0, "retroreflector": -1.0, "detector": 1.0}
-"""Along which side of its normal light must come to an element that has one face."""
 _NEAR = 1e-6  # mm: what a ray has just left
 _RADIANS = {"mrad": 1e-3, "deg": math.pi / 180, "rad": 1.0}
 
@@ -106,12 +97,13 @@ class Ray:
     begun: float
     leaves: str
     before: int | None = None
+    wavelength: float = 0.0  # mm
 
 
 @dataclass(frozen=True, slots=True)
 class Optic:
     """A component as a ray finds it: its outline on the table and its height; center, normal and radius of its
-    aperture, None where nothing passes."""
+    aperture, None where nothing passes. `element`: what it is to a ray as its tunables are."""
 
     name: str
     element: str
@@ -120,6 +112,8 @@ class Optic:
     center: Vector | None
     normal: Vector
     radius: float
+    left: Vector = (0.0, 1.0, 0.0)
+    kicks: tuple[Kick, ...] = ()
 
 
 def axis_of(setup: Setup, poses: Mapping[str, Pose], source: str, values: Values | None = None) -> Axis:
@@ -134,7 +128,8 @@ def axis_of(setup: Setup, poses: Mapping[str, Pose], source: str, values: Values
     own = poses[source]
     x, y = own.apply(*frame[:2])
     turned = math.radians(own.yaw)
-    rays = [Ray((x, y, frame[2]), (math.cos(turned), math.sin(turned), 0.0), 0.0, source, None)]
+    wavelength = (setup.type_of(source).number("wavelength", "nm") or 632.8) * 1e-6
+    rays = [Ray((x, y, frame[2]), (math.cos(turned), math.sin(turned), 0.0), 0.0, source, None, wavelength)]
     legs: list[Leg] = []
     for ray in rays:
         if len(legs) == LEGS:
@@ -154,32 +149,31 @@ def beams(setup: Setup, poses: Mapping[str, Pose], values: Values | None = None)
 
 def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]) -> Optic:
     geometry, element = kind.geometry, kind.optics.element
+    if element == "mirror" and values.get("flipped") == "down":
+        element = "none"  # what is flipped away lets light pass
+    does = geometry_of(element)
     aperture = _aperture(kind) if element not in ("block", "source") else None
     center = aperture.center if aperture else (0.0, 0.0, 0.0)
     (ahead, left), up = staged(kind, values), shift(kind, values, "stage_z")
     x, y = pose.apply(center[0] + ahead, center[1] + left)
-    tip, tilt = (
-        (_turn(kind, values, key) for key in ("tip", "tilt")) if element in ("mirror", "plate_splitter") else (0.0, 0.0)
-    )
+    tip, tilt = (_turn(kind, values, key) for key in ("tip", "tilt")) if does.turns else (0.0, 0.0)
     opening = values.get("opening") if element == "iris" else None
-    if element == "beam_splitter":
+    if does.folds:
         # what comes along +x is divided to `fold` degrees from it: the coating stands half way
         fold = kind.number("fold", "deg")
         tip = math.radians((90.0 if fold is None else fold) / 2 + 90.0)
-    facing = math.radians(pose.yaw) + tip + (math.pi if element in MIRRORS else 0.0)
+    facing = math.radians(pose.yaw) + tip + (math.pi if does.faces_back else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None
-    height = geometry.height
-    if values.get("flip") == "down":  # out of the way, as high as its type says
-        low = kind.number("height_down", "mm")
-        where, height = None, height if low is None else low
     if where is not None and (pushed := shift(kind, values, "piezo")):
         where = _sum(where, _times(normal, pushed))
     shape = placed(geometry.footprint, pose)
     width = aperture.diameter if aperture else 0.0
     if isinstance(opening, int | float):
         width = min(width, float(opening))
-    return Optic(name, element, shape, height, where, normal, width / 2)
+    yaw = math.radians(pose.yaw)
+    aside = (-math.sin(yaw), math.cos(yaw), 0.0)
+    return Optic(name, element, shape, geometry.height, where, normal, width / 2, aside, does.kicks(kind))
 
 
 def _aperture(kind: ComponentType) -> ClearAperture | None:
@@ -211,7 +205,7 @@ def beside_the_edge(optic: Optic, ray: Ray, within: float) -> Event | None:
     its clear aperture; None where there is none, or the ray is further off."""
     if optic.center is None or _through(ray, replace(optic, radius=optic.radius + within)) is None:
         return None
-    return _ENDS.get(optic.element, "passed")
+    return geometry_of(optic.element).event
 
 
 def staged(kind: ComponentType, values: Mapping[str, Any]) -> tuple[float, float]:
@@ -256,7 +250,7 @@ def _hit(ray: Ray, optic: Optic) -> tuple[float, Event] | None:
     if optic.name == ray.leaves:
         return None
     if optic.center is not None and (far := _through(ray, optic)) is not None:
-        return far, _ENDS.get(optic.element, "passed")
+        return far, geometry_of(optic.element).event
     housing = _housing(ray, optic)
     return None if housing is None else (housing, "blocked")
 
@@ -269,13 +263,14 @@ def _through(ray: Ray, optic: Optic) -> float | None:
     """
     assert optic.center is not None
     facing = _dot(ray.towards, optic.normal)
-    if abs(facing) < 1e-6 or facing * _FACES.get(optic.element, facing) < 0:
+    does = geometry_of(optic.element)
+    if abs(facing) < 1e-6 or (does.face is not None and facing * does.face < 0):
         return None
     offset = _minus(optic.center, ray.at)
     far = _dot(offset, optic.normal) / facing
     aside = _minus(_along(ray, far), optic.center)
     square, across = _dot(aside, aside), _dot(aside, ray.towards)
-    if optic.element == "beam_splitter":
+    if does.cube:
         square = max(square - across**2, square / 2)
     return far if far > _NEAR and square <= optic.radius**2 else None
 
@@ -316,23 +311,10 @@ def _onward(ray: Ray, leg: Leg, optic: Optic | None, number: int) -> list[Ray]:
     last = leg.met[-1]
     if optic is None or last.event not in ("reflected", "divided"):
         return []
-    if optic.element == "roof_mirror":
-        assert optic.center is not None
-        back = _sum(optic.center, half_turned(_minus(last.at, optic.center)))
-        return [Ray(back, half_turned(ray.towards), last.length, optic.name, number)]
-    if optic.element == "retroreflector":
-        assert optic.center is not None
-        back = _minus(_times(optic.center, 2.0), last.at)
-        return [Ray(back, _times(ray.towards, -1.0), last.length, optic.name, number)]
-    turned = _minus(ray.towards, _times(optic.normal, 2 * _dot(ray.towards, optic.normal)))
-    ways = [ray.towards, turned] if last.event == "divided" else [turned]
-    return [Ray(last.at, way, last.length, optic.name, number) for way in ways]
-
-
-def half_turned(vector: Vector) -> Vector:
-    """Return a vector turned by half a turn about the upright: what two upright mirrors at a right angle make of a
-    direction, and of where a ray meets the plane through their edge, so that the way there and back is as long."""
-    return -vector[0], -vector[1], vector[2]
+    assert optic.center is not None
+    struck = Struck(last.at, ray.towards, optic.center, optic.normal, optic.left, ray.wavelength, optic.kicks)
+    ways = geometry_of(optic.element).ways(struck)
+    return [Ray(at, way, last.length, optic.name, number, ray.wavelength) for at, way in ways]
 
 
 def _to_edge(table: tuple[float, float], ray: Ray) -> float:

@@ -13,10 +13,11 @@ from pico.diagnostics import Diagnostic, warning
 from pico.model.lab import Setup
 from pico.model.observation import slot_at
 from pico.model.pose import short
-from pico.optics.axis import Event, Meeting
+from pico.optics.axis import Meeting
 from pico.optics.beam import Beam, moments
 from pico.optics.ends import stray
 from pico.optics.gaussian import front
+from pico.optics.geometry import Event
 from pico.optics.light import Crossing, Light, irradiance, out_of_step
 from pico.optics.part import Part
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from pico.model.lab import Environment, Setup
 from pico.model.pose import Pose
-from pico.optics.axis import MIRRORS
+from pico.optics.geometry import MIRRORS
 
 _WARM = 900.0
 """How fast a laser warms up [s]."""

@@ -18,10 +18,11 @@ from numpy.typing import DTypeLike, NDArray
 from pico.manifest.checks.elements import module_of
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.optics.axis import Event, Optic, Ray, Values, beside_the_edge, first_met, optic_of
+from pico.optics.axis import Optic, Ray, Values, beside_the_edge, first_met, optic_of
 from pico.optics.beam import Beam, forward, moments
 from pico.optics.coherence import dispersed
 from pico.optics.emission import emit
+from pico.optics.geometry import Event
 from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
 from pico.optics.part import Element, Met, Part, Straying
@@ -209,7 +210,7 @@ def _crossing(
 
 def _strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
     """Return what a part sends astray, none of an element that does not say."""
-    found = element(part.kind.optics.element)
+    found = element(part.optic.element)
     return cast(Straying, found).strays(part, beam, met) if hasattr(found, "strays") and met.clipped < 1.0 else ()
 
 

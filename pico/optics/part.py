@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from pico.model.catalog import ComponentType
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
-from pico.optics.axis import Event, Optic
+from pico.optics.axis import Optic
 from pico.optics.beam import Beam, forward, groups_of, scaled
+from pico.optics.geometry import Event, geometry_of
 from pico.optics.polarization import Vector
 from pico.optics.rays import Surface
 
@@ -113,7 +114,7 @@ def arrived(part: Part, beam: Beam, *, at: Vector | None = None, normal: Vector 
 
 def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = None) -> tuple[Beam, float]:
     """Return a beam behind a round edge of a radius [mm], and the share that it stops. A beam that comes aslant sees it
-    as an ellipse; but for the cube of a splitter, which is as open on each side.
+    as an ellipse; but for a cube, which is as open on each side.
 
     What passes is its part within the edge; where that is less than SPOT of it, its spot is not Gaussian any
     more and becomes unknown: diffraction would have to tell.
@@ -121,7 +122,7 @@ def clipped(part: Part, came: Beam, radius: float, *, center: Vector | None = No
     middle = part.center if center is None else center
     aslant = came.frame @ np.array(part.optic.normal)
     seen, place = came, came.frame @ (middle - came.at)
-    if part.optic.element != "beam_splitter" and (size := float(np.hypot(*aslant))) > _SQUARE:
+    if not geometry_of(part.optic.element).cube and (size := float(np.hypot(*aslant))) > _SQUARE:
         # stretched along the tilt, so that the ellipse is the circle again
         stretch = np.eye(2) + (1 / math.sqrt(max(1 - size**2, 1e-12)) - 1) * np.outer(aslant, aslant) / size**2
         back = np.asarray(np.linalg.inv(stretch), dtype=np.float64)

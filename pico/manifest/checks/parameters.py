@@ -59,8 +59,15 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "blocking": Bounds("", 0, 20), "effective_index": Bounds("", 1, 10), "thickness": Bounds("mm", 0, 1e3),
         "refractive_index": _INDEX,
     },
-    "beam_expander": {"magnification": Bounds("", 1e-3, 1e3), "transmission": _SHARE},
     "chopper": {"duty": _SHARE},
+    "filter_wheel": {f"density_{n}": Bounds("", 0, 20) for n in range(1, 13)},
+    "expander": {"magnification": Bounds("", 0.01, 100), "length": Bounds("mm", 0, 1e4), "transmission": _SHARE},
+    "grating": {
+        "lines": Bounds("1/mm", 0, 1e4), "efficiency_0": _SHARE, "efficiency_plus_1": _SHARE,
+        "efficiency_minus_1": _SHARE,
+    },
+    "prism": {"edge": _LENGTH, "refractive_index": Bounds("", 1, 10), "transmission": _SHARE},
+    "wollaston": {"divergence": Bounds("deg", 0, 60), "extinction": Bounds("", 1), "transmission": _SHARE},
     "isolator": {"transmission": _SHARE, "isolation": Bounds("dB", 0, 120), "output": Bounds("deg")},
     "polarizer": {
         "extinction": Bounds("", 1), "transmission": _SHARE, "refractive_index": _INDEX,
@@ -133,15 +140,17 @@ def wrong_parameters(kind: ComponentType, at: Places) -> Iterator[Diagnostic]:
     polarizing = kind.parameters.get("polarizing")
     if element == "beam_splitter" and not (polarizing and polarizing.value):
         yield from _together(kind, ("reflectance", "transmittance"), at)
+    if element == "grating":
+        yield from _together(kind, ("efficiency_plus_1", "efficiency_minus_1", "efficiency_0"), at)
     if element == "plate_splitter":
         yield from _together(kind, ("reflectance", "transmittance"), at)
         yield from _together(kind, ("reflectance_below", "transmittance_below"), at)
 
 
-def _together(kind: ComponentType, names: tuple[str, str], at: Places) -> Iterator[Diagnostic]:
+def _together(kind: ComponentType, names: tuple[str, ...], at: Places) -> Iterator[Diagnostic]:
     shares = sum(kind.number(name, "") or 0.0 for name in names)
     if shares > 1 + 1e-9:
-        text = f"`{names[0]}` and `{names[1]}` are {shares:g} together: more light leaves than comes"
+        text = f"{' and '.join(f'`{n}`' for n in names)} are {shares:g} together: more light leaves than comes"
         yield error("value", text, hint="1 or less together", source=at(names[0]))
 
 

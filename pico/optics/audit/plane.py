@@ -94,6 +94,7 @@ def _behind(start: Spread, part: Part, before: Crossing, onward: Crossing) -> Sp
     """Return the spread of a beam behind a part."""
     yaw = math.radians(part.kind.pose.tolerance.yaw + 3 * part.kind.repeatability.yaw)
     rise = turn = 0.0
+    element = part.kind.optics.element
     if before.event == "reflected":
         (low, high), now = reach(part, "tilt"), turned(part, "tilt")
         tip = max(abs(end - turned(part, "tip")) for end in reach(part, "tip"))
@@ -102,6 +103,13 @@ def _behind(start: Spread, part: Part, before: Crossing, onward: Crossing) -> Sp
         least = max(0.0, math.acos(min(1.0, square)) - aside)
         rise = 2 * math.cos(least) * max(abs(low - now), abs(high - now)) + 2 * abs(now) * aside
         turn = 2 * tip
+    if element == "expander":
+        by = part.number("magnification", "", 1.0)
+        by = by if before.beam.along @ part.axes[0] > 0 else 1 / by
+        height = start.height * abs(by) + part.number("length", "mm", 0.0) * start.rise
+        return Spread(start.rise / abs(by), height, start.turn / abs(by) + 2 * yaw)
+    if element == "grating":  # orders leave at other angles than they come: no bound on how far about the upright
+        return Spread(start.rise, start.height, math.pi)
     bend = _bends(part, onward)
     rise += min(start.height, 2 * part.optic.radius) * bend
     return Spread(start.rise + rise, start.height, start.turn + turn + 2 * yaw + 2 * part.optic.radius * bend)

@@ -9,13 +9,10 @@ from pico.optics.strays import of_plate
 
 
 def meet(part: Part, beam: Beam) -> Met:
-    """Weaken a beam by ten to the power of minus `optical_density`, a tunable or a parameter; in a wheel that of its
-    `place`, the parameter `density_1` and so on."""
+    """Weaken a beam by ten to the power of minus `optical_density`, a tunable or a parameter."""
     came = arrived(part, beam)
     passed, lost = clipped(part, came, part.optic.radius)
     density = part.value("optical_density", "", part.number("optical_density", "", 0.0))
-    if "place" in part.kind.tunables:
-        density = part.number(f"density_{part.values.get('place', 1)}", "", 0.0)
     return Met(came, plate(part, scaled(passed, 10 ** (-density / 2))), lost)
 
 

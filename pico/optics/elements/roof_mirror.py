@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pico.optics.axis import half_turned
 from pico.optics.beam import Beam
+from pico.optics.geometry import half_turned
 from pico.optics.part import Met, Part, arrived, clipped
 from pico.optics.polarization import Vector
 

@@ -17,7 +17,10 @@ from pico.model.setpoint import set_seconds
 from pico.planning.checks.beams import shutter_of
 from pico.planning.parts.phrases import listed
 
-STEERING = ("beam_splitter", "lens", "mirror", "plate_splitter", "retroreflector", "roof_mirror", "waveplate")
+STEERING = (
+    "beam_splitter", "expander", "grating", "lens", "mirror", "plate_splitter", "prism", "retroreflector",
+    "roof_mirror", "waveplate", "wollaston",
+)  # fmt: skip
 """Elements that send the beam elsewhere while their axes are homed; a wave plate does so through a polarizing splitter
 behind it. A polarizer only dims it."""
 OPEN, CLOSED = "open", "closed"
