@@ -10,14 +10,14 @@ from pico.drawing.beams import Place
 from pico.drawing.canvas import Point
 from pico.drawing.topview import drawn, letters
 from pico.model.lab import Setup
+from pico.optics.geometry import geometry_of
 from pico.twin.lettering import write
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.optics.geometry import geometry_of
-from pico.optics.light import Crossing, Light
+    from pico.optics.light import Crossing, Light
 
 WIDTH = 960
 _BEAM = (224, 36, 36)

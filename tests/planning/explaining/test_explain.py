@@ -79,7 +79,8 @@ def test_every_edge_between_two_moves_stands_for_a_contact(seed: int) -> None:
                 continue
             assert wait.because and all(b.contact for b in wait.because), (seed, step.operation.id, wait)
             for because in wait.because:
-                assert because.contact and because.contact.overlap > -max(because.contact.margin, 1e-3)
+                contact = because.contact  # rounding may put what is just inside the margin on its edge
+                assert contact and contact.overlap >= -max(contact.margin, 1e-3) - 1e-6
 
 
 def test_an_overlap_is_what_the_footprints_have_in_common() -> None:
