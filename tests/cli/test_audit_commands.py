@@ -64,6 +64,16 @@ def test_validate_tells_it_at_the_line_that_turns_the_laser_on(shel: Path, pico:
     assert "beam-audit" not in pico("validate").err
 
 
+def test_validate_names_the_parts_of_which_nobody_says_what_light_they_can_take(shel: Path, pico: Pico) -> None:
+    assert "damage-threshold" not in pico("validate").err
+    assert pico("catalog", "new", "bare", "--from", "linear_polarizer").code == 0
+    made = next(shel.rglob("bare.yaml"))
+    made.write_text("".join(li for li in made.read_text().splitlines(True) if "damage_threshold:" not in li))
+    edit(shel / "lab.yaml", "  p1:\n    type: linear_polarizer", "  p1:\n    type: bare")
+    told = pico("validate")
+    assert told.code == 0 and "note[damage-threshold]: nobody says how much light p1 can take" in told.err
+
+
 def red(path: Path, box: tuple[float, float, float, float]) -> int:
     """Return how many pixels of a box (shares of the picture) are as red as what is not safe."""
     image = cv2.imread(str(path))

@@ -46,6 +46,10 @@ class Bench:
     def set(self, name: str, **values: Any) -> Bench:
         return replace(self, values={**self.values, name: {**self.values.get(name, {}), **values}})
 
+    def unset(self, name: str, tunable: str) -> Bench:
+        own = {key: value for key, value in self.values.get(name, {}).items() if key != tunable}
+        return replace(self, values={**self.values, name: own})
+
     def put(self, name: str, kind: str, x: float, y: float, yaw: float = 0.0, **parameters: Any) -> Bench:
         """Add a part of a type of the catalog with other parameters; None: without it."""
         parts = {**self.setup.lab.inventory, name: Part(type=kind, home="none")}

@@ -117,6 +117,17 @@ HAZARDS: dict[str, tuple[Callable[[], Bench], str]] = {
     "a closed shutter that is declared to end nothing": (
         lambda: shel().put("gate", "shutter", 400, 420, ends=False).set("gate", shutter="closed"),
         "p1 → ends on gate, which is not declared"),
+    "a mirror that may be flipped into the beam": (
+        lambda: shel().put("flip", "mirror_flip", 700, 420, 45, tilt=(-1, 1)),
+        "p2 → flip → leaves the table at (700, 0)"),
+    "a mirror that may be flipped out of the beam": (
+        lambda: shel().without("cam").put("flip", "mirror_flip", 700, 420, 45, tilt=(-1, 1)).put(
+            "trap", "beam_block", 700, 200, -90),
+        "p2 → flip → leaves the table at (1200, 420)"),
+    "a wave plate at an angle that nobody knows": (
+        lambda: divided("polarizing_beam_splitter").unset("hwp", "angle").unset("p1", "angle").without("p1").put(
+            "trap", "beam_block", 1000, 420),
+        "hwp → bs → leaves the table at (400, 900)"),
     "a part that keeps light": (
         lambda: shel().put("box", "neutral_density_filter", 400, 420, element="unheard_of"), "is kept by box"),
 }  # fmt: skip
@@ -141,6 +152,11 @@ def test_a_plan_that_opens_a_laser_onto_a_hazard_is_refused_and_the_branch_named
     make, branch = HAZARDS[name]
     refused = [d.summary for d in said(make()) if d.severity == "error"]
     assert any(branch in text for text in refused), (branch, refused)
+
+
+def test_what_nobody_knows_is_told_with_the_branch_that_hangs_on_it() -> None:
+    (found,) = said(HAZARDS["a mirror that may be flipped out of the beam"][0]())
+    assert found.hint.startswith("nobody knows flip.flipped: here it is down; ")
 
 
 def test_there_are_thirty_and_each_is_of_a_shipped_bench() -> None:
@@ -168,6 +184,10 @@ HARMLESS: dict[str, Callable[[], Bench]] = {
     "an uncoated window at 2 mW": lambda: tilted_glass(2.0, coating="none"),
     "coated faces at 15 mW": lambda: tilted_glass(15),
     "an iris that stops little": lambda: two_arms().set("iris_in", opening=1.0),
+    "a mirror that is flipped out of the beam": lambda: shel().put(
+        "flip", "mirror_flip", 700, 420, 45, tilt=(-1, 1)).set("flip", flipped="down"),
+    "a mirror that may be flipped, each way into a trap": lambda: shel().put(
+        "flip", "mirror_flip", 700, 420, 45, tilt=(-1, 1)).put("trap", "beam_block", 700, 200, -90),
     "a weak end": lambda: shel().without("cam").put("nd", "neutral_density_filter", 700, 420),
     "a strong laser whose head takes what comes back": lambda: strong(40).made("laser", ends=True),
     "an open end of class 1": lambda: shel().without("cam").made("laser", power=0.39),

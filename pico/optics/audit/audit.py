@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
+from itertools import product
 
 from pico.model.lab import Setup
 from pico.model.pose import Pose
@@ -19,6 +20,7 @@ from pico.optics.audit.findings import Audit, Finding
 from pico.optics.audit.lasers import lasers_of
 from pico.optics.audit.limits import class_1, class_of
 from pico.optics.audit.plane import out_of_plane
+from pico.optics.audit.unsettled import told_with, unsettled
 from pico.optics.axis import Values
 from pico.optics.beam import Beam
 from pico.optics.light import Light, light_of
@@ -31,25 +33,27 @@ STRICT = 1e-6
 
 def audit(setup: Setup, poses: Mapping[str, Pose], values: Values, lasers: Collection[str] | None = None) -> Audit:
     """Return the verdict on the light among what stands at `poses`, tunables set to `values` in the units of the
-    catalog; of these `lasers`, else of those that shine."""
+    catalog; of these `lasers`, else of those that shine. What nobody knows is taken at each value that it may have."""
     lit = tuple(sorted(lasers)) if lasers is not None else lasers_of(setup, poses, values)
 
     def traced(laser: str, changed: Values) -> Light:
         return light_of(setup, poses, changed, lit=lambda name: name == laser, astray=_least)
 
-    found: list[Finding] = []
+    found: dict[str, Finding] = {}
     classes, unsaid = {}, set[str]()
-    for laser in lit:
-        light = traced(laser, values)
+    for laser, (known, taken) in product(lit, unsettled(setup, poses, values) if lit else ()):
+        light = traced(laser, known)
         if not light.crossings:
             continue
         first = light.crossings[0]
         wavelength = first.beam.wavelength * 1e6
         classes[laser] = class_of(first.power, wavelength)
         branches = Branches(setup, light, laser, classes[laser], class_1(wavelength))
-        found += _judged(branches, partial(traced, laser), values)
+        for one in _judged(branches, partial(traced, laser), known):
+            if one.branch not in found or one.power > found[one.branch].power:
+                found[one.branch] = told_with(one, taken)
         unsaid |= set(unjudged(branches))
-    return Audit(findings=tuple(found), lasers=classes, unjudged=tuple(sorted(unsaid)))
+    return Audit(findings=tuple(found.values()), lasers=classes, unjudged=tuple(sorted(unsaid)))
 
 
 def _judged(branches: Branches, traced: Callable[[Values], Light], values: Values) -> Iterator[Finding]:
