@@ -7,7 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
 
-from pico.model.catalog import Catalog, ComponentType, Measurable, SeatingKind, as_first_written, with_parameters
+from pico.model.catalog import (
+    Catalog,
+    ComponentType,
+    Measurable,
+    SeatingKind,
+    as_first_written,
+    value_of,
+    with_parameters,
+)
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length, Value
 from pico.model.record import digest, record
@@ -498,5 +506,15 @@ class Setup:
         return self == other or self.digest() == other.digest()
 
     def digest(self) -> str:
-        """Return the digest of the lab and its types as the first release wrote them, as a plan records it."""
-        return digest({"lab": self.lab, "catalog": {n: as_first_written(kind) for n, kind in self.catalog.items()}})
+        """Return the digest of the lab and its types as the first release wrote them, as a plan records it; parameters
+        of a part count by their values, however they are written."""
+        lab = self.lab
+        if any(part.parameters is not None for part in lab.inventory.values()):
+            lab = replace(lab, inventory={name: self._converted(part) for name, part in lab.inventory.items()})
+        return digest({"lab": lab, "catalog": {n: as_first_written(kind) for n, kind in self.catalog.items()}})
+
+    def _converted(self, part: Part) -> Part:
+        if not part.parameters:
+            return part if part.parameters is None else replace(part, parameters=None)
+        declared = self.catalog[part.type].parameters
+        return replace(part, parameters={name: value_of(declared[name], v) for name, v in part.parameters.items()})
