@@ -11,11 +11,13 @@ from pico.model.catalog import ComponentType, Measurable, Parameter, Tunable
 from .style import count, number
 
 GROUPS = {
-    "Sources": ("source",), "Mirrors": ("mirror", "roof_mirror", "retroreflector", "prism", "grating"),
+    "Sources": ("source",), "Mirrors": ("mirror", "roof_mirror", "retroreflector", "parabola", "prism", "grating"),
     "Lenses": ("lens", "expander"),
     "Polarization": ("polarizer", "waveplate", "isolator", "wollaston"),
     "Beam splitters": ("beam_splitter", "plate_splitter"),
-    "Apertures and filters": ("iris", "slit", "filter", "filter_wheel", "bandpass", "chopper", "shutter", "block"),
+    "Apertures and filters": (
+        "iris", "slit", "spatial_filter", "filter", "bandpass", "shutter", "block",
+    ),
     "Detectors": ("detector",),
 }  # fmt: skip
 """Headings with the optical elements below them; what else there is comes last."""

@@ -21,7 +21,8 @@ _INK, _FAINT, _EDGE, _HOLE = "#222831", "#6b7480", "#788a8a", "#d3d8de"
 _BEAM, _MOVER, _RULE = "#e02424", "#66738a", "#d6dae0"
 COLORS = {
     "source": "#2a4a80", "lens": "#3a8ac4", "polarizer": "#34886c", "waveplate": "#805cb6", "mirror": "#b0842c",
-    "roof_mirror": "#b0842c", "retroreflector": "#b0842c", "plate_splitter": "#3c96a0", "beam_splitter": "#3c96a0",
+    "roof_mirror": "#b0842c", "retroreflector": "#b0842c", "parabola": "#b0842c",
+    "plate_splitter": "#3c96a0", "beam_splitter": "#3c96a0",
     "detector": "#bc3a32", "none": "#68707c",
 }  # fmt: skip
 _HALF_SLOT = 36.0

@@ -39,6 +39,7 @@ _COLORS: dict[str, Color] = {
     "mirror": (176, 132, 44),
     "roof_mirror": (176, 132, 44),
     "retroreflector": (176, 132, 44),
+    "parabola": (176, 132, 44),
     "plate_splitter": (60, 150, 160),
     "beam_splitter": (60, 150, 160),
     "detector": (188, 58, 50),

@@ -82,7 +82,7 @@ def _edited(document: Document, name: str, given: Mapping[str, str]) -> str:
             hint = f"{kind.name} has {_written(own.value)} {own.unit}".rstrip()
             raise PicoError(error("value", f"`{parameter}`: {exc}", hint=hint)) from exc
         changes.append((_value(document, "parameters", parameter, "value"), _written(value)))
-        said.append(f"{parameter} {text}")
+        said.append(f"{parameter} {_written(value).strip(chr(34))} {own.unit}".rstrip())
     if said:
         changes.append((_value(document, "metadata", "title"), json.dumps(f"{kind.title}; {', '.join(said)}")))
     for node, text in sorted(changes, key=lambda change: -change[0].start):

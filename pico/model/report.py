@@ -12,6 +12,7 @@ from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, slot_at
+from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.state import LabState, place_of
 
@@ -101,8 +102,8 @@ class Committed:
 
 @record
 class PartRow:
-    """One part of the inventory: its type, where it is (or `held`, `toppled`; None where nobody sees it), and whether
-    it is free: at rest in storage and not used by the manifest."""
+    """One part of the inventory: its type, the parameters of its own as its lab gives them, where it is (or `held`,
+    `toppled`; None where nobody sees it), and whether it is free: at rest in storage and not used by the manifest."""
 
     name: str
     type: str
@@ -112,6 +113,7 @@ class PartRow:
     home: str | None = None
     where: str | None = None
     free: bool = False
+    parameters: Mapping[str, Value] = field(default_factory=dict)
 
 
 def parts_of(setup: Setup, desired: LabState, seen: Observation, *, free: bool = False) -> tuple[PartRow, ...]:
@@ -134,6 +136,7 @@ def parts_of(setup: Setup, desired: LabState, seen: Observation, *, free: bool =
                 home=part.home,
                 where=where,
                 free=resting,
+                parameters=part.parameters or {},
             )
         )
     return tuple(row for row in rows if row.free or not free)

@@ -161,7 +161,8 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     if does.folds:
         # what comes along +x is divided to `fold` degrees from it: the coating stands half way
         fold = kind.number("fold", "deg")
-        tip = math.radians((90.0 if fold is None else fold) / 2 + 90.0)
+        fold = 90.0 if fold is None else fold
+        tip = math.radians(fold / 2 + math.copysign(90.0, fold))
     facing = math.radians(pose.yaw) + tip + (math.pi if does.faces_back else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None

@@ -167,9 +167,10 @@ def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: A
     axes = np.stack([s, product(normal, s)])
     before, after = came.frame @ axes.T, np.stack([across, product(along, across)]) @ axes.T
     # a sphere of curvature c has the curvature c along any axis of its tangent plane
+    bent = surface.curvature * gaussian.ONE if surface.form is None else axes @ surface.form @ axes.T
     curvature = gaussian.through(
         came.curvature, before, after, (beam.index, index), (facing, float(along @ normal)),
-        surface.curvature * gaussian.ONE,
+        bent,
     )  # fmt: skip
     back = np.linalg.inv(after).T @ before.T * (beam.index / index)
     of_s, of_p = amplitudes(abs(facing)) if amplitudes else (-1.0, 1.0) if reflect else (1.0, 1.0)

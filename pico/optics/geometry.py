@@ -126,6 +126,7 @@ _ELEMENTS: Mapping[str, Geometry] = {
     "detector": Geometry("detected", face=1.0),
     "grating": Geometry("divided", face=-1.0, faces_back=True, ways=kicked, kicks=grating_kicks),
     "mirror": Geometry("reflected", face=-1.0, faces_back=True, turns=True, ways=mirrored),
+    "parabola": Geometry("reflected", face=-1.0, folds=True, ways=mirrored),
     "plate_splitter": Geometry("divided", faces_back=True, turns=True, ways=_divided),
     "prism": Geometry("reflected", face=-1.0, folds=True, cube=True, ways=mirrored),
     "retroreflector": Geometry("reflected", face=-1.0, faces_back=True, across=True, ways=_corner),

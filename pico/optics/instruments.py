@@ -12,7 +12,7 @@ import numpy as np
 from pico.model.lab import SensorErrors
 from pico.optics.beam_table import decibel, efficiency, electrons
 from pico.optics.light import Arrival, irradiance
-from pico.optics.part import Part
+from pico.optics.part import Part, side
 from pico.optics.sensor import Counts, Electrons, Sensor, frame
 
 _GRID = 401
@@ -66,8 +66,9 @@ class Power:
     saturated: bool = False
 
 
-def power_on(arrivals: tuple[Arrival, ...], part: Part) -> float:
-    """Return the power [mW] that beams bring to a detector: those of one source interfere on it.
+def power_on(arrivals: tuple[Arrival, ...], part: Part, aside: float = 0.0) -> float:
+    """Return the power [mW] that beams bring to a detector, `aside` of whose origin its area is, to the left [mm]:
+    those of one source interfere on it.
 
     What interference adds or takes is summed over its area, fringe by fringe as far as the grid shows them; finer ones
     add nothing.
@@ -77,13 +78,29 @@ def power_on(arrivals: tuple[Arrival, ...], part: Part) -> float:
         return power
     line = np.linspace(-1, 1, _GRID) * part.number("active_diameter", "mm", 2 * part.optic.radius) / 2
     inside = line[None, :] ** 2 + line[:, None] ** 2 <= line[-1] ** 2
-    step, alone = float(line[1] - line[0]), [irradiance((a,), line, line) for a in arrivals]
+    step, alone = float(line[1] - line[0]), [irradiance((a,), line + aside, line) for a in arrivals]
     more = sum(
-        float(((irradiance((a, b), line, line) - alone[n] - alone[m]) * inside).sum()) * step**2
+        float(((irradiance((a, b), line + aside, line) - alone[n] - alone[m]) * inside).sum()) * step**2
         for (n, a), (m, b) in combinations(enumerate(arrivals), 2)
         if a.beam.source == b.beam.source and _period(a, b) > 2 * step
     )
     return max(0.0, power + more)
+
+
+def balanced_reading(arrivals: tuple[Arrival, ...], part: Part, *, seed: int = 1, number: int = 0) -> Power:
+    """Return what a balanced detector gives [V]: the left diode's power less the right one's, by its responsivity and
+    amplifier; of what both have in common it passes a rest, less by `rejection` [dB] of the power."""
+    apart = part.number("separation", "mm", 0.0) / 2
+    powers = [
+        power_on(tuple(a for a in arrivals if side(part, a.beam.at) == which), part, which * apart)
+        for which in (1.0, -1.0)
+    ]
+    common = min(powers) * 10 ** (-part.number("rejection", "dB", 120.0) / 10)
+    per_power = 1e-3 * part.number("responsivity", "A/W", 1.0) * part.number("transimpedance", "V/A", 1.0)
+    dark, most = part.number("noise", "V", 1e-4), part.number("saturation", "V", math.inf)
+    noise = np.random.default_rng([seed, number, *part.name.encode()]).standard_normal()
+    signal = (powers[0] - powers[1] + common) * per_power + dark * noise
+    return Power(max(-most, min(signal, most)), dark, abs(signal) >= most)
 
 
 def _period(one: Arrival, other: Arrival) -> float:

@@ -105,6 +105,11 @@ class Straying(Element, Protocol):
         ...
 
 
+def side(part: Part, at: Vector) -> float:
+    """Return 1 for a point (3,) [mm] to the left of a component's axis, seen along the light, -1 to its right."""
+    return 1.0 if float((at - part.origin) @ part.axes[1]) >= 0 else -1.0
+
+
 def arrived(part: Part, beam: Beam, *, at: Vector | None = None, normal: Vector | None = None) -> Beam:
     """Return a beam where its chief ray meets the plane of an element: that across its axis through its center."""
     across = part.axes[0] if normal is None else normal

@@ -24,6 +24,8 @@ class Surface:
     `vertex` (3,) [mm]; `normal` (3,), of length 1, at the vertex; `curvature`: 1/R [1/mm], positive where the center of
     the sphere lies on the side that the normal points to; `radius` of the edge [mm]. `before` and `after`: refractive
     indices on the side that the normal points away from, and on the one that it points to. `reflects`: a mirror.
+    `form` (3, 3): how a surface that is no sphere bends to where its normal points, around a vertex at which the chief
+    ray meets it [1/mm]; what is Gaussian around that follows it, not rays beside it.
     """
 
     vertex: Array
@@ -33,6 +35,7 @@ class Surface:
     before: float = 1.0
     after: float = 1.0
     reflects: bool = False
+    form: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)

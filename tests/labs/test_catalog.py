@@ -23,7 +23,8 @@ FLAT = [name for name in HELD if CATALOG[name].geometry.grasp.fixture == "flat"]
 LATER = (
     "room_lamp", "delay_stage", "retroreflector", "plate_beam_splitter", "pellicle_beam_splitter", "dichroic_mirror",
     "slit", "pinhole", "bandpass_filter", "faraday_isolator", "right_angle_prism", "wollaston_prism",
-    "reflection_grating", "beam_expander", "filter_wheel", "chopper",
+    "reflection_grating", "beam_expander", "filter_wheel", "chopper", "off_axis_parabola", "spatial_filter",
+    "fiber_coupler", "spectrometer", "balanced_detector", "translation_stage",
 )  # fmt: skip
 """Types of elements that the first release did not have, or had no parameters of."""
 LENSES = (60, 75, 100, 125, 150, 200, 250)

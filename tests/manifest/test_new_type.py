@@ -33,7 +33,7 @@ def test_numbers_are_its_own_and_comments_stay(lab: Path) -> None:
     path = new_type(lab, "red", "hene_laser", {"wavelength": "0.65 um", "laser_class": "2", "power": "0.9"})
     kind = component_type(lab, "red")
     assert kind.number("wavelength", "nm") == pytest.approx(650) and kind.parameters["laser_class"].value == "2"
-    assert kind.title.endswith("; wavelength 0.65 um, laser_class 2, power 0.9")
+    assert kind.title.endswith("; wavelength 650 nm, laser_class 2, power 0.9 mW")
     assert "# where it has no power" in path.read_text() and kind.parameters["wavelength"].unit == "nm"
 
 

@@ -9,13 +9,20 @@ from pico.backends.sim.readings import Table
 from pico.model.lab import Setup
 
 if TYPE_CHECKING:
-    from pico.optics.light import Light
+    from pico.optics.light import Arrival, Light
 
 
 def detects(setup: Setup, component: str, measurable: str, what: str) -> bool:
     """Return whether a measurable of that name belongs to a detector of the inventory."""
     inside = component in setup.lab.inventory and measurable == what
     return inside and setup.type_of(component).optics.element == "detector"
+
+
+def alone(arrivals: tuple[Arrival, ...]) -> str:
+    """Return why nobody can say what an instrument makes of beams that interfere before it; empty where none do."""
+    sources = [a.beam.source for a in arrivals]
+    twice = next((source for source in sources if sources.count(source) > 1), "")
+    return f"several beams of {twice} come there at once, and how they interfere in it is not modelled" if twice else ""
 
 
 def light_on(table: Table) -> Light:

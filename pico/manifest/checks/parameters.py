@@ -59,8 +59,12 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "blocking": Bounds("", 0, 20), "effective_index": Bounds("", 1, 10), "thickness": Bounds("mm", 0, 1e3),
         "refractive_index": _INDEX,
     },
-    "chopper": {"duty": _SHARE},
-    "filter_wheel": {f"density_{n}": Bounds("", 0, 20) for n in range(1, 13)},
+    "parabola": {"focal_length": Bounds("mm", 1, 1e5), "fold": Bounds("deg", -170, 170), "reflectance": _SHARE},
+    "spatial_filter": {
+        "focal_length": Bounds("mm", 0.1, 1e4), "focal_length_out": Bounds("mm", 0.1, 1e4),
+        "pinhole": Bounds("um", 0.5, 1e4), "transmission": _SHARE,
+    },
+    "shutter": {"duty": _SHARE},
     "expander": {"magnification": Bounds("", 0.01, 100), "length": Bounds("mm", 0, 1e4), "transmission": _SHARE},
     "grating": {
         "lines": Bounds("1/mm", 0, 1e4), "efficiency_0": _SHARE, "efficiency_plus_1": _SHARE,
@@ -80,7 +84,10 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     "beam_splitter": {
         "reflectance": _SHARE, "transmittance": _SHARE, "extinction": Bounds("", 1), "fold": Bounds("deg"),
     },
-    "filter": {"optical_density": Bounds("", 0, 20), "transmission": _SHARE},
+    "filter": {
+        "optical_density": Bounds("", 0, 20), "transmission": _SHARE,
+        **{f"density_{n}": Bounds("", 0, 20) for n in range(1, 13)},
+    },
     "detector": {
         "pixels_across": Bounds("pixel", 1, 2e4), "pixels_up": Bounds("pixel", 1, 2e4),
         "pixel_size": Bounds("um", 0.1, 1e4),
@@ -89,6 +96,10 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "black_level": Bounds("count", 0, 6e4), "responsivity": Bounds("A/W", 1e-6, 100),
         "transimpedance": Bounds("V/A", 1e-3), "saturation": Bounds("V", 1e-9), "least_power": Bounds("mW", 0),
         "greatest_power": Bounds("mW", 1e-12), "uncertainty": _SHARE, "active_diameter": _LENGTH,
+        "separation": Bounds("mm", 0.1, 1e3), "rejection": Bounds("dB", 0, 120),
+        "mode_radius": Bounds("mm", 1e-3, 100), "transmission": _SHARE, "electrons_per_count": Bounds("", 1e-6, 1e9),
+        "resolution": Bounds("nm", 1e-6, 1e3), "shortest": Bounds("nm", 10, 1e5), "longest": Bounds("nm", 10, 1e5),
+        "channels": Bounds("", 2, 1e5), "sensitivity": Bounds("count/nJ", 1e-12),
     },
 }  # fmt: skip
 """The numbers of a type that light is computed from, by its element."""

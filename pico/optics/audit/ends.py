@@ -79,9 +79,9 @@ def _outside(branches: Branches, crossing: Crossing, part: Part) -> str:
 
 _ROUND_OFF = 1e-6
 KEEPS = frozenset((
-    "bandpass", "beam_splitter", "block", "chopper", "detector", "expander", "filter", "filter_wheel", "grating",
-    "iris", "isolator", "lens", "mirror", "none", "plate_splitter", "polarizer", "prism", "retroreflector",
-    "roof_mirror", "shutter", "slit", "source", "waveplate", "wollaston",
+    "bandpass", "beam_splitter", "block", "detector", "expander", "filter", "grating",
+    "iris", "isolator", "lens", "mirror", "none", "parabola", "plate_splitter", "polarizer", "prism", "retroreflector",
+    "roof_mirror", "shutter", "slit", "source", "spatial_filter", "waveplate", "wollaston",
 ))  # fmt: skip
 """Elements that absorb what they neither send on nor send astray."""
 

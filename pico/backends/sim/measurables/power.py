@@ -12,7 +12,8 @@ from pico.model.lab import Setup
 def measures(setup: Setup, component: str, measurable: str) -> bool:
     """Whether it is the power or the voltage of a detector with a single area."""
     found = any(detects(setup, component, measurable, what) for what in ("power", "voltage"))
-    return found and setup.type_of(component).number("active_diameter", "mm") is not None
+    kind = setup.type_of(component).parameters if found else {}
+    return "active_diameter" in kind and "separation" not in kind
 
 
 def read(table: Table, component: str, measurable: str) -> Reading:
