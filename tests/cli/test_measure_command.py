@@ -127,3 +127,36 @@ def test_a_photodiode_that_can_tell_no_more_has_no_value(shel: Path, pico: Pico)
     answer = pico("measure", "pd.voltage")
     assert answer.code == 1 and "saturated: 10 V is all that it can tell" in " ".join(answer.out.split())
     assert "gain 70 dB," in " ".join(answer.out.split())
+
+
+@pytest.mark.parametrize(
+    ("kind", "measurable", "low", "high", "dark"),
+    [
+        ("spectrometer", "wavelength", 632.7, 632.9, None),
+        ("spectrometer", "linewidth", 1.1, 1.4, None),
+        ("fiber_coupler", "power", 0.5, 2.0, 0.0),
+        ("balanced_detector", "voltage", 3.0, 9.0, 0.0),
+    ],
+)
+def test_other_instruments_measure_the_beam_too(
+    shel: Path, pico: Pico, kind: str, measurable: str, low: float, high: float, dark: float | None
+) -> None:
+    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
+    edit(
+        shel / "lab.yaml", "type: beam_camera\n    pose: {x: 1060, y: 420", f"type: {kind}\n    pose: {{x: 1060, y: 410"
+    )
+    if kind != "balanced_detector":  # of which the left diode stands in the beam
+        edit(shel / "lab.yaml", "{x: 1060, y: 410", "{x: 1060, y: 420")
+    table = shel / "state" / "table.yaml"
+    before, _, after = table.read_text().partition("  cam:\n")
+    rest = "\n".join(after.splitlines()[next(n for n, li in enumerate(after.splitlines()) if li[:4] != "    ") :])
+    own = "  cam:\n    exposure: 10\n" if kind == "spectrometer" else ""
+    table.write_text(f"{before}{own}{rest}\n")
+    assert pico("set", "p1.angle", "0", "-y").code == 0
+    assert pico("set", "laser.emission", "true", "-y").code == 0
+    found = pico("measure", f"cam.{measurable}", "--json")
+    assert ("value" not in found.data) is (dark is None)
+    assert dark is None or abs(found.data["value"]) < 5 * found.data["sigma"]
+    assert pico("set", "laser.shutter", "open", "-y").code == 0
+    found = pico("measure", f"cam.{measurable}", "--json")
+    assert low < found.data["value"] < high and found.data["sigma"] > 0

@@ -127,7 +127,7 @@ def test_nothing_stands_out_in_the_dark() -> None:
 
 @pytest.mark.parametrize(("aside", "volts"), [(-10.0, 1.0), (10.0, -1.0)])
 def test_a_balanced_detector_tells_left_from_right(aside: float, volts: float) -> None:
-    laser: dict[str, object] = {"power": 1.0 / 42, "waist_radius": 0.4}
+    laser: dict[str, object] = {"power": 1.0 / 4.2, "waist_radius": 0.4}
     found = bench("balanced_detector", Pose(400, 400 + aside), laser=laser)
     read = balanced_reading(found.at("x"), found.parts["x"])
     assert read.value == pytest.approx(volts, abs=5 * read.sigma + 1e-6) and not read.saturated
@@ -138,7 +138,7 @@ def test_what_both_diodes_take_is_rejected() -> None:
              "x": kind("balanced_detector", noise=0.0)}  # fmt: skip
     found = light(kinds, {"a": Pose(100, 410), "b": Pose(100, 390), "x": Pose(400, 400)})
     read = balanced_reading(found.at("x"), found.parts["x"])
-    assert read.value == pytest.approx(1e-3 * 0.42 * 1e5 * 1e-3, rel=1e-3)  # 30 dB below the 42 V of one
+    assert read.value == pytest.approx(1e-3 * 0.42 * 1e4 * 1e-3, rel=1e-3)  # 30 dB below the 4.2 V of one
 
 
 def test_between_the_diodes_there_is_nothing() -> None:
