@@ -31,6 +31,7 @@ SMALLEST = {
     "kernels": "--seeds 1 --shape 1000 1200",
     "kills": "--kills 50 --applies 1 --git 9",
     "beam_audit": "--repeat 1",
+    "alignment": "--seeds 1",
     "light": "--repeat 1",
     "links": "--kills 1",
     "locks": "--trials 1",

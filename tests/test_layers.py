@@ -13,8 +13,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
     "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "model", "content", "geometry",
-    "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing", "backends", "policy",
-    "execution", "runs", "edge", "history", "bench",
+    "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing", "optimize",
+    "backends", "policy", "execution", "runs", "edge", "history", "bench",
 )  # fmt: skip
 LOOSE = 6
 """How many modules may lie beside the rooms."""

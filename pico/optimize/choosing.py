@@ -1,0 +1,37 @@
+"""Which algorithm suits what is asked, where nobody says."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from pico.optimize.problem import Aim
+
+_TURNED = ("polarizer", "waveplate")
+_RADII = ("d4sigma", "gaussian_fit")
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """A tunable as it counts for the choice: the optical element of its component, its name, its period."""
+
+    element: str
+    name: str
+    period: float | None = None
+
+
+def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim) -> tuple[str, str]:
+    """Return the algorithm for an aim, and why. `kernels`: what makes the number of each output, empty for an
+    instrument's own."""
+    first = tuned[0]
+    if len(tuned) == 1 and first.name == "angle" and first.element in _TURNED and aim != "reach":
+        return "malus", f"{aim} over the angle of a {first.element}: the law of Malus"
+    if len(tuned) == 1 and kernels[0] in _RADII and aim in ("reach", "minimize"):
+        return "waist_parabola", "a radius along one way: its square is a parabola"
+    if aim == "reach" and len(kernels) >= len(tuned):
+        return "centroid_newton", f"{len(kernels)} readings for {len(tuned)} tunables: Newton's method"
+    if aim == "maximize" and len(tuned) <= 4:
+        return "peak", "as much of something as can be: a parabola through its logarithm, axis by axis"
+    if len(tuned) <= 4:
+        return "nelder_mead", "no model fits: a simplex"
+    return "rcds", f"{len(tuned)} tunables: conjugate directions"

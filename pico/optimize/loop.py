@@ -1,0 +1,232 @@
+"""The safe loop: what is set and measured next, by an algorithm, within bounds and budget, and back to a good point.
+
+Pure: it yields what it asks for and is sent what came of it. Whoever asks sets tunables (from one side, and waits until
+they have settled) and measures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Mapping
+from dataclasses import dataclass, field
+
+from pico.optimize.problem import Algorithm, Point, Problem
+
+LOST = 6
+"""Readings without light, one after the other, after light was seen, at which it gives up."""
+_SURE = 5.0
+"""Standard deviations of a power from which it counts as light."""
+Making = Callable[[Problem], Algorithm]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How much may be spent: `measurements`, and `seconds` on the bench's clock. `signal`: an output of every reading
+    below whose `least` nothing is believed (empty: none)."""
+
+    measurements: int = 60
+    seconds: float = 600.0
+    signal: str = ""
+    least: float = 0.0
+
+
+@dataclass(frozen=True)
+class Ask:
+    """Tunables to be set, and whether to measure then. `why`: `try`, `back` to where light was, `best` to be restored
+    and measured again, `start` because nothing better was found."""
+
+    point: Point
+    measure: bool = True
+    why: str = "try"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What came of an ask: outputs with their `<output>_sigma`, none where it is dark or a frame was lost (`unknown`
+    says why); `time` on the bench's clock [s]; `fault`: what does not answer any more, with its last reading."""
+
+    values: Mapping[str, float] = field(default_factory=dict)
+    time: float = 0.0
+    unknown: str = ""
+    fault: str = ""
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A point with what was measured there: tunables and outputs by name."""
+
+    result: Mapping[str, float]
+    time: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a loop ended. `first`, `last`: the results with which it began and ended (None: not measured); `tried`: all
+    that was measured, in order; `met`: the goal is met; `why` it ended; `fault`: what failed."""
+
+    first: Mapping[str, float] | None
+    last: Mapping[str, float] | None
+    tried: tuple[Tried, ...]
+    met: bool
+    why: str
+    fault: str = ""
+    seconds: float = 0.0
+
+
+Loop = Generator[Ask, Reading, Outcome]
+
+
+def loop(
+    problem: Problem, refine: Making, limits: Limits = Limits(), *, acquire: Making | None = None,
+    stopping: Callable[[], bool] = lambda: False,
+) -> Loop:  # fmt: skip
+    """Return the loop that brings a problem to its goal by the algorithm that `refine` makes, begun where the tunables
+    stand; where it is dark there, that of `acquire` looks for light first. `stopping`: it is to end, at its best."""
+    return (yield from _Walk(problem, limits, stopping).run(refine, acquire))
+
+
+class _Walk:
+    """The loop in progress."""
+
+    def __init__(self, problem: Problem, limits: Limits, stopping: Callable[[], bool]) -> None:
+        self.problem, self.limits, self.stopping = problem, limits, stopping
+        self.tried: list[Tried] = []
+        self.here: Point = problem.start
+        self.good: Tried | None = None
+        self.began: float | None = None
+        self.now = self.longest = 0.0
+        self.lost, self.fault = 0, ""
+
+    def run(self, refine: Making, acquire: Making | None) -> Loop:
+        yield from self._ask(self.problem.start)
+        why = self._over()
+        if not why and self.good is None and acquire is not None:
+            why = yield from self._stage(acquire(self.problem), until_light=True)
+            if self.good is None:
+                return (yield from self._end(why or "no light was found"))
+            why = self._over()
+        if not why:
+            begun = {v.name: self.here[v.name] for v in self.problem.variables}
+            why = yield from self._stage(refine(started(self.problem, begun)))
+        return (yield from self._end(why))
+
+    def _stage(self, algorithm: Algorithm, *, until_light: bool = False) -> Generator[Ask, Reading, str]:
+        """Do what an algorithm suggests until it is finished, or something ends it; return why."""
+        known = self.tried[-1] if self.tried else None
+        while not (why := self._over()):
+            points = algorithm.suggest(1)
+            if not points:
+                return algorithm.finished or "there is nothing more to try"
+            point = self.problem.within(points[0])
+            if known is not None and all(known.result.get(n) == v for n, v in point.items()):
+                tried, known = known, None  # where it stands it was measured already
+            else:
+                tried = yield from self._ask(point)
+            algorithm.ingest([{**tried.result, **points[0]} if tried else points[0]])
+            if until_light and self.good is not None:
+                return ""
+            if self.lost and self.good is not None and not self.fault:
+                back = {v.name: self.good.result[v.name] for v in self.problem.variables}
+                yield from self._ask(back, measure=False, why="back")
+        return why
+
+    def _over(self) -> str:
+        """Return why nothing more may be tried, empty while something may: one measurement is kept for the end."""
+        limits, spent = self.limits, len(self.tried)
+        spends = spent + 2 if spent else 1  # the next, and one at the end
+        slow = self.now - (self.began or 0.0) + 2 * self.longest > limits.seconds
+        ends = {
+            self.fault: bool(self.fault),
+            "it was stopped": self.stopping(),
+            f"the budget of {limits.measurements} measurements is spent": spends > limits.measurements,
+            f"the budget of {limits.seconds:g} s is spent": slow and spent > 0,
+            f"the light was lost {self.lost} times in a row": self.good is not None and self.lost >= LOST,
+        }
+        return next((why for why, so in ends.items() if so), "")
+
+    def _ask(self, point: Point, *, measure: bool = True, why: str = "try") -> Generator[Ask, Reading, Tried]:
+        before = self.now
+        reading = yield Ask(dict(point), measure, why)
+        self.here = point
+        if self.began is None:
+            self.began = before = reading.time
+        self.now = reading.time
+        self.longest = max(self.longest, self.now - before)
+        if reading.fault:
+            self.fault = self.fault or reading.fault
+        tried = Tried({**point, **reading.values}, reading.time, why)
+        if measure and not reading.fault:
+            if self._believed(tried.result):
+                self.lost = 0
+                self.good = tried if self.good is None or self._better(tried, self.good) else self.good
+            else:
+                self.lost += 1
+                kept = {n: v for n, v in tried.result.items() if n in point or n.startswith(self.limits.signal or "\0")}
+                tried = Tried(kept, reading.time, why)
+            self.tried.append(tried)
+        return tried
+
+    def _believed(self, result: Mapping[str, float]) -> bool:
+        if not self.problem.measured(result):
+            return False
+        if self.limits.signal:
+            return result.get(self.limits.signal, math.nan) >= self.limits.least
+        output = self.problem.outputs[0]  # of a power what stands out of its noise
+        return self.problem.aim != "maximize" or result[output] > _SURE * result.get(f"{output}_sigma", 0.0)
+
+    def _better(self, one: Tried, other: Tried) -> bool:
+        return self.problem.cost(one.result) < self.problem.cost(other.result)
+
+    def _at_best(self) -> bool:
+        """Whether what was measured last is as good as the best, as far as its noise tells."""
+        if self.good is None or not self.tried:
+            return True
+        last = self.tried[-1].result
+        if self.here != {n: last[n] for n in self.here}:
+            return False
+        noise = math.hypot(self.problem.noise(last), self.problem.noise(self.good.result))
+        return self.problem.cost(last) <= self.problem.cost(self.good.result) + 2 * noise
+
+    def _end(self, why: str) -> Loop:
+        """Bring the tunables to the best point, measured again; or to where they began, where nothing better is."""
+        first = self.tried[0] if self.tried else None
+        stopped = self.fault
+        if self.good is None and first is not None:
+            yield from self._ask(_point(self.problem, first), measure=False, why="start")
+        elif self.good is not None and not self._at_best():
+            yield from self._ask(_point(self.problem, self.good), why="best")
+        if first is not None and self._worse(first):
+            left = len(self.tried) < self.limits.measurements
+            yield from self._ask(_point(self.problem, first), measure=left, why="start")
+        last = self.tried[-1] if self.tried else None
+        believed = last is not None and self._believed(last.result) and not stopped
+        reached = believed and last is not None and (self.problem.aim != "reach" or self.problem.met(last.result))
+        spent = ("the budget", "it was stopped", "it comes no nearer", "the light")
+        met = reached and (self.problem.aim == "reach" or not why.startswith(spent))
+        seen = first.result if first and self._believed(first.result) else None
+        return Outcome(
+            seen, last.result if believed and last else None, tuple(self.tried), met, why, stopped,
+            self.now - (self.began or 0.0),
+        )  # fmt: skip
+
+    def _worse(self, first: Tried) -> bool:
+        """Whether it is worse now than it began, by two standard deviations."""
+        last = self.tried[-1]
+        if last is first or self.fault or not self._believed(first.result):
+            return False
+        if not self._believed(last.result):
+            return True
+        noise = math.hypot(self.problem.noise(last.result), self.problem.noise(first.result))
+        return self.problem.cost(last.result) > self.problem.cost(first.result) + 2 * noise
+
+
+def started(problem: Problem, at: Mapping[str, float]) -> Problem:
+    """Return a problem whose tunables stand at a point."""
+    from dataclasses import replace
+
+    return replace(problem, variables=tuple(replace(v, start=at.get(v.name, v.start)) for v in problem.variables))
+
+
+def _point(problem: Problem, tried: Tried) -> Point:
+    return {v.name: tried.result[v.name] for v in problem.variables}

@@ -1,0 +1,162 @@
+"""What is optimized, and what an algorithm is: asked for points to try (`suggest`), told what was measured (`ingest`).
+
+That is the interface of Xopt's and blop's generators: points and results are dictionaries by name. Of a result an
+output that is missing, or NaN, was not measured: it was dark there, or a frame was lost. `<output>_sigma` is its one
+standard deviation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from pico.diagnostics import PicoError, error
+
+Aim = Literal["reach", "minimize", "maximize"]
+Point = dict[str, float]
+_ABSURD = 1e30
+"""No instrument reads as much; squares of less can be added up."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A tunable by its address (`ly_150.stage_y`), with its bounds in the tunable's unit, where it stands now
+    (`start`), its `period` and its `resolution`; `reach`: how far its best value is likely to be from where it
+    stands, half the range between the bounds where nobody says."""
+
+    name: str
+    low: float
+    high: float
+    start: float
+    resolution: float = 0.0
+    period: float | None = None
+    reach: float | None = None
+
+    @property
+    def span(self) -> float:
+        """The range between the bounds."""
+        return self.high - self.low
+
+    @property
+    def likely(self) -> float:
+        """How far from its start its best value is likely to be."""
+        return min(self.reach, self.span) if self.reach else self.span / 2
+
+    def within(self, value: float) -> float:
+        """Return a value brought within the bounds: by its period where that leads there, else to the nearer one."""
+        if self.period and not self.low <= value <= self.high:
+            turned = self.low + (value - self.low) % self.period
+            if turned <= self.high:
+                return turned
+        return min(self.high, max(self.low, value)) if math.isfinite(value) else self.start
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Which tunables may be changed, what is measured (`outputs`), and what is wanted of it.
+
+    `reach`: every output at its `target`, within its `tolerance`; `minimize`, `maximize`: the first output as low or as
+    high as can be, `tolerance` (of that output, 0 for none) being how near to the best is near enough. `floor`: the
+    least that a maximized or minimized output of a beam may be worth, below which nothing is believed (dark).
+    """
+
+    variables: tuple[Variable, ...]
+    outputs: tuple[str, ...]
+    aim: Aim = "reach"
+    target: Mapping[str, float] = field(default_factory=dict)
+    tolerance: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def start(self) -> Point:
+        """Where the tunables stand."""
+        return {v.name: v.start for v in self.variables}
+
+    def within(self, point: Mapping[str, float]) -> Point:
+        """Return a point brought within all bounds."""
+        return {v.name: v.within(point.get(v.name, v.start)) for v in self.variables}
+
+    def measured(self, result: Mapping[str, float]) -> bool:
+        """Return whether every output of a result was measured, as a number that an instrument may give."""
+        return all(abs(result.get(name, math.nan)) < _ABSURD for name in self.outputs)
+
+    def off(self, result: Mapping[str, float]) -> dict[str, float]:
+        """Return how far each output is from its target (of a goal that is to be reached)."""
+        return {name: result[name] - self.target.get(name, 0.0) for name in self.outputs}
+
+    def met(self, result: Mapping[str, float]) -> bool:
+        """Return whether a result is at its target, within tolerance of every output."""
+        if self.aim != "reach" or not self.measured(result):
+            return False
+        return all(abs(off) <= self.tolerance.get(name, 0.0) for name, off in self.off(result).items())
+
+    def cost(self, result: Mapping[str, float]) -> float:
+        """Return what is to be as low as can be: of a goal to be reached the distance from it in tolerances; infinite
+        where it was not measured."""
+        if not self.measured(result):
+            return math.inf
+        if self.aim == "reach":
+            return math.hypot(*(off / (self.tolerance.get(n) or 1.0) for n, off in self.off(result).items()))
+        return result[self.outputs[0]] * (1 if self.aim == "minimize" else -1)
+
+    def noise(self, result: Mapping[str, float]) -> float:
+        """Return one standard deviation of the cost of a result; 0 where nobody says."""
+        sigmas = {name: result.get(f"{name}_sigma", 0.0) or 0.0 for name in self.outputs}
+        if self.aim != "reach":
+            return sigmas[self.outputs[0]]
+        cost = self.cost(result)
+        if not math.isfinite(cost) or cost == 0:
+            return math.hypot(*(s / (self.tolerance.get(n) or 1.0) for n, s in sigmas.items()))
+        parts = ((off / (self.tolerance.get(n) or 1.0) ** 2 / cost * sigmas[n]) for n, off in self.off(result).items())
+        return math.hypot(*parts)
+
+
+def missing(algorithm: str, package: str) -> PicoError:
+    """Return that an algorithm needs a package which is not installed, and how it is."""
+    text = f"{algorithm} needs the package `{package}`, which is not installed"
+    return PicoError(error("extra", text, hint="`pip install 'pico-lab[optimize]'` installs it"))
+
+
+class Algorithm(Protocol):
+    """Something that is asked for points to try, and told what was measured there."""
+
+    def suggest(self, num_points: int | None = None) -> list[Point]:
+        """Return the next points to try, within the bounds, `num_points` of them or fewer (one where that is None);
+        none where there is nothing more to try."""
+        ...
+
+    def ingest(self, results: Sequence[Mapping[str, float]]) -> None:
+        """Hear what was measured: points with their outputs, in any order, those of others too."""
+        ...
+
+    @property
+    def finished(self) -> str:
+        """Why nothing more is to be tried, empty while something is."""
+        ...
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """What a file of algorithms brings: its name is the file's. `aims` that it can, how many `variables` and `outputs`
+    it takes (least and most), and its `parameters` with their defaults."""
+
+    what: str
+    aims: tuple[Aim, ...]
+    variables: tuple[int, int]
+    outputs: tuple[int, int] = (1, 1)
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+    def refusal(self, problem: Problem) -> str:
+        """Return why it cannot solve a problem, in words that follow its name; empty where it can."""
+        least, most = self.variables
+        if not least <= len(problem.variables) <= most:
+            how = f"{least}" if least == most else f"{least} to {most}"
+            return f"takes {how} tunables, not {len(problem.variables)}"
+        least, most = self.outputs
+        if not least <= len(problem.outputs) <= most:
+            how = f"{least}" if least == most else f"{least} to {most}"
+            return f"needs {how} numbers measured, not {len(problem.outputs)}"
+        if problem.aim not in self.aims:
+            return f"cannot {problem.aim}"
+        return ""

@@ -1,0 +1,61 @@
+"""Algorithms by name: a file each of `pico.optimize.algorithms`; a plug-in brings more by the entry point
+`pico.algorithms`, a module of the same kind: `DECLARATION` and `make(problem, parameters, seed)`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Protocol, cast
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.optimize.problem import Algorithm, Declaration, Problem
+
+FOLDER = "pico.optimize.algorithms"
+GROUP = "pico.algorithms"
+
+
+class AlgorithmFile(Protocol):
+    """A file of FOLDER."""
+
+    DECLARATION: Declaration
+    make: Callable[[Problem, Mapping[str, float], int], Algorithm]
+
+
+@cache
+def known() -> tuple[str, ...]:
+    """Return the names of all algorithms, PICO's own first; imports none of PICO's own."""
+    own = sorted(found.name for found in iter_modules(import_module(FOLDER).__path__))
+    return (*own, *sorted(_plugged_in().keys() - set(own)))
+
+
+@cache
+def _plugged_in() -> Mapping[str, str]:
+    from importlib.metadata import entry_points
+
+    return {entry.name: entry.value for entry in entry_points(group=GROUP)}
+
+
+def algorithm_file(name: str) -> AlgorithmFile:
+    """Return the file of an algorithm; raises PicoError for a name that there is not, and for what it needs and is not
+    installed."""
+    if name not in known():
+        hint = did_you_mean(name, known()) or f"known: {', '.join(known())}"
+        raise PicoError(error("algorithm", f"there is no algorithm `{name}`", hint=hint))
+    return cast(AlgorithmFile, import_module(_plugged_in().get(name) or f"{FOLDER}.{name}"))
+
+
+def made(name: str, problem: Problem, parameters: Mapping[str, float] | None = None, seed: int = 1) -> Algorithm:
+    """Return an algorithm for a problem; raises PicoError where it cannot solve that, and for parameters that it does
+    not have."""
+    file, given = algorithm_file(name), dict(parameters or {})
+    declared = file.DECLARATION
+    if why := declared.refusal(problem):
+        fits = ", ".join(n for n in known() if not algorithm_file(n).DECLARATION.refusal(problem))
+        raise PicoError(error("algorithm", f"{name} {why}", hint=f"those that can: {fits}"))
+    for parameter in given:
+        if parameter not in declared.parameters:
+            hint = did_you_mean(parameter, declared.parameters) or f"known: {', '.join(declared.parameters) or 'none'}"
+            raise PicoError(error("algorithm", f"{name} has no parameter `{parameter}`", hint=hint))
+    return file.make(problem, {**declared.parameters, **given}, seed)

@@ -1,0 +1,180 @@
+"""Algorithms: they stay within bounds whatever is measured, are the same again, and solve what they are made for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pico.diagnostics import PicoError
+from pico.optimize.choosing import Tuned, choose
+from pico.optimize.problem import Algorithm, Point, Problem, Variable
+from pico.optimize.registry import algorithm_file, known, made
+
+VARIABLES = tuple(Variable(f"m{n}.tip", -2.0, 3.0, 0.5) for n in range(4))
+OUTPUTS = ("cam.x", "cam.y")
+QUICK = [name for name in known() if name != "cobyqa"]
+
+
+def problem_for(name: str, aim: str | None = None) -> Problem:
+    declared = algorithm_file(name).DECLARATION
+    count, wanted = max(declared.variables[0], min(2, declared.variables[1])), aim or declared.aims[0]
+    outputs = OUTPUTS[: max(1, min(2, declared.outputs[1])) if wanted == "reach" else 1]
+    tolerance = dict.fromkeys(outputs, 0.01)
+    return Problem(VARIABLES[:count], outputs, wanted, dict.fromkeys(outputs, 0.0), tolerance)  # type: ignore[arg-type]
+
+
+def driven(algorithm: Algorithm, read: Callable[[Point], Mapping[str, float]], most: int = 400) -> list[Point]:
+    tried = []
+    for _ in range(most):
+        points = algorithm.suggest()
+        if not points:
+            break
+        tried += points
+        algorithm.ingest([{**p, **read(p)} for p in points])
+    return tried
+
+
+readings = st.one_of(
+    st.just({}), st.fixed_dictionaries({n: st.floats(allow_infinity=True) for n in OUTPUTS}),
+    st.fixed_dictionaries({n: st.sampled_from([0.0, 1.0, -1e300, 1e300, 1e-300]) for n in OUTPUTS}),
+    st.fixed_dictionaries({n: st.floats(0, 10) for n in (*OUTPUTS, *(f"{n}_sigma" for n in OUTPUTS))}),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", known())
+@settings(deadline=None, max_examples=25)
+@given(data=st.data())
+def test_what_is_suggested_lies_within_the_bounds_whatever_is_read(name: str, data: st.DataObject) -> None:
+    aims = algorithm_file(name).DECLARATION.aims
+    problem = problem_for(name, data.draw(st.sampled_from(aims)))
+    algorithm = made(name, problem)
+    with np.errstate(all="ignore"):
+        for number in range(12 if name == "cobyqa" else 40):
+            points = algorithm.suggest(3)
+            if not points:
+                break
+            for point in points:
+                assert point.keys() == {v.name for v in problem.variables}
+                assert all(v.low <= point[v.name] <= v.high for v in problem.variables), (number, point)
+            algorithm.ingest([{**p, **data.draw(readings)} for p in points])
+
+
+@pytest.mark.parametrize("name", known())
+def test_the_same_readings_make_the_same_suggestions(name: str) -> None:
+    problem = problem_for(name)
+    sign = -1 if problem.aim == "maximize" else 1
+
+    def read(point: Point) -> dict[str, float]:
+        value = sign * sum((x - 0.3) ** 2 for x in point.values())
+        return {n: math.exp(value) if sign < 0 else value - 0.1 * k for k, n in enumerate(problem.outputs)}
+
+    one, two = (driven(made(name, problem, seed=3), read, 40) for _ in range(2))
+    assert one == two and one
+
+
+def test_points_of_others_pass_an_algorithm_by() -> None:
+    algorithm = made("nelder_mead", problem_for("nelder_mead", "minimize"))
+    first = algorithm.suggest()
+    algorithm.ingest([{"m0.tip": 1.0, "m1.tip": 2.0, "cam.x": 5.0}])
+    assert algorithm.suggest() == first and not algorithm.finished
+
+
+@pytest.mark.parametrize("name", ["nelder_mead", "rcds", "cobyqa", "cma_es"])
+@pytest.mark.parametrize("aim", ["minimize", "maximize"])
+def test_searches_find_the_extremum_of_a_skew_bowl(name: str, aim: str) -> None:
+    problem = Problem(VARIABLES[:2], ("cam.x",), aim)  # type: ignore[arg-type]
+    sign = 1 if aim == "minimize" else -1
+
+    def read(point: Point) -> dict[str, float]:
+        x, y = point["m0.tip"] - 1.1, point["m1.tip"] + 0.4
+        return {"cam.x": sign * (x**2 + 1.2 * x * y + 2 * y**2), "cam.x_sigma": 1e-5}
+
+    tried = driven(made(name, problem), read)
+    best = min(tried, key=lambda p: sign * read(p)["cam.x"])
+    assert best["m0.tip"] == pytest.approx(1.1, abs=0.03) and best["m1.tip"] == pytest.approx(-0.4, abs=0.03)
+    assert len(tried) < 300
+
+
+@given(
+    st.floats(-1.5, 2.5), st.floats(-1.5, 2.5), st.floats(-2, 2).filter(lambda g: abs(g) > 0.2), st.floats(-0.5, 0.5)
+)
+def test_newton_needs_five_readings_of_what_is_linear(x: float, y: float, gain: float, skew: float) -> None:
+    problem = Problem(VARIABLES[:2], OUTPUTS, "reach", {"cam.x": 3.0}, dict.fromkeys(OUTPUTS, 1e-6))
+
+    def read(p: Point) -> dict[str, float]:
+        return {"cam.x": 3 + gain * (p["m0.tip"] - x) + skew * (p["m1.tip"] - y), "cam.y": p["m1.tip"] - y}
+
+    tried = driven(made("centroid_newton", problem), read)
+    assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= 5
+
+
+@given(st.floats(-80, 80), st.floats(0.1, 10), st.floats(1e-6, 1e-2), st.sampled_from(["minimize", "maximize"]))
+def test_malus_is_solved_by_few_readings(null: float, size: float, floor: float, aim: str) -> None:
+    problem = Problem((Variable("p1.angle", -90.0, 90.0, 0.0, period=180.0),), ("cam.x",), aim)  # type: ignore[arg-type]
+
+    def read(p: Point) -> dict[str, float]:
+        value = size * (math.sin(math.radians(p["p1.angle"] - null)) ** 2 + floor)
+        return {"cam.x": value, "cam.x_sigma": 1e-4 * value}
+
+    tried = driven(made("malus", problem), read)
+    goal = null if aim == "minimize" else null + 90
+    assert abs((tried[-1]["p1.angle"] - goal + 90) % 180 - 90) < 0.1 and len(tried) <= 8
+
+
+@given(st.floats(-15, 15), st.floats(50, 80))
+def test_a_radius_is_found_on_a_hyperbola(waist: float, small: float) -> None:
+    problem = Problem((Variable("l.x", -25.0, 25.0, 0.0),), ("cam.x",), "reach", {"cam.x": 90.0}, {"cam.x": 0.9})
+
+    def read(p: Point) -> dict[str, float]:
+        return {"cam.x": small * math.hypot(1, (p["l.x"] - waist) / 12), "cam.x_sigma": 0.1}
+
+    tried = driven(made("waist_parabola", problem), read)
+    assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= 6
+
+
+@given(st.floats(-1.9, 2.5), st.floats(-1.9, 2.5))
+def test_a_spiral_finds_a_spot_anywhere_near(x: float, y: float) -> None:
+    problem = Problem(VARIABLES[:2], ("cam.x",), "maximize")
+
+    def read(p: Point) -> dict[str, float]:
+        near = math.hypot(p["m0.tip"] - x, p["m1.tip"] - y) < 0.6
+        return {"cam.x": 1.0 if near else 0.0, "cam.x_sigma": 0.01}
+
+    for name in ("spiral", "raster"):
+        algorithm = made(name, problem, {"pitch": 0.3})
+        tried = driven(algorithm, read)
+        assert read(tried[-1])["cam.x"] == 1.0 and algorithm.finished == "there is light", name
+
+
+def test_what_an_algorithm_cannot_is_said_with_those_that_can() -> None:
+    with pytest.raises(PicoError, match="malus takes 1 tunables, not 2") as caught:
+        made("malus", Problem(VARIABLES[:2], ("cam.x",), "minimize"))
+    assert "nelder_mead" in caught.value.diagnostics[0].hint and "malus" not in caught.value.diagnostics[0].hint
+    with pytest.raises(PicoError, match="there is no algorithm `nelder_meat`") as caught:
+        made("nelder_meat", problem_for("nelder_mead"))
+    assert "nelder_mead" in caught.value.diagnostics[0].hint
+    with pytest.raises(PicoError, match="has no parameter `stepp`"):
+        made("nelder_mead", problem_for("nelder_mead"), {"stepp": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("tuned", "outputs", "aim", "name"),
+    [
+        ((Tuned("lens", "stage_y"), Tuned("lens", "stage_z")), ("centroid", "centroid"), "reach", "centroid_newton"),
+        ((Tuned("polarizer", "angle", 180.0),), ("",), "minimize", "malus"),
+        ((Tuned("waveplate", "angle", 180.0),), ("",), "maximize", "malus"),
+        ((Tuned("lens", "stage_x"),), ("d4sigma",), "reach", "waist_parabola"),
+        ((Tuned("mirror", "tip"), Tuned("mirror", "tilt")), ("",), "maximize", "peak"),
+        ((Tuned("mirror", "tip"), Tuned("mirror", "tilt")), ("",), "minimize", "nelder_mead"),
+    ],
+)  # fmt: skip
+def test_the_default_follows_from_what_is_asked(
+    tuned: tuple[Tuned, ...], outputs: tuple[str, ...], aim: str, name: str
+) -> None:
+    found, why = choose(tuned, outputs, aim)  # type: ignore[arg-type]
+    assert found == name and why

@@ -1,0 +1,158 @@
+"""The safe loop: within bounds and budget, back to the light, and never worse at its end than at its start."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Mapping
+
+import pytest
+
+from pico.optimize.loop import Ask, Limits, Outcome, Reading, loop
+from pico.optimize.problem import Point, Problem, Variable
+from pico.optimize.registry import made
+
+BOX = tuple(Variable(f"m.{n}", -1.0, 1.0, 0.0) for n in ("tip", "tilt"))
+CENTRE = Problem(BOX, ("cam.x", "cam.y"), "reach", {}, {"cam.x": 0.01, "cam.y": 0.01})
+PEAK = Problem(BOX, ("pd.power",), "maximize")
+
+
+def spot(point: Point) -> dict[str, float]:
+    return {"cam.x": 2 * (point["m.tip"] - 0.4), "cam.y": point["m.tilt"] + 0.3 * point["m.tip"] + 0.1}
+
+
+def bump(point: Point) -> dict[str, float]:
+    square = (point["m.tip"] - 0.5) ** 2 + (point["m.tilt"] + 0.2) ** 2
+    return {"pd.power": math.exp(-square / 0.09), "pd.power_sigma": 1e-3}
+
+
+def driven(
+    problem: Problem, algorithm: str, read: Callable[[Point, int], Reading | Mapping[str, float]],
+    limits: Limits | None = None, stopping: Callable[[], bool] = lambda: False, acquire: str = "",
+) -> tuple[Outcome, list[Ask]]:  # fmt: skip
+    """Run a loop on a world; return how it ended, and all that was asked."""
+    steps = loop(
+        problem, lambda p: made(algorithm, p), limits or Limits(), stopping=stopping,
+        acquire=(lambda p: made(acquire, p, {"pitch": 0.25})) if acquire else None,
+    )  # fmt: skip
+    asks, clock = [next(steps)], 0.0
+    while True:
+        ask, clock = asks[-1], clock + 1.0
+        assert all(v.low <= ask.point[v.name] <= v.high for v in problem.variables)
+        found = read(ask.point, len(asks)) if ask.measure else {}
+        reading = found if isinstance(found, Reading) else Reading(found, clock)
+        try:
+            asks.append(steps.send(reading))
+        except StopIteration as stop:
+            return stop.value, asks
+
+
+def test_a_goal_is_reached_and_what_is_measured_last_is_where_it_stands() -> None:
+    found, asks = driven(CENTRE, "centroid_newton", lambda p, n: spot(p))
+    assert found.met and found.last and CENTRE.met(found.last) and not found.fault
+    assert asks[0].point == CENTRE.start and {n: found.last[n] for n in asks[-1].point} == asks[-1].point
+    assert len(found.tried) == len(asks) <= 6
+
+
+def test_the_best_point_is_measured_again_and_restored() -> None:
+    found, asks = driven(PEAK, "nelder_mead", lambda p, n: bump(p))
+    assert found.met and found.last and found.last["pd.power"] > 0.99
+    assert asks[-1].why in ("try", "best")
+
+
+@pytest.mark.parametrize("most", [1, 2, 3, 5, 9])
+def test_a_budget_of_measurements_is_kept_with_that_at_the_end(most: int) -> None:
+    found, asks = driven(PEAK, "nelder_mead", lambda p, n: bump(p), Limits(measurements=most))
+    assert sum(a.measure for a in asks) <= most and not found.met and "budget" in found.why
+    assert found.last and found.last["pd.power"] >= bump(PEAK.start)["pd.power"] - 2e-3
+
+
+def test_a_budget_of_seconds_is_kept() -> None:
+    found, asks = driven(PEAK, "nelder_mead", lambda p, n: bump(p), Limits(seconds=8.0))
+    assert "8 s" in found.why and found.seconds <= 10 and len(asks) <= 10
+
+
+def test_it_goes_back_to_where_light_was_when_it_is_lost() -> None:
+    dark = {5, 6}
+    found, asks = driven(PEAK, "nelder_mead", lambda p, n: {} if n in dark else bump(p))
+    after = asks[5]
+    good = max((t for t in found.tried[:4]), key=lambda t: t.result.get("pd.power", 0.0))
+    assert after.why == "back" and not after.measure and after.point == {n: good.result[n] for n in after.point}
+
+
+def test_where_it_stays_dark_it_gives_up_and_goes_back_to_where_it_began() -> None:
+    found, asks = driven(PEAK, "nelder_mead", lambda p, n: {}, Limits(measurements=300), acquire="spiral")
+    assert not found.met and "dark" in found.why and found.last is None and found.first is None
+    assert asks[-1].point == PEAK.start and asks[-1].why == "start"
+
+
+def test_light_is_looked_for_first_where_there_is_none() -> None:
+    found, _ = driven(PEAK, "peak", lambda p, n: b if (b := bump(p))["pd.power"] > 0.4 else {}, acquire="spiral")
+    assert found.met and found.first is None and found.last and found.last["pd.power"] > 0.99
+
+
+def test_a_signal_that_is_too_low_is_not_believed() -> None:
+    def read(point: Point, number: int) -> dict[str, float]:
+        return {**spot(point), "cam.power": 0.0 if point["m.tip"] > 0.45 else 5.0}
+
+    found, _ = driven(CENTRE, "centroid_newton", read, Limits(signal="cam.power", least=1.0))
+    assert found.met and all(t.result.get("cam.power", 0) > 1 for t in found.tried if "cam.x" in t.result)
+
+
+def test_stopped_it_ends_at_its_best() -> None:
+    count = 0
+
+    def stopping() -> bool:
+        nonlocal count
+        count += 1
+        return count > 6
+
+    found, asks = driven(PEAK, "nelder_mead", lambda p, n: bump(p), stopping=stopping)
+    best = max(t.result.get("pd.power", 0.0) for t in found.tried)
+    assert found.why == "it was stopped" and not found.met
+    assert bump(asks[-1].point)["pd.power"] >= best - 3e-3
+
+
+def test_an_axis_that_does_not_answer_ends_it_by_name() -> None:
+    def read(point: Point, number: int) -> Reading | dict[str, float]:
+        return Reading(fault="m.tip does not answer; it last read 0.2", time=9.0) if number >= 4 else bump(point)
+
+    found, _ = driven(PEAK, "nelder_mead", read)
+    assert found.fault == found.why == "m.tip does not answer; it last read 0.2" and not found.met
+
+
+ALGORITHMS = {"peak": PEAK, "nelder_mead": PEAK, "rcds": PEAK, "centroid_newton": CENTRE}
+
+
+@pytest.mark.parametrize("name", ALGORITHMS)
+@pytest.mark.parametrize("block", range(5))
+def test_no_fault_leaves_it_worse_than_it_began(name: str, block: int) -> None:
+    """Frames lost, light lost, saturation, an interruption: where axes answer, none ends worse by two sigma."""
+    problem = ALGORITHMS[name]
+    for seed in range(50 * block, 50 * block + 50):
+        rng = random.Random(seed)
+        at, kind = rng.randint(2, 12), rng.choice(["frame", "beam", "saturated", "stop", "stuck"])
+        stopped = False
+        noise = 0.002
+
+        def read(point: Point, number: int) -> Reading | dict[str, float]:
+            nonlocal stopped
+            true = spot(point) if problem is CENTRE else {"pd.power": bump(point)["pd.power"]}
+            stopped = stopped or (kind == "stop" and number >= at)  # noqa: B023
+            if kind == "stuck" and number >= at:  # noqa: B023
+                return Reading(fault="m.tip is stuck; it last read 0.1", time=float(number))
+            if (kind == "frame" and number == at) or (kind == "beam" and at <= number < at + 8):  # noqa: B023
+                return {}
+            if kind == "saturated" and number % 3 == 0:  # noqa: B023
+                return {}
+            sigmas = {f"{n}_sigma": noise for n in true}  # noqa: B023
+            return {n: v + noise * rng.gauss(0, 1) for n, v in true.items()} | sigmas  # noqa: B023
+
+        found, asks = driven(problem, name, read, Limits(measurements=60), stopping=lambda: stopped)  # noqa: B023
+        if kind == "stuck" and len(asks) >= at:
+            assert "m.tip is stuck; it last read 0.1" in found.why and not found.met
+            continue
+        truth = spot if problem is CENTRE else bump
+        first, last = problem.cost(truth(problem.start)), problem.cost(truth(asks[-1].point))
+        spread = problem.noise({**truth(asks[-1].point), **{f"{n}_sigma": noise for n in problem.outputs}})
+        assert last <= first + 6 * spread, (seed, kind, found.why)
