@@ -12,8 +12,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
-    "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "model", "content", "geometry",
-    "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing", "optimize",
+    "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "content",
+    "geometry",
+    "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
     "backends", "policy", "execution", "runs", "edge", "history", "bench",
 )  # fmt: skip
 LOOSE = 6

@@ -17,6 +17,7 @@ from pico.model.state import LabState
 if TYPE_CHECKING:
     from pico.bench.cameras import Cameras
     from pico.bench.commits import CommitMode, Commits
+    from pico.bench.goals import Goals
     from pico.bench.light import Lights
     from pico.bench.measurements import Measurements
     from pico.bench.moves import Moves
@@ -63,6 +64,13 @@ class Bench(Opened):
         from pico.bench.measurements import Measurements
 
         return Measurements(self)
+
+    @cached_property
+    def goals(self) -> Goals:
+        """What light is to be brought to, and how."""
+        from pico.bench.goals import Goals
+
+        return Goals(self)
 
     @cached_property
     def pictures(self) -> Pictures:

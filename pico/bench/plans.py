@@ -13,6 +13,7 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 from pico.model.diff import Change
 from pico.model.drift import drift_of
+from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.request import PrimitiveRequest, asked
@@ -199,6 +200,19 @@ class Plans:
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         told = cut_short(self.opened, seen)
         return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
+
+    def to_goal(self, name: str, goal: Goal, algorithm: str) -> Plan:
+        """Return the plan that brings light to a goal by an algorithm, see `pico.bench.goals`; raises PicoError."""
+        from pico import planning
+        from pico.execution.checks import require_able
+
+        setup, seen = self.opened.setup, self.opened.observe()
+        found = planning.optimize_one(
+            setup, seen, name, goal, algorithm, motion=DeferredMotion(setup), **self._start(seen)
+        )
+        require_able(found, self.opened.wait(self.opened.edge.describe()))
+        judged, told = self._judged(found, seen), cut_short(self.opened, seen)
+        return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
 
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError

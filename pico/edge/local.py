@@ -28,6 +28,7 @@ from pico.model.operation import Operation, OperationResult, Outcome
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
+    from pico.edge.aligning import Stopping
     from pico.edge.attempts import Attempts
     from pico.edge.protocol import Asking
     from pico.edge.recovery import SettledOperation
@@ -71,6 +72,7 @@ class LocalEdge:
         self._lock, self._clock = BenchLock(root, clock), clock
         self._lease: Lease | None = None
         self._halted = False
+        self._stopping: Stopping = ""
         self._cancelled: set[str] = set()
         self._attempts: Attempts | None = None
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
@@ -82,7 +84,10 @@ class LocalEdge:
 
     async def describe(self) -> Capabilities:
         """Return what the device can do, at the speed of the run that goes on."""
-        return replace(await self.device.describe(), kept=self.device.kept())
+        able = await self.device.describe()
+        whole = {"set", "measure"} <= able.primitives
+        primitives = able.primitives | ({"optimize"} if whole else set())
+        return replace(able, primitives=primitives, kept=self.device.kept())
 
     def served(self) -> None:
         """From now on who has the bench has it through this process, which serves it."""
@@ -180,13 +185,14 @@ class LocalEdge:
         self, holder: str, wait: float, run: str = "", prepare: Callable[[], None] = lambda: None
     ) -> Lease:  # fmt: skip
         """Take the bench for a run, or for who runs nothing; `prepare` is called before the device is taken."""
+        from pico.edge.aligning import Aligning
         from pico.edge.attempts import Attempts
         from pico.edge.recovery import open_questions, settle
 
         self._halted &= self._lease is not None  # what is halted stays so for who has the bench
         own = self._lease is None
         lease = await self._lock.acquire_within(holder, wait, lambda: run in self._cancelled or (own and self._halted))
-        self._halted = False
+        self._halted, self._stopping = False, ""
         try:
             self._require_kept()
             try:
@@ -196,7 +202,8 @@ class LocalEdge:
                     raise
             prepare()
             await self.device.take(lease.token, self._heard)
-            self._attempts, self._lease = Attempts(self.journal, self.device, lease.token), lease
+            doing = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
+            self._attempts, self._lease = Attempts(self.journal, doing, lease.token), lease
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
             if asked := open_questions(self.journal.unsettled()):
                 raise PicoError(asked)
@@ -406,10 +413,11 @@ class LocalEdge:
     async def stop(self) -> None:
         """Stop everything where it is; grippers hold what they hold. Nothing starts until the bench is taken anew."""
         self._interrupt()
+        self._stopping = "now"
         await self.device.stop()
 
     def _interrupt(self) -> None:
-        self._halted = True
+        self._halted, self._stopping = True, self._stopping or "safely"
         if self._running is not None and self._running.walk is not None:
             self._running.walk.interrupt()
 

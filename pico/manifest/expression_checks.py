@@ -1,8 +1,10 @@
-"""Whether the expressions of a lab's policy and of a state's expectations make sense, before anything is evaluated."""
+"""Whether the expressions of a lab's policy and goals and of a state's expectations make sense, before anything is
+evaluated."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.expressions import ExpressionError, Language
@@ -20,6 +22,17 @@ def check_rules(manifests: Manifests) -> list[Diagnostic]:
     """Return what is wrong with the rules of a lab that is right otherwise, each at its place."""
     setup = manifests.setup
     return [d for lab in manifests.documents.get("Lab", ()) for d in _rules(lab, setup)] if setup else []
+
+
+def check_goals(manifests: Manifests) -> list[Diagnostic]:
+    """Return what is wrong with the goals of a lab that is right otherwise, each at its place."""
+    setup = manifests.setup
+    if setup is None or not setup.lab.goals:
+        return []
+    from pico.manifest.checks.goals import goal_errors
+
+    lab = manifests.documents.get("Lab", ())[0]
+    return [replace(wrong, source=where(lab, "goals", *path)) for path, wrong in goal_errors(setup, setup.lab.goals)]
 
 
 def check_ignored(manifests: Manifests) -> list[Diagnostic]:

@@ -265,6 +265,64 @@ class PolicyRule:
 
 
 @record
+class Budget:
+    """What an optimization may spend: measurements, and seconds on the bench's clock."""
+
+    measurements: int = 60
+    seconds: float = 600.0
+
+
+@record
+class Goal:
+    """What light is to be brought to, and by which tunables: exactly one of `reach`, `minimize` and `maximize`.
+
+    `tunables`: addresses (`ly_150.stage_y`) with the bounds within which they may be set, in their unit. `reach`:
+    numbers that are measured (`cam.centroid.x`) with their targets, in their unit, each met within its `tolerance` (one
+    number for all, or by name). `minimize`, `maximize`: an expression over such numbers. `signal`: a number that is
+    measured too, below whose `least` nothing is believed. `algorithm`: one by name, with its `parameters`; without, one
+    is chosen. `valid_for`: how long it counts as aligned once it was met (`12 h`).
+    """
+
+    tunables: Mapping[str, tuple[float, float]]
+    reach: Mapping[str, float] | None = None
+    minimize: str | None = None
+    maximize: str | None = None
+    tolerance: float | Mapping[str, float] | None = None
+    signal: str | None = None
+    least: float | None = None
+    algorithm: str | None = None
+    parameters: Mapping[str, float] | None = None
+    budget: Budget = Budget()
+    valid_for: str | None = None
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        if sum(one is not None for one in (self.reach, self.minimize, self.maximize)) != 1:
+            raise ValueError("a goal has exactly one of `reach`, `minimize` and `maximize`")
+        if not self.tunables:
+            raise ValueError("a goal has `tunables`, each with its bounds: {ly_150.stage_y: [-1, 1]}")
+        if (self.signal is None) != (self.least is None):
+            raise ValueError("`signal` and `least` go together")
+
+    @property
+    def aim(self) -> Literal["reach", "minimize", "maximize"]:
+        """Which of the three it is."""
+        return "reach" if self.reach is not None else "minimize" if self.minimize is not None else "maximize"
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """The expressions over what is measured, those of `reach` numbers by name."""
+        own = tuple(self.reach or ()) or (self.minimize or self.maximize or "",)
+        return (*own, *((self.signal,) if self.signal else ()))
+
+    def near(self, output: str) -> float:
+        """Return the tolerance of a number that is to be reached, 0 where none is said."""
+        if isinstance(self.tolerance, Mapping):
+            return self.tolerance.get(output, 0.0)
+        return self.tolerance or 0.0
+
+
+@record
 class Policy:
     """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's
     shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico drift --watch
@@ -427,6 +485,7 @@ class Lab:
     margins: Margins = Margins()
     policy: Policy = Policy()
     sim: SimSettings = SimSettings()
+    goals: Mapping[str, Goal] | None = None
     inventory: Mapping[str, Part]
 
     def __post_init__(self) -> None:

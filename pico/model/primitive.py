@@ -75,6 +75,10 @@ OWN: Mapping[str, Primitive] = {
             name="measure", mutating=False, repeatable=True, arguments={"measurable": None}, seconds=0.5,
             counted=("measurement", "measurements"),
         ),
+        Primitive(
+            name="optimize", changes="tunable", repeatable=True, seconds=20.0,
+            counted=("optimization", "optimizations"),
+        ),
         Primitive(name="operator", changes="anything", by="person", counted=("step by hand", "steps by hand")),
     )
 }  # fmt: skip

@@ -96,7 +96,7 @@ class _Walk:
         self.good: Tried | None = None
         self.began: float | None = None
         self.now = self.longest = 0.0
-        self.lost, self.fault = 0, ""
+        self.lost, self.fault, self.unknown = 0, "", ""
 
     def run(self, refine: Making, acquire: Making | None) -> Loop:
         yield from self._ask(self.problem.start)
@@ -153,6 +153,7 @@ class _Walk:
             self.began = before = reading.time
         self.now = reading.time
         self.longest = max(self.longest, self.now - before)
+        self.unknown = reading.unknown
         if reading.fault:
             self.fault = self.fault or reading.fault
         tried = Tried({**point, **reading.values}, reading.time, why)
@@ -192,6 +193,8 @@ class _Walk:
         """Bring the tunables to the best point, measured again; or to where they began, where nothing better is."""
         first = self.tried[0] if self.tried else None
         stopped = self.fault
+        if self.unknown and not self.fault and (self.good is None or self.lost):
+            why = f"{why} ({self.unknown})"
         if self.good is None and first is not None:
             yield from self._ask(_point(self.problem, first), measure=False, why="start")
         elif self.good is not None and not self._at_best():

@@ -139,13 +139,14 @@ class Algorithm(Protocol):
 @dataclass(frozen=True)
 class Declaration:
     """What a file of algorithms brings: its name is the file's. `aims` that it can, how many `variables` and `outputs`
-    it takes (least and most), and its `parameters` with their defaults."""
+    it takes (least and most), its `parameters` with their defaults, and how many measurements are `usual`."""
 
     what: str
     aims: tuple[Aim, ...]
     variables: tuple[int, int]
     outputs: tuple[int, int] = (1, 1)
     parameters: Mapping[str, float] = field(default_factory=dict)
+    usual: int = 40
 
     def refusal(self, problem: Problem) -> str:
         """Return why it cannot solve a problem, in words that follow its name; empty where it can."""

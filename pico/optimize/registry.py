@@ -46,14 +46,22 @@ def algorithm_file(name: str) -> AlgorithmFile:
     return cast(AlgorithmFile, import_module(_plugged_in().get(name) or f"{FOLDER}.{name}"))
 
 
+def refusal(name: str, problem: Problem) -> PicoError | None:
+    """Return why an algorithm cannot solve a problem, and which can; None where it can. Raises PicoError for a name
+    that there is not."""
+    if why := algorithm_file(name).DECLARATION.refusal(problem):
+        fits = ", ".join(n for n in known() if not algorithm_file(n).DECLARATION.refusal(problem))
+        return PicoError(error("algorithm", f"{name} {why}", hint=f"those that can: {fits}"))
+    return None
+
+
 def made(name: str, problem: Problem, parameters: Mapping[str, float] | None = None, seed: int = 1) -> Algorithm:
     """Return an algorithm for a problem; raises PicoError where it cannot solve that, and for parameters that it does
     not have."""
     file, given = algorithm_file(name), dict(parameters or {})
     declared = file.DECLARATION
-    if why := declared.refusal(problem):
-        fits = ", ".join(n for n in known() if not algorithm_file(n).DECLARATION.refusal(problem))
-        raise PicoError(error("algorithm", f"{name} {why}", hint=f"those that can: {fits}"))
+    if wrong := refusal(name, problem):
+        raise wrong
     for parameter in given:
         if parameter not in declared.parameters:
             hint = did_you_mean(parameter, declared.parameters) or f"known: {', '.join(declared.parameters) or 'none'}"

@@ -66,12 +66,12 @@ def measuring(
         closed = bool(parks) and not waits  # while an arm parks
         wants = [n for n in needs if n.live != n.value or (closed and n.opens)]
         text = f"to measure {component}.{name}"
-        out += [_set(setup, n, n.live, n.value, [*waits, *(parks if n.opens else ())], text) for n in wants]
+        out += [setting(setup, n, n.live, n.value, [*waits, *(parks if n.opens else ())], text) for n in wants]
         measured = str(len(out))
         out.append(_measure(setup, component, name, [*map(str, range(len(out)))], reason))
         text = f"as it was before {component}.{name} was measured"
         back = [(n, n.live) for n in wants if n.live != n.value]
-        out += [_set(setup, n, n.value, live, [measured], text) for n, live in back if live is not None]
+        out += [setting(setup, n, n.value, live, [measured], text) for n, live in back if live is not None]
         waits = [measured, *map(str, range(int(measured) + 1, len(out)))]
     return out
 
@@ -83,7 +83,8 @@ def _measure(setup: Setup, component: str, name: str, after: Sequence[str], reas
     )  # fmt: skip
 
 
-def _set(setup: Setup, need: Need, before: Value | None, after: Value, waits: Sequence[str], text: str) -> Operation:
+def setting(setup: Setup, need: Need, before: Value | None, after: Value, waits: Sequence[str], text: str) -> Operation:
+    """Return the operation that sets what is needed, or sets it back."""
     kind = setup.type_of(need.component).tunables[need.tunable]
     return Operation(
         id="", primitive="set", component=need.component, reason=Reason(kind="interlock", text=text),

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
-from pico.model.lab import Setup
+from pico.model.lab import Goal, Setup
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
@@ -19,6 +19,7 @@ from pico.motion.types import Motion
 from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.compile import compiled_plan
 from pico.planning.measuring import measuring
+from pico.planning.optimizing import optimizing
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.values import home_operation, value_operations
@@ -128,6 +129,20 @@ def measure(
     Each is a component or camera with one of its `Setup.measurables_of`.
     """
     operations = measuring(setup, seen, wanted, ASKED, motion)
+    return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
+
+
+def optimize_one(
+    setup: Setup, seen: Observation, name: str, goal: Goal, algorithm: str, *, motion: Motion | None,
+    backend: str = "sim", fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that brings light to a goal of a name by an algorithm, and leaves all else as it is.
+
+    Raises PicoError for a component that is not seen, and for tunables of which nobody knows where they stand.
+    """
+    for component in {address.partition(".")[0] for address in goal.tunables}:
+        _part(setup, seen, component)
+    operations = optimizing(setup, seen, name, goal, algorithm, motion)
     return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
 
 

@@ -67,7 +67,7 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
             if lets or (op.component, tunable) not in lifted:  # what is open at some time counts as open
                 own[str(tunable)] = max(own.get(str(tunable), 0.0), to) if lets and _number(to) else to
             opened |= {op.component} if lets else set()
-        scanned |= op.primitive == "scan"
+        scanned |= op.primitive in ("scan", "optimize")
     lasers = lasers_of(setup, poses, values)
     apart = any(setup.type_of(name).optics.element != "source" for name in opened)
     return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned),
@@ -148,15 +148,25 @@ def told_of(plan: Plan, audit: Audit, lit: Lit) -> tuple[Diagnostic, ...]:
 
 
 def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[Lit]:
-    """Yield the bench at values over the range of each tunable that is scanned."""
+    """Yield the bench at values over the range of each tunable that is scanned, or searched by an optimization."""
+    for component, tunable, (low, high) in _searched(setup, plan):
+        for n in range(SCANNED):
+            own = {**lit.values.get(component, {}), tunable: low + (high - low) * n / (SCANNED - 1)}
+            yield replace(lit, values={**lit.values, component: own})
+
+
+def _searched(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float, float]]]:
+    """Yield the tunables that a plan scans or searches, by component and name, with the range that it does so over."""
     for op in plan.operations:
+        if op.primitive == "optimize":
+            for address, (low, high) in op.arguments["what"]["tunables"].items():
+                component, _, tunable = address.partition(".")
+                yield component, tunable, (low, high)
+            continue
         tunable = str(op.arguments.get("tunable"))
         kind = setup.type_of(op.component).tunables.get(tunable) if op.component in setup.lab.inventory else None
         if op.primitive == "scan" and kind is not None and kind.range is not None:
-            low, high = kind.range
-            for n in range(SCANNED):
-                own = {**lit.values.get(op.component, {}), tunable: low + (high - low) * n / (SCANNED - 1)}
-                yield replace(lit, values={**lit.values, op.component: own})
+            yield op.component, tunable, kind.range
 
 
 def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[Finding]:

@@ -22,7 +22,7 @@ DECLARATION = Declaration(
     parameters={
         "near_1": 1.2, "near_2": 0.6, "far_1": 0.002, "far_2": 0.002, "near_width": 0.5, "far_width": 0.0004,
         "probe": 0.45, "left": 0.012,
-    },
+    }, usual=9,
 )  # fmt: skip
 """The tunables are tip and tilt of the first mirror, tip and tilt of the second. `near_1`: by how much one unit of the
 first mirror moves the beam at the near place [mm], and so on; `far`: at the far place [mm], or turns it [rad]. Widths:

@@ -15,7 +15,7 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
     what="Newton's method on readings that follow the tunables nearly linearly, such as a centroid",
-    aims=("reach",), variables=(1, 6), outputs=(1, 12), parameters={"probe": 0.2, "most": 30},
+    aims=("reach",), variables=(1, 6), outputs=(1, 12), parameters={"probe": 0.2, "most": 30}, usual=6,
 )  # fmt: skip
 """`probe`: the first step of each tunable, as a share of how far its best value is likely to be; `most`: steps."""
 REACHED = "the goal is reached"

@@ -14,7 +14,7 @@ from pico.optimize.stepwise import Steps, Stepwise
 DECLARATION = Declaration(
     what="an evolution strategy (the extra `optimize`), for rough landscapes",
     aims=("reach", "minimize", "maximize"), variables=(2, 12), outputs=(1, 12),
-    parameters={"step": 0.3, "within": 0.003, "generations": 100},
+    parameters={"step": 0.3, "within": 0.003, "generations": 100}, usual=150,
 )  # fmt: skip
 """`step`: the first standard deviation, as a share of how far the best point is likely to be; `within`: the last, as a
 share of the range."""

@@ -15,7 +15,7 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 DECLARATION = Declaration(
     what="quadratic models in a trust region (scipy's COBYQA; the extra `optimize`)",
     aims=("reach", "minimize", "maximize"), variables=(1, 8), outputs=(1, 8),
-    parameters={"step": 0.5, "within": 0.002, "most": 300},
+    parameters={"step": 0.5, "within": 0.002, "most": 300}, usual=40,
 )  # fmt: skip
 """`step`: the first trust region, as a share of how far the best point is likely to be; `within`: the last, as a share
 of the range."""

@@ -18,13 +18,15 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 DECLARATION = Declaration(
     what="the law of Malus, fitted to a few readings",
     aims=("minimize", "maximize"), variables=(1, 1),
-    parameters={"cycle": 180.0, "within": 0.1},
+    parameters={"cycle": 180.0, "within": 0.1}, usual=5,
 )  # fmt: skip
 """`cycle`: after which readings repeat (180 deg of a polarizer, 90 of a half-wave plate); `within`: how well the place
 is to be known, in the tunable's unit."""
 _MOST = 20
 _NOISE = 0.005
 _FLOOR = 1e-6
+_FLICKER = 0.002
+"""By which share a laser is another from reading to reading, which no standard deviation of one reading tells."""
 Array = NDArray[np.float64]
 
 
@@ -80,7 +82,11 @@ def _guess(problem: Problem, variable: Variable, output: str, seen: list[Result]
 def _scaled(variable: Variable, output: str, seen: list[Result]) -> tuple[Array, Array, Array]:
     """Return where it was read, what was read, and the standard deviations, in shares of the largest reading."""
     most = max(abs(r[output]) for r in seen) or 1.0
-    sigma = [max((r.get(f"{output}_sigma", 0.0) or _NOISE * abs(r[output])) / most, _FLOOR) for r in seen]
+    share = [abs(r[output]) / most for r in seen]
+    sigma = [
+        max(math.hypot(s / most, _FLICKER * y) if (s := r.get(f"{output}_sigma", 0.0)) else _NOISE * y, _FLOOR)
+        for r, y in zip(seen, share, strict=True)
+    ]
     return np.array([r[variable.name] for r in seen]), np.array([r[output] / most for r in seen]), np.array(sigma)
 
 
@@ -108,7 +114,7 @@ def _place(problem: Problem, variable: Variable, fit: Array, k: float) -> float:
     return variable.within(variable.start + (null - variable.start + cycle / 2) % cycle - cycle / 2)
 
 
-def _spread(fit: Array, covariance: Array, k: float) -> float:
+def _spread(fit: Array, covariance: NDArray[np.floating], k: float) -> float:
     size = float(fit[1] ** 2 + fit[2] ** 2)
     if size == 0:
         return math.inf

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 DECLARATION = Declaration(
     what="a simplex that needs no model and no gradient",
     aims=("reach", "minimize", "maximize"), variables=(1, 8), outputs=(1, 8),
-    parameters={"step": 0.5, "within": 0.0},
+    parameters={"step": 0.5, "within": 0.0}, usual=40,
 )  # fmt: skip
 """`step`: the first simplex, as a share of how far the best point is likely to be; `within`: it stops where it is
 smaller than that share of the range, or, with 0, where its corners differ by no more than their noise."""

@@ -11,7 +11,7 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
     what="a parabola through the logarithm of a power, axis by axis",
-    aims=("maximize",), variables=(1, 4), parameters={"step": 0.15, "left": 0.005, "rounds": 6},
+    aims=("maximize",), variables=(1, 4), parameters={"step": 0.15, "left": 0.005, "rounds": 6}, usual=20,
 )  # fmt: skip
 """`step`: the first of an axis, as a share of how far the best value is likely to be; `left`: it stops where a round
 gains no more than that share of the power; `rounds`: of all axes, at most."""

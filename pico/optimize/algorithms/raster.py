@@ -10,7 +10,7 @@ from pico.optimize.stepwise import Stepwise
 
 DECLARATION = Declaration(
     what="rows over as far as the best point is likely to be, until light is seen",
-    aims=("reach", "minimize", "maximize"), variables=(1, 2), outputs=(1, 12), parameters=PARAMETERS,
+    aims=("reach", "minimize", "maximize"), variables=(1, 2), outputs=(1, 12), parameters=PARAMETERS, usual=80,
 )  # fmt: skip
 
 

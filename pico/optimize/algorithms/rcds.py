@@ -17,7 +17,7 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 DECLARATION = Declaration(
     what="conjugate directions, whose line searches know the noise",
     aims=("reach", "minimize", "maximize"), variables=(1, 8), outputs=(1, 8),
-    parameters={"step": 0.1, "rounds": 8},
+    parameters={"step": 0.1, "rounds": 8}, usual=60,
 )  # fmt: skip
 """`step`: the first of a line search, as a share of the range; `rounds`: times that all directions are searched."""
 _GOLDEN = 1.618

@@ -10,7 +10,7 @@ from pico.optimize.stepwise import Stepwise
 
 DECLARATION = Declaration(
     what="rings around where it should be, until light is seen", aims=("reach", "minimize", "maximize"),
-    variables=(1, 2), outputs=(1, 12), parameters=PARAMETERS,
+    variables=(1, 2), outputs=(1, 12), parameters=PARAMETERS, usual=60,
 )  # fmt: skip
 
 

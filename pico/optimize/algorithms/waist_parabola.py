@@ -12,7 +12,7 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
     what="a parabola through the squares of radii, to a radius or to the waist",
-    aims=("reach", "minimize"), variables=(1, 1), parameters={"step": 0.4, "within": 0.02},
+    aims=("reach", "minimize"), variables=(1, 1), parameters={"step": 0.4, "within": 0.02}, usual=5,
 )  # fmt: skip
 """`step`: of the second and third measurement, as a share of how far the best value is likely to be; `within`: of a
 waist, the share of the range in which it must be known."""

@@ -1,0 +1,96 @@
+"""One operation at a time, 7: `pico optimize`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..arguments import DryRun, Fidelity, LockTimeout, Yes
+from ..session import Session
+from ..views import goals as goals_view
+from ..views import optimization as view
+from ..views import optimizing as live
+from ..views import optimizing_ahead as ahead_view
+
+if TYPE_CHECKING:
+    from pico.bench.bench import Bench
+    from pico.bench.goals import Chosen
+    from pico.model.event import Event
+
+
+def optimize(
+    context: typer.Context,
+    goal: Annotated[list[str] | None, typer.Argument(metavar="GOAL", help="A goal of `lab.yaml`, or as below.")] = None,
+    algorithm: Annotated[str | None, typer.Option("--algorithm", metavar="NAME", help="Instead of the chosen.")] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", metavar="PNG", help="Draw how it went.")] = None,
+    dry_run: DryRun = False,
+    fidelity: Fidelity = None,
+    auto_approve: Yes = False,
+    lock_timeout: LockTimeout = None,
+) -> int:
+    """Bring light to a goal: set tunables and measure until it is met, and keep the best.
+
+    Without a goal those that there are are listed. `goals:` in `lab.yaml` has your own; ready made are
+    `centre PART CAMERA`, `focus PART CAMERA`, `peak PART DETECTOR`, `null PART DETECTOR`. Ctrl-C ends at the best
+    point. The exit code is 6 where the goal was not met; `pico undo` goes back.
+
+    Examples:
+      pico optimize centre ly_150 cam
+      pico optimize null p2 cam --plot null.png
+      pico optimize centred --dry-run
+    """
+    session = Session.of(context)
+    bench = session.bench(fidelity, None, writing=bool(goal) and not dry_run)
+    if not goal:
+        from pico.bench.goals import READY
+
+        session.show(goals_view, bench.goals.named, READY)
+        return 0
+    return _optimize(session, bench, bench.goals.chosen(goal, algorithm=algorithm), plot, dry_run, auto_approve)
+
+
+def _optimize(
+    session: Session, bench: Bench, chosen: Chosen, plot: Path | None, dry_run: bool, auto_approve: bool
+) -> int:
+    from pico.bench.goals import optimized
+    from pico.diagnostics import ExitCode
+
+    from ..runs.approving import declined, show
+    from ..runs.running import watched
+    from ..terminal.output import write
+
+    plan = bench.goals.plan(chosen)
+    more = plan.errored or (len(plan.operations) > 1 and not session.json)
+    code = show(session, bench, plan, auto_approve or dry_run, single=True) if more else 0
+    if code:
+        return int(code)
+    if dry_run:
+        session.show(ahead_view, chosen, bench.setup)
+        return 0
+    if code := declined(session, bench, plan, auto_approve):
+        return int(code)
+    run = bench.run(plan, holder="pico optimize")
+    events: list[Event] = []
+    terminal = sys.stdout.isatty() and not session.json
+
+    def heard(event: Event) -> None:
+        events.append(event)
+        if session.json:
+            session.document(live.data(event))
+        elif terminal and (line := live.line(event, chosen, bench.setup)):
+            write(sys.stdout, line, end="", over=True)
+
+    watched(run, heard)
+    if terminal:
+        write(sys.stdout, "", end="", over=True)
+    report, found = run.report, optimized(events)
+    session.show(view, found, chosen, bench.setup, run=report.run)
+    session.tell(report.diagnostics)
+    if found.points:
+        session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, path))
+    if report.exit_code:
+        return int(report.exit_code)
+    return int(ExitCode.DONE if found.met else ExitCode.EXPECTATION)

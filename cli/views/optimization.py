@@ -1,0 +1,51 @@
+"""What an optimization came to: whether the goal is met, what was measured and set before and after."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pico.model.record import as_json
+
+from .measured import value
+from .style import columns, count, paint, seconds, wrap
+
+if TYPE_CHECKING:
+    from pico.bench.goals import Chosen, Optimized
+    from pico.model.lab import Setup
+
+
+def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str) -> str:
+    """Return the outcome in a line, a table of before and after, and how to go back."""
+    spent = f"{count(found.measurements, 'measurement')}, {seconds(found.seconds)} on the bench"
+    said = paint("green", "met") if found.met else paint("yellow", "not met")
+    lines = wrap(f"{chosen.name}: {said} in {spent} ({chosen.algorithm}: {chosen.why})", "  ")
+    if not found.met:
+        lines += wrap(f"It ended because {found.why}.", "  ")
+    lines += _table(found, chosen, setup)
+    back = "; `pico undo` goes back" if found.measurements else ""
+    return "\n".join([*lines, f"  `pico runs show {run}`{back}"])
+
+
+def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
+    rows = [[paint("dim", cell) for cell in ("", "before", "after", "")]]
+    first, last = found.first or {}, found.last or {}
+    for name in chosen.goal.tunables:
+        component, _, tunable = name.partition(".")
+        unit = setup.type_of(component).tunables[tunable].unit
+        rows.append([name, *(value(of[name], unit) if name in of else "-" for of in (first, last)), ""])
+    for name in [
+        c for c in found.columns if c != "time" and c not in chosen.goal.tunables and not c.endswith("_sigma")
+    ]:
+        texts = chosen.goal.texts[0] if name == "objective" else name
+        cells = [value(of[name], "", of.get(f"{name}_sigma")) if name in of else "dark" for of in (first, last)]
+        near = found.tolerance.get(name)
+        goal = f"to {(chosen.goal.reach or {})[name]:g} within {near:g}" if near and chosen.goal.reach else ""
+        rows.append([texts, *cells, goal])
+    return [f"  {row}" for row in columns(rows)]
+
+
+def data(found: Optimized, chosen: Chosen, setup: Setup, *, run: str) -> dict[str, Any]:
+    """Return schema `pico.optimization/v1`: `goal`, `algorithm`, `met`, `why`, `measurements`, `seconds`, `first`,
+    `last`, `points` (an array in the content store, its `columns`), `run`."""
+    return {"schema": "pico.optimization/v1", **as_json(found), "goal": chosen.name, "algorithm": chosen.algorithm,
+            "chosen": chosen.why, "run": run}  # fmt: skip

@@ -1,0 +1,327 @@
+"""Optimizations at the edge: one operation to everybody else, many settings and measurements of the device.
+
+The journal holds it as one operation with its first and last values; what was tried is kept beside the run, as an array
+in the content store.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from pico.backends.device import Began, Device
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.expressions import ExpressionError, Language
+from pico.model.catalog import Tunable
+from pico.model.event import Event
+from pico.model.lab import Goal, Setup
+from pico.model.measurement import Measurement, measurement_from_json, number_of
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult
+from pico.model.record import as_json
+from pico.model.vocabulary import measured_in
+from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, loop
+from pico.optimize.problem import Aim, Problem, Variable
+from pico.optimize.registry import made
+
+if TYPE_CHECKING:
+    from pico.optimize.problem import Algorithm
+
+Stopping = Literal["", "safely", "now"]
+OBJECTIVE = "objective"
+"""What the value of an expression is called that is to be as low or as high as can be."""
+EXPOSURE = "exposure"
+ACQUIRING = ("spiral", "raster")
+"""Algorithms that look for light."""
+_OVER = 2.0
+"""How far an axis goes beyond, to come to its place from the side on which it is to be, in backlashes."""
+
+
+class Aligning:
+    """A device that knows optimizations. `stopping`: whether somebody asked to stop, and how; `tell` hears of each
+    measurement as progress."""
+
+    def __init__(
+        self, setup: Setup, root: Path, device: Device, stopping: Callable[[], Stopping], tell: Callable[[Event], None]
+    ) -> None:
+        self._setup, self._root, self._device = setup, root, device
+        self._stopping, self._tell = stopping, tell
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute an operation; one that the device knows by the device."""
+        if operation.primitive != "optimize":
+            return await self._device.execute(operation, key, began)
+        seen = await self._device.observe()
+        goal = goal_of(operation)
+        before = seen.components.get(operation.component)
+        began(before)
+        try:
+            run = _Run(self._setup, self._device, operation, key, goal, problem_of(self._setup, seen, goal))
+            outcome = await self._walk(run)
+        except PicoError as exc:
+            seen = await self._device.observe()
+            return OperationResult(key=key, outcome="failed", error=exc.diagnostics[0], before=before, ended=seen.time)
+        seen = await self._device.observe()
+        result = OperationResult(
+            key=key, outcome="done", before=before, after=seen.components.get(operation.component),
+            seconds=outcome.seconds, ended=seen.time, data=self._data(run, outcome),
+        )  # fmt: skip
+        if outcome.fault:
+            return replace(result, outcome="failed", error=error("axis", outcome.fault, address=operation.component))
+        return result
+
+    async def _walk(self, run: _Run) -> Outcome:
+        """Drive the loop to its end, or leave all as it is where somebody asked to stop now."""
+        given = dict(run.goal.parameters or {})
+
+        def making(name: str) -> Callable[[Problem], Algorithm]:
+            return lambda problem: made(name, problem, given)
+
+        limits = Limits(run.goal.budget.measurements, run.goal.budget.seconds, run.goal.signal or "",
+                        run.goal.least or 0.0)  # fmt: skip
+        few = len(run.problem.variables) <= 2 and run.algorithm not in ACQUIRING
+        acquire = (lambda problem: made("spiral", problem)) if few else None
+        steps = loop(
+            run.problem, making(run.algorithm), limits, acquire=acquire, stopping=lambda: bool(self._stopping())
+        )
+        ask = next(steps)
+        while True:
+            if self._stopping() == "now":
+                raise PicoError(error("stopped", "stopped by a person: its tunables stand where they were"))
+            reading = await run.answer(ask)
+            self._progress(run, ask, reading)
+            try:
+                ask = steps.send(reading)
+            except StopIteration as stop:
+                await run.restore()
+                outcome: Outcome = stop.value
+                return outcome
+
+    def _progress(self, run: _Run, ask: Ask, reading: Reading) -> None:
+        data: dict[str, Any] = {
+            "phase": ask.why, "fraction": min(1.0, run.measured / run.goal.budget.measurements),
+            "measured": run.measured, "point": dict(ask.point),
+            "values": {n: v for n, v in reading.values.items() if math.isfinite(v)},
+        }  # fmt: skip
+        data |= {"unknown": reading.unknown} if reading.unknown else {}
+        self._tell(Event(
+            run=run.key.split("/", maxsplit=1)[0], seq=0, kind="operation_progress", time=reading.time,
+            operation=run.operation.id, component=run.operation.component, data=data,
+        ))  # fmt: skip
+
+    def _data(self, run: _Run, outcome: Outcome) -> dict[str, Any]:
+        """Return what the journal holds of an optimization."""
+        names = [v.name for v in run.problem.variables]
+        columns = ["time", *names, *(n for o in run.problem.outputs for n in (o, f"{o}_sigma"))]
+        found: dict[str, Any] = {
+            "goal": run.name, "algorithm": run.algorithm, "met": outcome.met, "why": outcome.why,
+            "measurements": len(outcome.tried), "first": _numbers(outcome.first), "last": _numbers(outcome.last),
+            "columns": columns, "tolerance": {n: t for n, t in run.problem.tolerance.items() if t},
+        }  # fmt: skip
+        if outcome.tried:
+            found["points"] = as_json(self._kept(columns, outcome.tried))
+        return {k: v for k, v in found.items() if v is not None}
+
+    def _kept(self, columns: list[str], tried: tuple[Tried, ...]) -> Any:
+        import numpy as np
+
+        from pico.content.arrays import keep_array
+        from pico.content.store import store_of
+
+        rows = [[t.time, *(t.result.get(name, math.nan) for name in columns[1:])] for t in tried]
+        return keep_array(store_of(self._root), np.array(rows, dtype=np.float64))
+
+
+class _Run:
+    """One optimization under way on a device."""
+
+    def __init__(
+        self, setup: Setup, device: Device, operation: Operation, key: str, goal: Goal, problem: Problem
+    ) -> None:
+        self.setup, self.device, self.operation, self.key = setup, device, operation, key
+        self.goal, self.problem = goal, problem
+        self.name, self.algorithm = str(operation.arguments["goal"]), str(operation.arguments["algorithm"])
+        self.measured = self.steps = 0
+        self.now = 0.0
+        self.stands = dict(problem.start)
+        self.exposed: dict[str, float | None] = {}
+        self._language = Language(dict.fromkeys(sorted(numbers_in(setup, goal)), "number"))
+
+    async def answer(self, ask: Ask) -> Reading:
+        """Set what is asked, one tunable after the other, and measure."""
+        for name, value in ask.point.items():
+            component, _, tunable = name.partition(".")
+            kind = self.setup.type_of(component).tunables[tunable]
+            for goal in ways(kind, self.stands[name], value):
+                arguments = {"tunable": tunable, "from": self.stands[name], "to": goal}
+                result = await self._do("set", component, arguments)
+                if result.outcome != "done":
+                    return Reading(time=self.now, fault=_fault(name, self.stands[name], result.error))
+                self.stands[name] = goal
+        return await self._read() if ask.measure else Reading(time=self.now)
+
+    async def _read(self) -> Reading:
+        self.measured += 1
+        taken: dict[str, Measurement] = {}
+        for component, measurable in measured_in(self.setup, self.goal.texts):
+            found = await self._measured(component, measurable)
+            if isinstance(found, str):
+                return Reading(time=self.now, unknown=found)
+            taken[found.address] = found
+        return replace(self._evaluated(taken), time=self.now)
+
+    async def _measured(self, component: str, measurable: str) -> Measurement | str:
+        """Measure, with another exposure where there is too much light for that, or was and now is too little; return
+        why it cannot be in words."""
+        found = await self._taken(component, measurable)
+        if isinstance(found, str):
+            return found
+        full = "not saturated" in found.not_assured
+        if (full or (found.unknown and component in self.exposed)) and await self._ranged(component):
+            found = await self._taken(component, measurable)
+        return found
+
+    async def _taken(self, component: str, measurable: str) -> Measurement | str:
+        result = await self._do("measure", component, {"measurable": measurable})
+        if result.outcome != "done" or "measurement" not in result.data:
+            return result.error.summary if result.error else f"{component}.{measurable} was not measured"
+        return measurement_from_json(result.data["measurement"])
+
+    async def _ranged(self, component: str) -> bool:
+        """Find an exposure that suits, where a detector can."""
+        kind = self.setup.type_of(component)
+        if "auto_range" not in kind.primitives or EXPOSURE not in kind.tunables:
+            return False
+        result = await self._do("auto_range", component, {"tunable": EXPOSURE})
+        if result.outcome != "done":
+            return False
+        before = result.data.get("frames", [{}])[0].get("exposure")
+        self.exposed.setdefault(component, before)
+        return True
+
+    async def restore(self) -> None:
+        """Set exposures back that were changed on the way."""
+        for component, before in self.exposed.items():
+            if before is not None:
+                await self._do("set", component, {"tunable": EXPOSURE, "from": None, "to": before})
+
+    def _evaluated(self, taken: Mapping[str, Measurement]) -> Reading:
+        """Return the outputs of a goal, with their standard deviations to first order, and its signal."""
+        values, sigmas, unknown = {}, {}, ""
+        for name in self._language.names:
+            component, _, number = name.partition(".")
+            found = next(
+                (m for m in taken.values() if m.component == component and number_of(m, number) is not None), None
+            )
+            known = number_of(found, number) if found else None
+            if found is None or known is None:
+                unknown = unknown or next((m.unknown for m in taken.values() if m.unknown), f"{name} was not measured")
+                continue
+            if "not saturated" in found.not_assured:
+                return Reading(unknown=f"{found.address} is saturated: {found.not_assured['not saturated']}")
+            values[name], sigmas[name] = known, _sigma(found, number)
+        result: dict[str, float] = {}
+        outputs = dict(zip(self.problem.outputs, self.goal.texts, strict=False))
+        for output, text in (*outputs.items(), *(((self.goal.signal, self.goal.signal),) if self.goal.signal else ())):
+            try:
+                value, sigma = self._told(text, values, sigmas)
+            except ExpressionError as exc:
+                return Reading(values=result, unknown=unknown or str(exc))
+            result[output], result[f"{output}_sigma"] = value, sigma
+        return Reading(values=result)
+
+    def _told(self, text: str, values: Mapping[str, float], sigmas: Mapping[str, float]) -> tuple[float, float]:
+        expression = self._language.compile(text, "number")
+        value, square = float(expression.evaluate(values)), 0.0
+        for name, sigma in sigmas.items():
+            if sigma and name in text:
+                there = float(expression.evaluate({**values, name: values[name] + sigma}))
+                square += (there - value) ** 2
+        return value, math.sqrt(square)
+
+    async def _do(self, primitive: str, component: str, arguments: Mapping[str, Any]) -> OperationResult:
+        """Have the device do one step, of which nobody else hears."""
+        self.steps += 1
+        operation = Operation(
+            id=f"{self.operation.id}.{self.steps}", primitive=primitive, component=component, arguments=arguments,
+            reason=self.operation.reason,
+        )  # fmt: skip
+        run, _, rest = self.key.partition("/")
+        result = await self.device.execute(operation, f"{run}~/{rest}.{self.steps}", lambda _: None)
+        self.now = max(self.now, result.ended)
+        return result
+
+
+def goal_of(operation: Operation) -> Goal:
+    """Return the goal of an optimization, as its plan has it."""
+    from pydantic import TypeAdapter
+
+    goal: Goal = TypeAdapter(Goal).validate_python(dict(operation.arguments["what"]))
+    return goal
+
+
+def problem_of(setup: Setup, seen: Observation, goal: Goal) -> Problem:
+    """Return a goal as an algorithm sees it, from where its tunables stand; raises PicoError where they cannot be."""
+    variables = tuple(_variables(setup, seen, goal))
+    outputs = tuple(goal.reach) if goal.reach is not None else (OBJECTIVE,)
+    aim: Aim = goal.aim
+    tolerance = {name: goal.near(name) for name in outputs}
+    return Problem(variables, outputs, aim, dict(goal.reach or {}), tolerance)
+
+
+def _variables(setup: Setup, seen: Observation, goal: Goal) -> Iterator[Variable]:
+    for address, (low, high) in goal.tunables.items():
+        component, _, tunable = address.partition(".")
+        kind = setup.type_of(component).tunables[tunable]
+        part = seen.components.get(component)
+        live = part.values.get(tunable) if part else None
+        if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
+            raise PicoError(error("goal", f"nobody knows {address}, so that nobody could go back to it"))
+        start = float(live.value)
+        if not low <= start <= high:
+            text = f"{address} stands at {start:g} {kind.unit}, outside {low:g} to {high:g}".replace("  ", " ")
+            raise PicoError(error("goal", text, hint=f"`pico set {address} {low:g}` brings it inside", address=address))
+        yield Variable(address, low, high, start, kind.resolution, kind.period)
+
+
+def numbers_in(setup: Setup, goal: Goal) -> set[str]:
+    """Return the numbers that a goal's expressions speak of, by address."""
+    import re
+
+    from pico.model.vocabulary import numbers_of
+
+    words = {w for text in goal.texts for w in re.findall(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+", text)}
+    return {w for w in words if w.partition(".")[2] in numbers_of(setup, w.partition(".")[0])}
+
+
+def ways(kind: Tunable, here: float, goal: float) -> tuple[float, ...]:
+    """Return the values that a tunable is set to on its way to a goal: where its axis would come from the wrong side,
+    one beyond the backlash first, within its range."""
+    axis = kind.axis
+    if here == goal:
+        return ()
+    if axis is None or axis.backlash <= 0 or axis.approach == "either":
+        return (goal,)
+    side = 1.0 if axis.approach == "positive" else -1.0
+    beyond = goal - side * _OVER * axis.backlash
+    if kind.range:
+        beyond = min(kind.range[1], max(kind.range[0], beyond))
+    return (goal,) if (goal - here) * side > 0 or beyond == goal else (beyond, goal)
+
+
+def _sigma(found: Measurement, number: str) -> float:
+    if isinstance(found.sigma, Mapping):
+        return float(found.sigma.get(number.rpartition(".")[2], 0.0))
+    return float(found.sigma or 0.0)
+
+
+def _fault(name: str, last: float, wrong: Diagnostic | None) -> str:
+    said = f": {wrong.summary}" if wrong else ""
+    return f"{name} does not go where it is sent; it last stood at {last:g}{said}"
+
+
+def _numbers(result: Mapping[str, float] | None) -> dict[str, float] | None:
+    return None if result is None else {n: v for n, v in result.items() if math.isfinite(v)}

@@ -1,0 +1,91 @@
+"""Whether goals make sense: tunables that a motor sets, bounds within their range, numbers that can be measured."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.expressions import ExpressionError, Language
+from pico.model.lab import Goal, Setup
+from pico.model.quantities import QuantityError, convert
+from pico.model.vocabulary import cameras_of, functions_of, measured_in, names_of
+from pico.optimize.registry import known
+
+
+def goal_errors(setup: Setup, goals: Mapping[str, Goal]) -> Iterator[tuple[tuple[str, ...], Diagnostic]]:
+    """Yield what is wrong with goals, each with where: the path of keys below `goals`."""
+    for name, goal in goals.items():
+        for tunable, bounds in goal.tunables.items():
+            if wrong := _tunable(setup, tunable, bounds):
+                yield (name, "tunables", tunable), wrong
+        for key, wrong in _outputs(setup, goal):
+            yield (name, *key), wrong
+        if goal.algorithm is not None and goal.algorithm not in known():
+            hint = did_you_mean(goal.algorithm[:40], known()) or f"known: {', '.join(known())}"
+            yield (name, "algorithm"), error("algorithm", f"there is no algorithm `{goal.algorithm[:40]}`", hint=hint)
+        if goal.budget.measurements < 1 or goal.budget.seconds <= 0:
+            yield (name, "budget"), error("value", "the budget is for nothing", hint="expected 1 measurement or more")
+        if goal.valid_for is not None and (wrong := _duration(goal.valid_for)):
+            yield (name, "valid_for"), wrong
+
+
+def require_goal(setup: Setup, name: str, goal: Goal) -> None:
+    """Raise PicoError for what is wrong with a goal."""
+    if found := [wrong for _, wrong in goal_errors(setup, {name: goal})]:
+        raise PicoError(found)
+
+
+def _tunable(setup: Setup, address: str, bounds: tuple[float, float]) -> Diagnostic | None:
+    component, _, tunable = address.partition(".")
+    if component not in setup.lab.inventory:
+        hint = did_you_mean(component[:40], setup.lab.inventory) or "COMPONENT.TUNABLE: `ly_150.stage_y`"
+        return error("unknown-component", f"there is no component `{component[:40]}` to be set", hint=hint)
+    kinds = setup.type_of(component).tunables
+    kind = kinds.get(tunable)
+    if kind is None:
+        hint = did_you_mean(tunable[:40], kinds) or f"it has: {', '.join(kinds) or 'none'}"
+        return error("unknown-tunable", f"{component} has no tunable `{tunable[:40]}`", hint=hint)
+    if kind.datatype != "float" or kind.mover not in ("motor", "electronics"):
+        text = f"{address} can't be searched: it is " + (
+            f"set by {'an arm' if kind.mover == 'arm' else 'a person'}" if kind.datatype == "float" else "no number"
+        )
+        return error("goal", text, hint="a tunable that a motor or electronics set")
+    low, high = bounds
+    least, most = kind.range or (low, high)
+    if not least <= low < high <= most:
+        text = f"{address} may be set from {low:g} to {high:g} {kind.unit}".rstrip()
+        return error("value", text, hint=f"within its range, the lower bound first: [{least:g}, {most:g}]")
+    return None
+
+
+def _outputs(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagnostic]]:
+    language = _language(setup)
+    keyed: list[tuple[tuple[str, ...], str]] = [(("reach", text), text) for text in goal.reach or ()]
+    keyed += [((goal.aim,), goal.texts[0])] if goal.reach is None else []
+    keyed += [(("signal",), goal.signal)] if goal.signal else []
+    for key, text in keyed:
+        try:
+            language.compile(text, "number")
+        except ExpressionError as exc:
+            yield key, error("expression", f"`{text[:60]}` can't be measured: {exc}", hint=_SPEAK)
+            continue
+        if not measured_in(setup, [text]):
+            yield key, error("expression", f"nothing is measured for `{text[:60]}`", hint=_SPEAK)
+    for output in goal.reach or ():
+        if goal.near(output) <= 0:
+            hint = "`tolerance: 5`, or one for each: `tolerance: {cam.centroid.x: 5}`"
+            yield ("reach", output), error("goal", f"how near is near enough to {output}?", hint=hint)
+
+
+def _duration(text: str) -> Diagnostic | None:
+    try:
+        return None if convert(text, "s") > 0 else error("value", f"`{text}` is no time", hint="`12 h`")
+    except QuantityError as exc:
+        return error("value", f"valid_for: {exc}", hint="`12 h`, `30 min`")
+
+
+def _language(setup: Setup) -> Language:
+    return Language(names_of(setup, [*setup.lab.inventory, *cameras_of(setup)]), functions_of(setup))
+
+
+_SPEAK = "numbers that are measured, by address: `cam.centroid.x`, `pd.voltage`; `pico catalog show TYPE` lists them"
