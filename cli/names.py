@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "optimize": "closed-loop alignment",
     "teleop": "moving the arm by hand",
     "laser": "arming a laser",
     "run": "running a recipe",

@@ -57,6 +57,7 @@ def _optimize(
 ) -> int:
     from pico.bench.goals import optimized
     from pico.diagnostics import ExitCode
+    from pico.optimize.loop import STOPPED
 
     from ..runs.approving import declined, show
     from ..runs.running import watched
@@ -93,4 +94,6 @@ def _optimize(
         session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, path))
     if report.exit_code:
         return int(report.exit_code)
+    if found.why == STOPPED:
+        return int(ExitCode.INTERRUPTED)
     return int(ExitCode.DONE if found.met else ExitCode.EXPECTATION)

@@ -17,7 +17,7 @@ from pico.model.state import LabState
 if TYPE_CHECKING:
     from pico.bench.cameras import Cameras
     from pico.bench.commits import CommitMode, Commits
-    from pico.bench.goals import Goals
+    from pico.bench.goals import Goals, Optimized
     from pico.bench.light import Lights
     from pico.bench.measurements import Measurements
     from pico.bench.moves import Moves
@@ -132,6 +132,11 @@ class Bench(Opened):
     def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or the plan to a revision (the manifest for None); see `Moves.apply`."""
         return self.moves.apply(what)
+
+    def optimize(self, *goal: str, algorithm: str | None = None) -> Optimized:
+        """Bring light to a goal, `optimize("centred")` or `optimize("centre", "ly_150", "cam")`, and return what became
+        of it; see `Goals`. Raises PicoError for what makes no sense, and where it can't be begun."""
+        return self.goals.optimize(goal, algorithm)
 
     def status(self) -> Status:
         """Return committed, desired and live side by side."""

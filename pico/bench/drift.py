@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, Uncertainty, slot_at
+from pico.model.operation import touched_by
 from pico.model.pose import Pose, angle_between
 from pico.model.primitive import primitive
 from pico.model.record import record
@@ -159,7 +160,7 @@ def who(
     run = last.key.split("/")[0] if last else ""
     if last and last.kind == "unknown":
         return "operation", f"run {run}, of which nobody knows how it ended"
-    if last and _as_left(setup, change, part, last.data.get("after") or {}):
+    if last and _as_left(setup, change, part, _after(last, change)):
         return "operation", f"run {run}, {last.at}"
     since = f"; run {run} left it elsewhere, {last.at}" if last else ""
     if change.tunable == "pose":
@@ -175,16 +176,28 @@ def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalR
     for r in records:
         if _intends(r, change):
             wanted.add(r.key)
-        elif r.key in wanted and r.component == change.component:
+        elif r.key in wanted:
             found.append(r)
     return found
 
 
 def _intends(r: JournalRecord, change: Change) -> bool:
-    if r.kind != "intent" or r.component != change.component:
+    if r.kind != "intent":
         return False
+    arguments = r.data.get("arguments", {})
+    if "what" in arguments or r.component != change.component:
+        return (change.component, change.tunable) in touched_by(r.component, arguments)
     moves = primitive(str(r.data.get("primitive"))).changes in ("pose", "anything")
-    return r.data.get("arguments", {}).get("tunable") == change.tunable or (change.tunable == "pose" and moves)
+    return arguments.get("tunable") == change.tunable or (change.tunable == "pose" and moves)
+
+
+def _after(last: JournalRecord, change: Change) -> Mapping[str, Any]:
+    """Return a component as an operation left it; of an optimization its tunables, of whatever component."""
+    address = f"{change.component}.{change.tunable}"
+    found = (last.data.get("data") or {}).get("last") or {}
+    if address in found:
+        return {"values": {change.tunable: {"value": found[address]}}}
+    return last.data.get("after") or {}
 
 
 def _as_left(setup: Setup, change: Change, part: ObservedComponent, after: Mapping[str, Any]) -> bool:

@@ -117,6 +117,13 @@ class Goals:
         """Return the plan that brings light to a goal; raises PicoError."""
         return Plans(self.opened).to_goal(chosen.name, chosen.goal, chosen.algorithm)
 
+    def optimize(self, words: Sequence[str], algorithm: str | None = None) -> Optimized:
+        """Bring light to a goal and return what became of it; raises PicoError."""
+        from pico.bench.moves import Moves
+
+        run = Moves(self.opened).run(self.plan(self.chosen(words, algorithm=algorithm)), holder="bench.optimize")
+        return optimized([*run])
+
     def plot(self, found: Optimized, out: Path) -> None:
         """Write the plot of an optimization as PNG; raises PicoError where its points are gone, or it can't be."""
         from pico.content.arrays import load_array

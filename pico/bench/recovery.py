@@ -12,6 +12,7 @@ from pico.bench.plans import Plans
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
+from pico.model.operation import touched_by
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.primitive import primitive
 from pico.model.state import LabState, state_from_json
@@ -155,7 +156,7 @@ def _begun(memory: Memory, run: RunRecord) -> Iterator[tuple[str, str]]:
     begun = {r.key for r in records if r.kind == "started"}
     for record in records:
         if record.kind == "intent" and record.key in begun and primitive(record.data["primitive"]).changes != "nothing":
-            yield record.component, str(record.data["arguments"].get("tunable", "pose"))
+            yield from touched_by(record.component, record.data["arguments"])
 
 
 def _before(
@@ -201,6 +202,8 @@ def _left_out(began: Plan, memory: Memory, run: str) -> Iterator[Diagnostic]:
             command = f"pico do {op.component} {' '.join(words)}"
             if "measurable" in op.arguments:
                 command = f"pico measure {op.component}.{op.arguments['measurable']}"
+            if op.primitive == "optimize":
+                command = f"pico optimize {op.address}"
             text = f"`{command}` did not come to its end, and is not taken up again"
             yield Diagnostic("note", "left-out", text, hint=f"`{command}` does it anew", address=op.component)
 

@@ -42,7 +42,9 @@ class Operation:
     `grasp_yaw` [deg], the direction in which the jaws close in the component's frame; where the robot holds it already,
     `from` says `"held": true` and where it then is, seen from above. Of `set`: `tunable`, `from`, `to`. Of `home`:
     `tunable`. Of `measure`: `measurable`; its `component` may be a camera over the bench. Of `park`: none; its
-    `component` is the robot's name. Of `operator`: `text`, and `to` where a component is to be moved. `resources` are
+    `component` is the robot's name. Of `optimize`: `goal`, its name, `what` it is (as `pico.model.lab.Goal`), the
+    `algorithm`, and `from`, where its tunables stand. Of `operator`: `text`, and `to` where a component is to be
+    moved. `resources` are
     what it holds while it runs (a robot, `motor/p1.angle`, the component itself): each does one thing at a time.
     `after`: ids of the operations that must be done first. `start`, `seconds`: predicted [s].
     """
@@ -76,9 +78,19 @@ class Operation:
 
 
 def address_of(component: str, arguments: Mapping[str, Any]) -> str:
-    """Return what an operation is about: `p2`, or `p1.angle`, `cam.image` where it is one tunable or measurable."""
+    """Return what an operation is about: `p2`, or `p1.angle`, `cam.image` where it is one tunable or measurable, or the
+    goal of an optimization."""
+    if "goal" in arguments:
+        return str(arguments["goal"])
     name = arguments.get("tunable") or arguments.get("measurable")
     return f"{component}.{name}" if name else component
+
+
+def touched_by(component: str, arguments: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    """Return the tunables that an operation changes, each with its component; `pose` where it names none."""
+    searched = arguments.get("what", {}).get("tunables", {})
+    found = tuple((one, tunable) for one, _, tunable in (address.partition(".") for address in searched))
+    return found or ((component, str(arguments.get("tunable", "pose"))),)
 
 
 @record

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 
 from pico.optimize.problem import Algorithm, Point, Problem
 
+STOPPED = "it was stopped"
+"""Why it ended where somebody asked for that."""
 LOST = 6
 """Readings without light, one after the other, after light was seen, at which it gives up."""
 _SURE = 5.0
@@ -138,7 +140,7 @@ class _Walk:
         slow = self.now - (self.began or 0.0) + 2 * self.longest > limits.seconds
         ends = {
             self.fault: bool(self.fault),
-            "it was stopped": self.stopping(),
+            STOPPED: self.stopping(),
             f"the budget of {limits.measurements} measurements is spent": spends > limits.measurements,
             f"the budget of {limits.seconds:g} s is spent": slow and spent > 0,
             f"the light was lost {self.lost} times in a row": self.good is not None and self.lost >= LOST,
@@ -205,7 +207,7 @@ class _Walk:
         last = self.tried[-1] if self.tried else None
         believed = last is not None and self._believed(last.result) and not stopped
         reached = believed and last is not None and (self.problem.aim != "reach" or self.problem.met(last.result))
-        spent = ("the budget", "it was stopped", "it comes no nearer", "the light")
+        spent = ("the budget", STOPPED, "it comes no nearer", "the light")
         met = reached and (self.problem.aim == "reach" or not why.startswith(spent))
         seen = first.result if first and self._believed(first.result) else None
         return Outcome(

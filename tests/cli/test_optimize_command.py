@@ -1,0 +1,185 @@
+"""`pico optimize`: goals ready made and of the lab, met and not met, interrupted, killed, undone, told."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import cv2
+import pytest
+from commanding import Pico, edit
+
+GOALS = """goals:
+  centred:
+    tunables: {ly_150.stage_y: [-1.5, 1.5], ly_150.stage_z: [-1.5, 1.5]}
+    reach: {cam.centroid.x: 0, cam.centroid.y: 0}
+    tolerance: 5
+    signal: cam.power
+    least: 1000
+    budget: {measurements: 20, seconds: 120}
+    valid_for: 12 h
+    description: the spot in the middle of the camera
+inventory:
+"""
+
+
+@pytest.fixture
+def placed(shel: Path, pico: Pico) -> Path:
+    """The case study with its light on the camera, in a world that stands still."""
+    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
+    edit(shel / "lab.yaml", "inventory:\n", GOALS)
+    assert pico("apply", "e1", "--yes").code == 0
+    return shel
+
+
+def test_the_spot_is_centred_by_the_stage_and_undone(placed: Path, pico: Pico) -> None:
+    answer = pico("optimize", "centre", "ly_150", "cam", "--yes", "--plot", "c.png")
+    assert answer.code == 0 and "met in" in answer.out and "centroid_newton: 2 readings" in answer.out
+    assert "to 0 within 5" in answer.out and "`pico undo` goes back" in answer.out
+    found = pico("measure", "cam.centroid", "--json").data["value"]
+    assert abs(found["x"]) < 5 and abs(found["y"]) < 5
+    assert cv2.imread(str(placed / "c.png")).std() > 10
+    drift = pico("drift")
+    assert "ly_150.stage_y" in drift.out and "by an operation" in drift.out.split("ly_150.stage_y")[1]
+    assert "optimize centre ly_150 cam" in pico("runs", "list").out
+
+
+def test_a_goal_of_the_lab_is_one_operation_with_its_points_beside_the_run(placed: Path, pico: Pico) -> None:
+    lines = pico("optimize", "centred", "--yes", "--json").out.splitlines()
+    found = json.loads(lines[-1])
+    assert found["schema"] == "pico.optimization/v1" and found["met"] and found["measurements"] <= 12
+    assert abs(found["last"]["cam.centroid.x"]) <= 5 and found["columns"][0] == "time"
+    assert found["points"]["shape"] == [found["measurements"], len(found["columns"])]
+    progress = [e for e in map(json.loads, lines[:-1]) if e["kind"] == "operation_progress"]
+    assert len(progress) >= found["measurements"] and "ly_150.stage_y" in progress[0]["data"]["point"]
+    run = pico("runs", "show", found["run"], "--json").data
+    (operation,) = run["operations"]
+    assert operation["primitive"] == "optimize" and operation["data"]["last"] == found["last"]
+    assert pico("undo", "--yes").code == 0
+    assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
+
+
+def test_a_crossed_polarizer_is_found_from_a_saturated_start(placed: Path, pico: Pico) -> None:
+    pico("set", "p2.angle", "70", "--yes")
+    answer = pico("optimize", "null", "p2", "cam", "--yes", "--json")
+    found = json.loads(answer.out.splitlines()[-1])
+    # p1 stands at 1 deg; p2 is turned by 30 deg, so that its axis projects to 1.155 deg
+    assert answer.code == 0 and found["last"]["p2.angle"] == pytest.approx(91.15, abs=0.15)
+    assert found["measurements"] <= 8
+    assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == 10
+
+
+def test_what_is_not_met_is_6_and_says_why(placed: Path, pico: Pico) -> None:
+    edit(placed / "lab.yaml", "measurements: 20", "measurements: 2")
+    assert pico("bench", "update", "--yes").code == 0
+    answer = pico("optimize", "centred", "--yes")
+    assert answer.code == 6 and "not met" in answer.out and "the budget of 2 measurements is spent" in answer.out
+    pico("set", "laser.shutter", "closed", "--yes")
+    answer = pico("optimize", "centre", "ly_150", "cam", "--yes")
+    assert answer.code == 6 and "no light" in " ".join(answer.out.split())
+    assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
+
+
+def test_without_a_goal_they_are_listed_and_a_dry_run_moves_nothing(placed: Path, pico: Pico) -> None:
+    listed = pico("optimize")
+    assert "the spot in the middle of the camera" in listed.out and "pico optimize null" in listed.out
+    assert set(pico("optimize", "--json").data["goals"]) == {"centred"}
+    dry = pico("optimize", "centred", "--dry-run")
+    assert dry.code == 0 and "-1.5 to 1.5 mm" in dry.out and "at most 20 measurements" in dry.out
+    assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("centre", "ly_15", "cam"), "did you mean `ly_150`"),
+        (("centered",), "did you mean `centred`"),
+        (("centre", "ly_150"), "takes what to tune and what to see it by"),
+        (("focus", "ly_150", "cam"), "nothing to tune for `focus`"),
+        (("centre", "ly_150", "p1"), "p1 does not measure a centroid"),
+        (("centred", "--algorithm", "malus"), "malus takes 1 tunables, not 2"),
+        (("centred", "--algorithm", "newton"), "there is no algorithm `newton`"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_before_anything_is_asked(
+    placed: Path, pico: Pico, words: tuple[str, ...], said: str
+) -> None:
+    answer = pico("optimize", *words, "--yes")
+    assert answer.code == 1 and said in " ".join(answer.err.split())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("ly_150.stage_y: [-1.5, 1.5]", "ly_150.stage_q: [-1.5, 1.5]", "ly_150 has no tunable `stage_q`"),
+        ("ly_150.stage_y: [-1.5, 1.5]", "ly_150.stage_y: [-9, 1.5]", "within its range"),
+        ("ly_150.stage_y: [-1.5, 1.5]", "ly_150.stage_y: [1.5, -1.5]", "the lower bound first"),
+        ("cam.centroid.x: 0", "cam.centroidd.x: 0", "can't be measured"),
+        ("    tolerance: 5\n", "", "how near is near enough"),
+        ("    least: 1000\n", "", "`signal` and `least` go together"),
+        ("reach: {", "maximize: cam.power\n    reach: {", "exactly one of"),
+        ("valid_for: 12 h", "valid_for: 12 mm", "is a length"),
+        ("measurements: 20", "measurements: 0", "the budget is for nothing"),
+    ],
+)
+def test_a_goal_that_makes_no_sense_is_told_at_its_line(
+    placed: Path, pico: Pico, old: str, new: str, said: str
+) -> None:
+    edit(placed / "lab.yaml", old, new)
+    answer = pico("validate")
+    told = " ".join(answer.err.split())
+    assert answer.code == 1 and said in told and "lab.yaml:" in told
+
+
+def _started(folder: Path, *words: str) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "cli", "-C", str(folder), "optimize", *words, "--yes", "--json"]
+    process = subprocess.Popen(
+        command, cwd=Path(__file__).parents[2], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    )  # fmt: skip
+    assert process.stdout
+    for line in process.stdout:
+        if '"operation_progress"' in line and json.loads(line)["data"]["measured"] >= 4:
+            break
+    return process
+
+
+def test_ctrl_c_ends_at_the_best_point(placed: Path, pico: Pico) -> None:
+    process = _started(placed, "centre", "ly_150", "cam", "--algorithm", "nelder_mead")
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    found = json.loads(out.splitlines()[-1])
+    assert process.returncode == 130 and not found["met"] and found["why"] == "it was stopped"
+    first, last = ([of[f"cam.centroid.{a}"] for a in "xy"] for of in (found["first"], found["last"]))
+    assert sum(v**2 for v in last) <= sum(v**2 for v in first) + 1
+    assert "killed" not in pico("status").err
+
+
+def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:
+    process = _started(placed, "centre", "ly_150", "cam", "--algorithm", "nelder_mead")
+    process.kill()
+    process.communicate(timeout=60)
+    time.sleep(0.05)
+    assert "was killed" in pico("status").err
+    values = pico("get", "ly_150", "--json").data["values"]
+    known = [values[n]["value"] for n in ("stage_y", "stage_z") if values[n]["value"] is not None]
+    assert all(-2 <= value <= 2 for value in known)  # that which was on its way is not known
+    again = pico("resume", "--yes")
+    assert "`pico optimize centre ly_150 cam` does it anew" in " ".join((again.err + again.out).split())
+    assert pico("undo", "--yes").code == 0
+    assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
+
+
+def test_a_script_optimizes_too(placed: Path) -> None:
+    import pico
+
+    with pico.open(placed) as bench:
+        found = bench.optimize("centre", "ly_150", "cam")
+        assert found.met and found.last and abs(found.last["cam.centroid.x"]) <= 5
+        with pytest.raises(pico.PicoError, match="has no goal `centrd`"):
+            bench.optimize("centrd")
