@@ -13,7 +13,9 @@ from ..views import started as view
 
 def init(
     context: typer.Context,
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet.")],
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet; without it this one.")
+    ] = Path(),
     example: Annotated[
         str | None,
         typer.Option("--example", metavar="minimal|shel|mach_zehnder|crowded|two_arms", help="With its history."),

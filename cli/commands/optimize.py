@@ -31,9 +31,9 @@ def optimize(
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
-    """Bring light to a goal: set tunables and measure until it is met, and keep the best.
+    """Set and measure until light is as a goal wants it.
 
-    Without a goal those that there are are listed. `goals:` in `lab.yaml` has your own; ready made are
+    The best is kept. Without a goal those that there are are listed: `goals:` of `lab.yaml`, and ready made
     `centre PART CAMERA`, `focus PART CAMERA`, `peak PART DETECTOR`, `null PART DETECTOR`. Ctrl-C ends at the best
     point. The exit code is 6 where the goal was not met; `pico undo` goes back.
 

@@ -27,7 +27,7 @@ from pico.model.lab import Lab, Setup
 from pico.model.state import LabState
 
 _IS_LAB = re.compile(rb"^kind:[ \t]*[\"']?Lab[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
-_NO_LAB = "`pico init --example minimal d` makes one in folder d"
+_NO_LAB = "`pico init d` makes one in folder d, `pico init --example minimal d` an example"
 
 
 @dataclass(frozen=True)

@@ -182,6 +182,19 @@ def _corners(ends: list[tuple[float, ...]]) -> list[int]:
     return [n for n, at in enumerate(product(*ends)) if all(v in (e[0], e[-1]) for v, e in zip(at, ends, strict=True))]
 
 
+def _smaller(branches: Branches, number: int) -> str:
+    """Return how the mirrors on a way get a smaller range of tilt, or what else there is to do."""
+    tilting = dict.fromkeys(c.component for c in branches.light.way(number)[:-1] if _tilts(branches.part(c)))
+    if not tilting:
+        return "put blocks around what it may hit"
+    types = dict.fromkeys(branches.light.parts[name].kind.name for name in tilting)
+    made = next(iter(types))
+    return (
+        f"put blocks around what it may hit, or give {', '.join(tilting)} a smaller range of tilt: "
+        f"`pico catalog new NAME --from {made}` makes a type of your own, of which types/NAME.yaml has the `range`"
+    )
+
+
 def _worst(
     branches: Branches, tried: list[tuple[Mapping[str, Any], Branches]], number: int, rise: float
 ) -> Finding | None:
@@ -196,7 +209,7 @@ def _worst(
             goes_on = crossing.event not in ("blocked", "detected")
             if (goes_on or ending(sampled, crossing)) and (steepest is None or steep > steepest[0]):
                 steepest = steep, sampled, at, setting
-    hint = "a smaller range of tilt, or blocks around what it may hit"
+    hint = _smaller(branches, number)
     if steepest is not None:
         steep, sampled, at, setting = steepest
         crossing = sampled.light.crossings[at]
