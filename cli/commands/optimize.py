@@ -47,7 +47,7 @@ def optimize(
     if not goal:
         from pico.bench.goals import READY
 
-        session.show(goals_view, bench.goals.named, READY)
+        session.show(goals_view, bench.goals.named, bench.goals.alignments(), READY)
         return 0
     return _optimize(session, bench, bench.goals.chosen(goal, algorithm=algorithm), plot, dry_run, auto_approve)
 

@@ -15,7 +15,9 @@ from pico.model.vocabulary import measured_in, numbers_of
 from pico.optimize.problem import Problem, Variable
 
 if TYPE_CHECKING:
+    from pico.bench.aligned import Alignment
     from pico.model.event import Event
+    from pico.model.observation import Observation
     from pico.model.plan import Plan
 
 READY: Mapping[str, str] = {
@@ -81,6 +83,21 @@ class Goals:
     def named(self) -> Mapping[str, Goal]:
         """The goals of the Lab, by name."""
         return self.opened.setup.lab.goals or {}
+
+    def alignments(self, seen: Observation | None = None) -> tuple[Alignment, ...]:
+        """Return how the goals of the Lab stand, as the journal knows; nothing is measured."""
+        from pico.bench.aligned import alignments, since_last_sought
+        from pico.edge.lease import utc_now
+        from pico.planning.optimizing import seconds
+
+        if not self.named:
+            return ()
+        setup, memory = self.opened.setup, self.opened.edge.memory
+        took = {
+            name: seconds(setup, goal, goal.algorithm or choice(setup, goal)[0]) for name, goal in self.named.items()
+        }
+        records = since_last_sought(memory, self.named) if memory else ()
+        return alignments(setup, seen or self.opened.observe(), records, utc_now(), took)
 
     def chosen(self, words: Sequence[str] | Goal, name: str = "asked", algorithm: str | None = None) -> Chosen:
         """Return a goal: of the Lab by its name, a ready-made one (`centre ly_150 cam`), or the one given, as `name`;

@@ -117,8 +117,16 @@ class Plans:
         return {"backend": self.opened.backend_name, "fidelity": self.opened.fidelity, "base": base}
 
     def _judged(self, plan: Plan, seen: Observation) -> Plan:
-        """Return the plan with what the beam audit and the policy of the lab say of it."""
+        """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
+        stale."""
         plan = with_audit(self.opened, plan, seen)
+        if plan.operations and self.opened.setup.lab.goals:
+            from pico.bench.aligned import made_stale
+            from pico.bench.goals import Goals
+
+            standing = Goals(self.opened).alignments(seen)
+            if told := tuple(made_stale(self.opened.setup, seen, standing, plan.operations)):
+                plan = replace(plan, diagnostics=(*plan.diagnostics, *told)).sealed()
         if not self.opened.setup.lab.policy.rules:
             return plan
         from pico.policy.rules import judged

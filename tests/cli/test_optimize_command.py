@@ -183,3 +183,43 @@ def test_a_script_optimizes_too(placed: Path) -> None:
         assert found.met and found.last and abs(found.last["cam.centroid.x"]) <= 5
         with pytest.raises(pico.PicoError, match="has no goal `centrd`"):
             bench.optimize("centrd")
+
+
+def stands(pico: Pico) -> tuple[str, str]:
+    (one,) = pico("optimize", "--json").data["alignments"]
+    return one["status"], one["why"]
+
+
+def test_how_a_goal_stands_follows_from_what_was_done_since(placed: Path, pico: Pico) -> None:
+    assert stands(pico) == ("never measured", "")
+    assert pico("optimize", "centred", "--yes").code == 0
+    assert stands(pico)[0] == "aligned" and "aligned" in pico("optimize").out
+    assert pico("measure", "cam.centroid").code == 0 and pico("set", "cam.exposure", "12", "-y").code == 0
+    pico("set", "laser.shutter", "closed", "-y")
+    pico("set", "laser.shutter", "open", "-y")
+    assert stands(pico)[0] == "aligned", "neither exposure nor shutter move the spot"
+    pico("set", "p1.angle", "2", "-y")
+    assert stands(pico) == ("stale", "p1.angle was changed since")
+    assert pico("optimize", "centred", "--yes").code == 0 and stands(pico)[0] == "aligned"
+    pico("set", "ly_150.stage_y", "0.1", "-y")
+    assert stands(pico) == ("stale", "ly_150.stage_y was changed since")
+    assert pico("undo", "--yes").code == 0 and stands(pico)[0] == "stale"
+
+
+def test_a_goal_that_is_not_met_is_lost_and_an_edited_one_stale(placed: Path, pico: Pico) -> None:
+    assert pico("optimize", "centred", "--yes").code == 0
+    edit(placed / "lab.yaml", "tolerance: 5", "tolerance: 4")
+    assert pico("bench", "update", "--yes").code == 0
+    assert stands(pico) == ("stale", "it was another goal then")
+    pico("set", "laser.emission", "false", "-y")
+    assert pico("optimize", "centred", "--yes").code == 6
+    assert stands(pico)[0] == "lost"
+
+
+def test_a_plan_says_which_goals_it_makes_stale(placed: Path, pico: Pico) -> None:
+    assert pico("optimize", "centred", "--yes").code == 0
+    told = " ".join(pico("move", "p2", "x=530", "--dry-run").err.split())
+    assert "note[goal]: centred is aligned, and will not be: p2 changes" in told
+    assert "then `pico optimize centred`, about" in told
+    assert "note[goal]" not in pico("optimize", "centred", "--dry-run").err
+    assert "note[goal]" not in pico("set", "cam.exposure", "12", "--dry-run").err

@@ -1,0 +1,182 @@
+"""Whether goals are still met, as the journal knows: aligned, stale, lost, or never measured. Nothing is measured."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING, Any, Literal
+
+from pico.diagnostics import Diagnostic
+from pico.model.diff import value_distance
+from pico.model.lab import Goal, Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, touched_by
+from pico.model.primitive import primitive
+from pico.model.quantities import convert
+from pico.model.record import as_json
+from pico.model.vocabulary import measured_in
+from pico.optics.axis import beams
+
+if TYPE_CHECKING:
+    from pico.runs.journal import JournalRecord
+    from pico.runs.memory import Memory
+
+Status = Literal["aligned", "stale", "lost", "never measured"]
+MOST = 1000
+"""Runs that are looked back for the last time that a goal was sought."""
+_ALONG = ("interlock", "parked")
+"""Reasons of operations that leave light as it was when they are over."""
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """How a goal stands: `why` where it is not aligned; `at` by the wall, and `last`, what was measured then; `order`:
+    how far along the beam its first tunable stands [mm]; `seconds` that it takes to be sought again."""
+
+    goal: str
+    status: Status
+    why: str = ""
+    at: str = ""
+    last: Mapping[str, float] | None = None
+    order: float | None = None
+    seconds: float = 0.0
+
+
+def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRecord]:
+    """Return the records of the last runs, oldest first, back to where each goal was sought last, `MOST` runs at
+    most."""
+    left = set(goals)
+    found: list[list[JournalRecord]] = []
+    for run in reversed(memory.runs()[-MOST:]):
+        own = memory.records(run=run.run)
+        found.append([*own])
+        left -= {str(r.data.get("arguments", {}).get("goal")) for r in own if r.data.get("primitive") == "optimize"}
+        if not left:
+            break
+    return [record for own in reversed(found) for record in own]
+
+
+def alignments(
+    setup: Setup, seen: Observation, records: Sequence[JournalRecord], now: str, took: Mapping[str, float]
+) -> tuple[Alignment, ...]:
+    """Return how each goal of a Lab stands, in the order along the beam in which they are to be redone. `records`: of
+    the journal; `now` by the wall, ISO 8601; `took`: seconds that each is reckoned with."""
+    found = [
+        _alignment(setup, seen, name, goal, records, now, took.get(name, 0.0))
+        for name, goal in (setup.lab.goals or {}).items()
+    ]
+    return tuple(sorted(found, key=lambda a: (a.order is None, a.order or 0.0, a.goal)))
+
+
+def made_stale(
+    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
+) -> Iterator[Diagnostic]:
+    """Yield a note for each goal that is aligned now and will not be after a plan."""
+    touched = {
+        one
+        for op in operations
+        if op.reason.kind not in _ALONG and op.kind.mutating
+        for one in touched_by(op.component, op.arguments)
+    }
+    for one in standing:
+        goal = (setup.lab.goals or {})[one.goal]
+        own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == one.goal]
+        wrong = _upset(setup, seen, goal, touched)
+        if one.status == "aligned" and wrong and not own:
+            text = f"{one.goal} is aligned, and will not be: {wrong} changes"
+            hint = f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s"
+            yield Diagnostic("note", "goal", text, hint=hint, address=wrong.partition(".")[0])
+
+
+def _alignment(
+    setup: Setup, seen: Observation, name: str, goal: Goal, records: Sequence[JournalRecord], now: str, took: float
+) -> Alignment:
+    order = _distance(setup, seen, goal)
+
+    def standing(status: Status, why: str = "", at: str = "", last: Mapping[str, float] | None = None) -> Alignment:
+        return Alignment(name, status, why, at, last, order, took)
+
+    sought = {r.key: r for r in records if r.kind == "intent" and _seeks(r, name)}
+    ends = [r for r in records if r.key in sought and r.kind in ("done", "failed", "unknown", "resolved")]
+    if not ends:
+        return standing("never measured")
+    end, begun = ends[-1], sought[ends[-1].key]
+    data: Mapping[str, Any] = end.data.get("data") or {}
+    if not data.get("met"):
+        return standing("lost", str(data.get("why") or "it did not come to its end"), end.at)
+    last = data.get("last")
+    upset = _upset(setup, seen, goal, _touched_since(records, end))
+    old = bool(goal.valid_for) and _age(end.at, now) > convert(goal.valid_for or "0 s", "s")
+    reasons = {
+        "it was another goal then": begun.data["arguments"].get("what") != as_json(goal),
+        f"older than {goal.valid_for}": old,
+        f"{upset} was changed since": bool(upset),
+        (elsewhere := _elsewhere(setup, seen, goal, last or {})): bool(elsewhere),
+    }
+    why = next((reason for reason, so in reasons.items() if so), "")
+    return standing("stale" if why else "aligned", why, end.at, last)
+
+
+def _seeks(record: JournalRecord, name: str) -> bool:
+    return record.data.get("primitive") == "optimize" and record.data.get("arguments", {}).get("goal") == name
+
+
+def _age(then: str, now: str) -> float:
+    return (datetime.fromisoformat(now) - datetime.fromisoformat(then)).total_seconds()
+
+
+def _touched_since(records: Sequence[JournalRecord], end: JournalRecord) -> set[tuple[str, str]]:
+    """Return what operations changed that began after a record."""
+    begun = {r.key for r in records if r.kind == "started" and r.seq > end.seq}
+    return {
+        one
+        for r in records
+        if r.kind == "intent" and r.key in begun and primitive(str(r.data.get("primitive"))).mutating
+        if (r.data.get("reason") or {}).get("kind") not in _ALONG
+        for one in touched_by(r.component, r.data.get("arguments", {}))
+    }
+
+
+def _upset(setup: Setup, seen: Observation, goal: Goal, touched: Collection[tuple[str, str]]) -> str:
+    """Return which of what is touched its light depends on: a tunable of the goal, or a part in the beams to where it
+    is measured; empty for none."""
+    on_way, detectors = _light(setup, seen, goal)
+    for component, tunable in sorted(touched):
+        if f"{component}.{tunable}" in goal.tunables:
+            return f"{component}.{tunable}"
+        shutter = tunable in ("shutter", "emission", "illumination")
+        if component in on_way and not shutter and (tunable == "pose" or component not in detectors):
+            return component if tunable == "pose" else f"{component}.{tunable}"
+    return ""
+
+
+def _light(setup: Setup, seen: Observation, goal: Goal) -> tuple[set[str], set[str]]:
+    """Return the parts in the beams that reach where a goal is measured, these with them; and these alone."""
+    detectors = {component for component, _ in measured_in(setup, goal.texts)}
+    found = set(detectors) | {address.partition(".")[0] for address in goal.tunables}
+    for axis in beams(setup, _poses(seen), seen.known_values):
+        for way in (w for d in detectors for w in axis.ways(d)):
+            found |= {axis.source, *(m.component for m in way)}
+    return found, detectors
+
+
+def _distance(setup: Setup, seen: Observation, goal: Goal) -> float | None:
+    first = next(iter(goal.tunables)).partition(".")[0]
+    met = (m for axis in beams(setup, _poses(seen), seen.known_values) for m in axis.meetings)
+    return min((m.length for m in met if m.component == first), default=None)
+
+
+def _poses(seen: Observation) -> dict[str, Any]:
+    return {n: p.pose for n, p in seen.components.items() if p.presence == "seen" and p.pose is not None}
+
+
+def _elsewhere(setup: Setup, seen: Observation, goal: Goal, last: Mapping[str, float]) -> str:
+    """Return which tunable does not stand where the goal was met, in words; empty for none."""
+    for address in goal.tunables:
+        component, _, tunable = address.partition(".")
+        kind = setup.type_of(component).tunables[tunable]
+        live = seen.known_values.get(component, {}).get(tunable)
+        if address in last and (live is None or value_distance(kind, live, last[address]) > max(kind.tolerance, 1e-9)):
+            return f"{address} stands at {live}" if live is not None else f"nobody knows {address}"
+    return ""
