@@ -32,6 +32,7 @@ SMALLEST = {
     "kills": "--kills 50 --applies 1 --git 9",
     "beam_audit": "--repeat 1",
     "alignment": "--seeds 1",
+    "lens_by_light": "--seeds 1 --fidelity kinematic",
     "light": "--repeat 1",
     "links": "--kills 1",
     "locks": "--trials 1",

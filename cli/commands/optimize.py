@@ -55,12 +55,11 @@ def optimize(
 def _optimize(
     session: Session, bench: Bench, chosen: Chosen, plot: Path | None, dry_run: bool, auto_approve: bool
 ) -> int:
-    from pico.bench.goals import optimized
     from pico.diagnostics import ExitCode
     from pico.optimize.loop import STOPPED
 
     from ..runs.approving import declined, show
-    from ..runs.running import watched
+    from ..runs.running import say
     from ..terminal.output import write
 
     plan = bench.goals.plan(chosen)
@@ -73,21 +72,17 @@ def _optimize(
         return 0
     if code := declined(session, bench, plan, auto_approve):
         return int(code)
-    run = bench.run(plan, holder="pico optimize")
-    events: list[Event] = []
     terminal = sys.stdout.isatty() and not session.json
 
     def heard(event: Event) -> None:
-        events.append(event)
         if session.json:
             session.document(live.data(event))
         elif terminal and (line := live.line(event, chosen, bench.setup)):
             write(sys.stdout, line, end="", over=True)
 
-    watched(run, heard)
+    report, found = bench.goals.optimize(plan, heard, say)
     if terminal:
         write(sys.stdout, "", end="", over=True)
-    report, found = run.report, optimized(events)
     session.show(view, found, chosen, bench.setup, run=report.run)
     session.tell(report.diagnostics)
     if found.points:

@@ -109,8 +109,9 @@ def watched(run: Execution, show: Callable[[Event], None]) -> tuple[int, ...]:
     """Show a run until it is over, and say what a signal leads to; return the signals that ended it."""
     from pico.bench.running.attending import attend
 
-    return attend(run, show, lambda text: _say(f"\n{text}\n"))
+    return attend(run, show, say)
 
 
-def _say(text: str) -> None:
-    os.write(2, text.encode())  # print is not safe in the handler of a signal
+def say(text: str) -> None:
+    """Tell something in the handler of a signal."""
+    os.write(2, f"\n{text}\n".encode())  # print is not safe in the handler of a signal

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Any, Literal
 
+from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic
+from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.lab import Goal, Setup
 from pico.model.observation import Observation
@@ -17,6 +19,7 @@ from pico.model.quantities import convert
 from pico.model.record import as_json
 from pico.model.vocabulary import measured_in
 from pico.optics.axis import beams
+from pico.planning.optimizing import algorithm_for, seconds
 
 if TYPE_CHECKING:
     from pico.runs.journal import JournalRecord
@@ -55,6 +58,16 @@ def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRec
         if not left:
             break
     return [record for own in reversed(found) for record in own]
+
+
+def standing(opened: Opened, seen: Observation) -> tuple[Alignment, ...]:
+    """Return how the goals of a bench's Lab stand."""
+    setup, goals, memory = opened.setup, opened.setup.lab.goals or {}, opened.edge.memory
+    if not goals:
+        return ()
+    took = {n: seconds(setup, goal, goal.algorithm or algorithm_for(setup, goal)[0]) for n, goal in goals.items()}
+    records = since_last_sought(memory, goals) if memory else ()
+    return alignments(setup, seen, records, utc_now(), took)
 
 
 def alignments(

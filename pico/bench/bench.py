@@ -136,7 +136,7 @@ class Bench(Opened):
     def optimize(self, *goal: str, algorithm: str | None = None) -> Optimized:
         """Bring light to a goal, `optimize("centred")` or `optimize("centre", "ly_150", "cam")`, and return what became
         of it; see `Goals`. Raises PicoError for what makes no sense, and where it can't be begun."""
-        return self.goals.optimize(goal, algorithm)
+        return self.goals.optimize(self.goals.plan(self.goals.chosen(goal, algorithm=algorithm)))[1]
 
     def status(self) -> Status:
         """Return committed, desired and live side by side."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,14 +11,14 @@ from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.lab import Goal, Setup
-from pico.model.vocabulary import measured_in, numbers_of
+from pico.model.vocabulary import numbers_of
 from pico.optimize.problem import Problem, Variable
 
 if TYPE_CHECKING:
     from pico.bench.aligned import Alignment
     from pico.model.event import Event
-    from pico.model.observation import Observation
     from pico.model.plan import Plan
+    from pico.model.report import RunReport
 
 READY: Mapping[str, str] = {
     "centre": "PART... CAMERA: its spot in the middle of the camera, to 5 um",
@@ -84,27 +84,18 @@ class Goals:
         """The goals of the Lab, by name."""
         return self.opened.setup.lab.goals or {}
 
-    def alignments(self, seen: Observation | None = None) -> tuple[Alignment, ...]:
+    def alignments(self) -> tuple[Alignment, ...]:
         """Return how the goals of the Lab stand, as the journal knows; nothing is measured."""
-        from pico.bench.aligned import alignments, since_last_sought
-        from pico.edge.lease import utc_now
-        from pico.planning.optimizing import seconds
+        from pico.bench.aligned import standing
 
-        if not self.named:
-            return ()
-        setup, memory = self.opened.setup, self.opened.edge.memory
-        took = {
-            name: seconds(setup, goal, goal.algorithm or choice(setup, goal)[0]) for name, goal in self.named.items()
-        }
-        records = since_last_sought(memory, self.named) if memory else ()
-        return alignments(setup, seen or self.opened.observe(), records, utc_now(), took)
+        return standing(self.opened, self.opened.observe())
 
     def chosen(self, words: Sequence[str] | Goal, name: str = "asked", algorithm: str | None = None) -> Chosen:
         """Return a goal: of the Lab by its name, a ready-made one (`centre ly_150 cam`), or the one given, as `name`;
         and the algorithm, `algorithm` where that is said. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
         from pico.optimize.registry import refusal
-        from pico.planning.optimizing import seconds
+        from pico.planning.optimizing import algorithm_for, seconds
 
         setup = self.opened.setup
         if not isinstance(words, Goal):
@@ -113,7 +104,7 @@ class Goals:
             goal = words
         goal = replace(goal, algorithm=algorithm or goal.algorithm)
         require_goal(setup, name, goal)
-        found, why = (goal.algorithm, "as the goal says") if goal.algorithm else choice(setup, goal)
+        found, why = (goal.algorithm, "as the goal says") if goal.algorithm else algorithm_for(setup, goal)
         if wrong := refusal(found, as_problem(goal)):
             raise wrong
         return Chosen(name, goal, found, why, seconds(setup, goal, found))
@@ -134,12 +125,22 @@ class Goals:
         """Return the plan that brings light to a goal; raises PicoError."""
         return Plans(self.opened).to_goal(chosen.name, chosen.goal, chosen.algorithm)
 
-    def optimize(self, words: Sequence[str], algorithm: str | None = None) -> Optimized:
-        """Bring light to a goal and return what became of it; raises PicoError."""
+    def optimize(
+        self, plan: Plan, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None
+    ) -> tuple[RunReport, Optimized]:
+        """Run the plan of a goal, and return what became of the run and of the goal. `show` gets each event; Ctrl-C
+        ends it at the best point, of which `say` is told."""
         from pico.bench.moves import Moves
+        from pico.bench.running.attending import attend
 
-        run = Moves(self.opened).run(self.plan(self.chosen(words, algorithm=algorithm)), holder="bench.optimize")
-        return optimized([*run])
+        run, events = Moves(self.opened).run(plan, holder="pico optimize"), list[Any]()
+
+        def heard(event: Event) -> None:
+            events.append(event)
+            show(event)
+
+        attend(run, heard, say)
+        return run.report, optimized(events)
 
     def plot(self, found: Optimized, out: Path) -> None:
         """Write the plot of an optimization as PNG; raises PicoError where its points are gone, or it can't be."""
@@ -169,23 +170,6 @@ def as_problem(goal: Goal) -> Problem:
     """Return what an algorithm is asked, but for where the tunables stand."""
     variables = tuple(Variable(name, low, high, low) for name, (low, high) in goal.tunables.items())
     return Problem(variables, tuple(goal.reach or ("objective",)), goal.aim)
-
-
-def choice(setup: Setup, goal: Goal) -> tuple[str, str]:
-    """Return the algorithm that suits a goal, and why."""
-    from pico.optimize.choosing import Tuned, choose
-
-    tuned = []
-    for address in goal.tunables:
-        component, _, name = address.partition(".")
-        kind = setup.type_of(component)
-        tuned.append(Tuned(kind.optics.element, name, kind.tunables[name].period))
-    kernels = []
-    for text in goal.reach or (goal.texts[0],):
-        of = measured_in(setup, [text])
-        kernel = setup.measurables_of(of[0][0])[of[0][1]].kernel if of else None
-        kernels.append((kernel or "").rpartition("|")[2].strip().partition("(")[0])
-    return choose(tuned, kernels, goal.aim)
 
 
 def ready(setup: Setup, what: str, parts: Sequence[str], detector: str) -> Goal:

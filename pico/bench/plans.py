@@ -121,11 +121,9 @@ class Plans:
         stale."""
         plan = with_audit(self.opened, plan, seen)
         if plan.operations and self.opened.setup.lab.goals:
-            from pico.bench.aligned import made_stale
-            from pico.bench.goals import Goals
+            from pico.bench.aligned import made_stale, standing
 
-            standing = Goals(self.opened).alignments(seen)
-            if told := tuple(made_stale(self.opened.setup, seen, standing, plan.operations)):
+            if told := tuple(made_stale(self.opened.setup, seen, standing(self.opened, seen), plan.operations)):
                 plan = replace(plan, diagnostics=(*plan.diagnostics, *told)).sealed()
         if not self.opened.setup.lab.policy.rules:
             return plan

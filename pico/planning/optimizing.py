@@ -12,6 +12,7 @@ from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
+from pico.optimize.choosing import Tuned, choose
 from pico.optimize.registry import algorithm_file
 from pico.planning.measuring import needed, setting
 from pico.planning.parts.setdown import park_operation
@@ -69,6 +70,21 @@ def seconds(setup: Setup, goal: Goal, algorithm: str) -> float:
     usual = algorithm_file(algorithm).DECLARATION.usual
     many = len(measured_in(setup, goal.texts))
     return min(goal.budget.seconds, min(usual, goal.budget.measurements) * (max(steps) + many * TAKES))
+
+
+def algorithm_for(setup: Setup, goal: Goal) -> tuple[str, str]:
+    """Return the algorithm that suits a goal, and why."""
+    tuned = []
+    for address in goal.tunables:
+        component, _, name = address.partition(".")
+        kind = setup.type_of(component)
+        tuned.append(Tuned(kind.optics.element, name, kind.tunables[name].period))
+    kernels = []
+    for text in goal.reach or (goal.texts[0],):
+        of = measured_in(setup, [text])
+        kernel = setup.measurables_of(of[0][0])[of[0][1]].kernel if of else None
+        kernels.append((kernel or "").rpartition("|")[2].strip().partition("(")[0])
+    return choose(tuned, kernels, goal.aim)
 
 
 def _from(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, float]:

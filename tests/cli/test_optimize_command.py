@@ -177,11 +177,12 @@ def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:
 
 def test_a_script_optimizes_too(placed: Path) -> None:
     import pico
+    from pico.diagnostics import PicoError
 
     with pico.open(placed) as bench:
         found = bench.optimize("centre", "ly_150", "cam")
         assert found.met and found.last and abs(found.last["cam.centroid.x"]) <= 5
-        with pytest.raises(pico.PicoError, match="has no goal `centrd`"):
+        with pytest.raises(PicoError, match="has no goal `centrd`"):
             bench.optimize("centrd")
 
 
