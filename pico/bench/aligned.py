@@ -122,13 +122,18 @@ def _alignment(
     upset = _upset(setup, seen, goal, _touched_since(records, end))
     old = bool(goal.valid_for) and _age(end.at, now) > convert(goal.valid_for or "0 s", "s")
     reasons = {
-        "it was another goal then": begun.data["arguments"].get("what") != as_json(goal),
+        "it was another goal then": _wanted(begun.data["arguments"].get("what", {})) != _wanted(as_json(goal)),
         f"older than {goal.valid_for}": old,
         f"{upset} was changed since": bool(upset),
         (elsewhere := _elsewhere(setup, seen, goal, last or {})): bool(elsewhere),
     }
     why = next((reason for reason, so in reasons.items() if so), "")
     return standing("stale" if why else "aligned", why, end.at, last)
+
+
+def _wanted(goal: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what of a goal says when it is met; not how it is sought."""
+    return {key: goal.get(key) for key in ("tunables", "reach", "minimize", "maximize", "tolerance")}
 
 
 def _seeks(record: JournalRecord, name: str) -> bool:

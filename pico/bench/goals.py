@@ -94,7 +94,7 @@ class Goals:
         """Return a goal: of the Lab by its name, a ready-made one (`centre ly_150 cam`), or the one given, as `name`;
         and the algorithm, `algorithm` where that is said. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
-        from pico.optimize.registry import refusal
+        from pico.optimize.registry import made
         from pico.planning.optimizing import algorithm_for, seconds
 
         setup = self.opened.setup
@@ -105,8 +105,7 @@ class Goals:
         goal = replace(goal, algorithm=algorithm or goal.algorithm)
         require_goal(setup, name, goal)
         found, why = (goal.algorithm, "as the goal says") if goal.algorithm else algorithm_for(setup, goal)
-        if wrong := refusal(found, as_problem(goal)):
-            raise wrong
+        made(found, as_problem(goal), goal.parameters)  # raises for what it cannot, or does not have
         return Chosen(name, goal, found, why, seconds(setup, goal, found))
 
     def _of(self, words: list[str]) -> tuple[str, Goal]:

@@ -75,7 +75,7 @@ class Aligning:
 
     async def _walk(self, run: _Run) -> Outcome:
         """Drive the loop to its end, or leave all as it is where somebody asked to stop now."""
-        given = dict(run.goal.parameters or {})
+        given = dict(run.operation.arguments.get("parameters") or {})
 
         def making(name: str) -> Callable[[Problem], Algorithm]:
             return lambda problem: made(name, problem, given)
@@ -281,9 +281,6 @@ def _variables(setup: Setup, seen: Observation, goal: Goal) -> Iterator[Variable
         if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
             raise PicoError(error("goal", f"nobody knows {address}, so that nobody could go back to it"))
         start = float(live.value)
-        if not low <= start <= high:
-            text = f"{address} stands at {start:g} {kind.unit}, outside {low:g} to {high:g}".replace("  ", " ")
-            raise PicoError(error("goal", text, hint=f"`pico set {address} {low:g}` brings it inside", address=address))
         yield Variable(address, low, high, start, kind.resolution, kind.period)
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.optimize.problem import Aim
 
-_TURNED = ("polarizer", "waveplate")
+CYCLES: Mapping[str, float] = {"polarizer": 180.0, "waveplate": 90.0}
+"""After how many degrees the light behind a turned element, and a polarizer, is the same again."""
 _RADII = ("d4sigma", "gaussian_fit")
 
 
@@ -24,7 +25,7 @@ def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim) -> tuple[st
     """Return the algorithm for an aim, and why. `kernels`: what makes the number of each output, empty for an
     instrument's own."""
     first = tuned[0]
-    if len(tuned) == 1 and first.name == "angle" and first.element in _TURNED and aim != "reach":
+    if len(tuned) == 1 and first.name == "angle" and first.element in CYCLES and aim != "reach":
         return "malus", f"{aim} over the angle of a {first.element}: the law of Malus"
     if len(tuned) == 1 and kernels[0] in _RADII and aim in ("reach", "minimize"):
         return "waist_parabola", "a radius along one way: its square is a parabola"
@@ -35,3 +36,10 @@ def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim) -> tuple[st
     if len(tuned) <= 4:
         return "nelder_mead", "no model fits: a simplex"
     return "rcds", f"{len(tuned)} tunables: conjugate directions"
+
+
+def usual_parameters(algorithm: str, tuned: Sequence[Tuned]) -> Mapping[str, float]:
+    """Return the parameters of an algorithm that follow from what is tuned."""
+    if algorithm == "malus" and len(tuned) == 1 and tuned[0].element in CYCLES:
+        return {"cycle": CYCLES[tuned[0].element]}
+    return {}

@@ -207,7 +207,7 @@ class _Walk:
         last = self.tried[-1] if self.tried else None
         believed = last is not None and self._believed(last.result) and not stopped
         reached = believed and last is not None and (self.problem.aim != "reach" or self.problem.met(last.result))
-        spent = ("the budget", STOPPED, "it comes no nearer", "the light")
+        spent = ("the budget", STOPPED, "it comes no nearer", "the light", "the readings do not")
         met = reached and (self.problem.aim == "reach" or not why.startswith(spent))
         seen = first.result if first and self._believed(first.result) else None
         return Outcome(

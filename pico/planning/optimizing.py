@@ -12,7 +12,7 @@ from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
-from pico.optimize.choosing import Tuned, choose
+from pico.optimize.choosing import Tuned, choose, usual_parameters
 from pico.optimize.registry import algorithm_file
 from pico.planning.measuring import needed, setting
 from pico.planning.parts.setdown import park_operation
@@ -31,7 +31,8 @@ def optimizing(
 
     Raises PicoError where a tunable of the goal is not known, so that nobody could go back to it.
     """
-    begin = _from(setup, seen, goal)
+    begin = _from(setup, seen, name, goal)
+    given = {**usual_parameters(algorithm, _tuned(setup, goal)), **(goal.parameters or {})}
     out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
     parks = [*map(str, range(len(out)))]
     wants = {
@@ -47,7 +48,7 @@ def optimizing(
     detectors = sorted({component for component, _ in measured_in(setup, goal.texts)})
     out.append(Operation(
         id="", primitive="optimize", component=parts[0], reason=reason, after=tuple(map(str, range(len(out)))),
-        arguments={"goal": name, "from": begin, "algorithm": algorithm, **as_json({"what": goal})},
+        arguments={"goal": name, "from": begin, "algorithm": algorithm, "parameters": given, **as_json({"what": goal})},
         resources=tuple(dict.fromkeys((*goal.tunables, *parts, *detectors, *sorted(setup.lab.robots)))),
         seconds=seconds(setup, goal, algorithm),
     ))  # fmt: skip
@@ -74,20 +75,24 @@ def seconds(setup: Setup, goal: Goal, algorithm: str) -> float:
 
 def algorithm_for(setup: Setup, goal: Goal) -> tuple[str, str]:
     """Return the algorithm that suits a goal, and why."""
-    tuned = []
-    for address in goal.tunables:
-        component, _, name = address.partition(".")
-        kind = setup.type_of(component)
-        tuned.append(Tuned(kind.optics.element, name, kind.tunables[name].period))
     kernels = []
     for text in goal.reach or (goal.texts[0],):
         of = measured_in(setup, [text])
         kernel = setup.measurables_of(of[0][0])[of[0][1]].kernel if of else None
         kernels.append((kernel or "").rpartition("|")[2].strip().partition("(")[0])
-    return choose(tuned, kernels, goal.aim)
+    return choose(_tuned(setup, goal), kernels, goal.aim)
 
 
-def _from(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, float]:
+def _tuned(setup: Setup, goal: Goal) -> list[Tuned]:
+    found = []
+    for address in goal.tunables:
+        component, _, name = address.partition(".")
+        kind = setup.type_of(component)
+        found.append(Tuned(kind.optics.element, name, kind.tunables[name].period))
+    return found
+
+
+def _from(setup: Setup, seen: Observation, name: str, goal: Goal) -> Mapping[str, float]:
     found = {}
     for address in goal.tunables:
         component, _, tunable = address.partition(".")
@@ -98,4 +103,9 @@ def _from(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, float]:
             text = f"nobody knows {address}, so that nobody could go back to it"
             raise PicoError(error("goal", text, hint=hint, address=address))
         found[address] = float(live.value)
+        low, high = goal.tunables[address]
+        if not low <= live.value <= high:
+            text = f"{address} stands at {live.value:g}, outside {low:g} to {high:g}, within which {name} is sought"
+            near = low if live.value < low else high
+            raise PicoError(error("goal", text, hint=f"`pico set {address} {near:g}` brings it there", address=address))
     return found

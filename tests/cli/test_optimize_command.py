@@ -224,3 +224,26 @@ def test_a_plan_says_which_goals_it_makes_stale(placed: Path, pico: Pico) -> Non
     assert "then `pico optimize centred`, about" in told
     assert "note[goal]" not in pico("optimize", "centred", "--dry-run").err
     assert "note[goal]" not in pico("set", "cam.exposure", "12", "--dry-run").err
+
+
+def test_a_wave_plate_is_turned_to_the_most_light(placed: Path, pico: Pico) -> None:
+    answer = pico("optimize", "peak", "hwp.angle", "cam", "--yes", "--json")
+    found = json.loads(answer.out.splitlines()[-1])
+    values = [pico("measure", "cam.power", "--json").data["value"]]
+    for aside in (-2.0, 2.0):
+        pico("set", "hwp.angle", str((found["last"]["hwp.angle"] + aside) % 360), "-y")
+        values.append(pico("measure", "cam.power", "--json").data["value"])
+    assert answer.code == 0 and values[0] > 1.001 * max(values[1:]) and found["measurements"] <= 10
+
+
+def test_what_cannot_be_begun_is_refused_before_it_is_a_run(placed: Path, pico: Pico) -> None:
+    before = len(pico("runs", "list", "--json").data["runs"])
+    edit(placed / "lab.yaml", "stage_y: [-1.5, 1.5]", "stage_y: [0.5, 1.5]")
+    assert pico("bench", "update", "--yes").code == 0
+    answer = pico("optimize", "centred", "--yes")
+    assert answer.code == 1 and "`pico set ly_150.stage_y 0.5` brings it there" in " ".join(answer.err.split())
+    edit(placed / "lab.yaml", "    valid_for: 12 h\n", "    parameters: {foo: 2}\n")
+    assert pico("bench", "update", "--yes").code == 0
+    answer = pico("optimize", "centred", "--yes")
+    assert answer.code == 1 and "centroid_newton has no parameter `foo`" in answer.err
+    assert len(pico("runs", "list", "--json").data["runs"]) == before

@@ -25,6 +25,8 @@ is to be known, in the tunable's unit."""
 _MOST = 20
 _NOISE = 0.005
 _FLOOR = 1e-6
+_AGREES, _SHARE = 8.0, 0.01
+"""Standard deviations, and share of the brightest reading, by which a reading may be off the law."""
 _FLICKER = 0.002
 """By which share a laser is another from reading to reading, which no standard deviation of one reading tells."""
 Array = NDArray[np.float64]
@@ -55,7 +57,8 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
             if sigma <= parameters["within"] / 3:
                 last = yield {variable.name: place}
                 seen += [last] if problem.measured(last) else []
-                return "the place of the extremum is known"
+                if problem.measured(last) and _agrees(variable, output, seen, k, fit):
+                    return "the place of the extremum is known"
             at = _telling(problem, variable, output, seen, k, fit)
         result = yield {variable.name: at}
         seen += [result] if problem.measured(result) else []
@@ -112,6 +115,14 @@ def _place(problem: Problem, variable: Variable, fit: Array, k: float) -> float:
         null += math.pi / k
     cycle = 2 * math.pi / k
     return variable.within(variable.start + (null - variable.start + cycle / 2) % cycle - cycle / 2)
+
+
+def _agrees(variable: Variable, output: str, seen: list[Result], k: float, fit: Array) -> bool:
+    """Whether what was read last is what the readings before it had said."""
+    x, y, sigma = _scaled(variable, output, seen)
+    most, before = (max(abs(r[output]) for r in some) or 1.0 for some in (seen, seen[:-1]))
+    expected = float(_rows(x[-1:], k)[0] @ fit) * before / most
+    return abs(float(y[-1]) - expected) <= max(_AGREES * float(sigma[-1]), _SHARE)
 
 
 def _spread(fit: Array, covariance: NDArray[np.floating], k: float) -> float:

@@ -21,6 +21,7 @@ DECLARATION = Declaration(
 """`step`: the first simplex, as a share of how far the best point is likely to be; `within`: it stops where it is
 smaller than that share of the range, or, with 0, where its corners differ by no more than their noise."""
 _SMALLEST = 1e-4
+_WIDEST = 0.4  # of the range: a whole period further on it would stand where it began
 Trying: TypeAlias = Callable[[Array], "Generator[Point, Result, _Corner]"]
 
 
@@ -75,7 +76,7 @@ def _simplex(problem: Problem, begun: Array, step: float) -> Iterator[Array]:
     """Yield the first corners: where it stands, and a step along each axis."""
     yield begun
     for n, variable in enumerate(problem.variables):
-        move = step * variable.likely / variable.span
+        move = min(step * variable.likely / variable.span, _WIDEST)
         corner = begun.copy()
         corner[n] += move if begun[n] + move <= 1 else -move
         yield corner
