@@ -236,6 +236,17 @@ def test_a_raster_search_counts_at_every_value_that_it_takes() -> None:
     assert any("may leave the plane" in d.summary for d in said(mirrors, scan) if d.severity == "error")
 
 
+def test_what_an_optimization_may_set_counts_over_all_of_its_bounds() -> None:
+    bench = shel(p2=135).without("cam").set("laser", emission=True, shutter="open")
+    for high, wrong in ((136.0, False), (225.0, True)):
+        sought = replace(
+            setting("p2", "angle", None, primitive="optimize"),
+            arguments={"goal": "g", "what": {"tunables": {"p2.angle": (134.0, high)}}},
+        )
+        errors = [d.summary for d in said(bench, sought) if d.severity == "error"]
+        assert any("p2 → leaves the table" in text for text in errors) is wrong
+
+
 def test_what_only_closes_or_opens_nothing_is_warned_of() -> None:
     bench = shel().without("cam").set("laser", emission=True, shutter="open")
     assert {d.severity for d in said(bench, setting("hwp", "angle", 22.75))} == {"warning"}
