@@ -83,7 +83,8 @@ def _optimize(
     report, found = bench.goals.optimize(plan, heard, say)
     if terminal:
         write(sys.stdout, "", end="", over=True)
-    session.show(view, found, chosen, bench.setup, run=report.run)
+    dark = bench.measurements.dark() if found.measurements and not found.last else ""
+    session.show(view, found, chosen, bench.setup, run=report.run, advice=dark)
     session.tell(report.diagnostics)
     if found.points:
         session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, path))

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from pico.model.lab import Setup
 
 
-def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str) -> str:
-    """Return the outcome in a line, a table of before and after, and how to go back."""
+def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: str = "") -> str:
+    """Return the outcome in a line, a table of before and after, and how to go back; `advice`: what to do about it."""
     spent = f"{count(found.measurements, 'measurement')}, {seconds(found.seconds)} on the bench"
     said = paint("green", "met") if found.met else paint("yellow", "not met")
     lines = wrap(f"{chosen.name}: {said} in {spent} ({chosen.algorithm}: {chosen.why})", "  ")
@@ -23,6 +23,7 @@ def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str) -> str:
         lines += wrap(f"It ended because {found.why}.", "  ")
     lines += _table(found, chosen, setup)
     back = "; `pico undo` goes back" if found.measurements else ""
+    lines += wrap(f"= help: {advice}", "  ") if advice else []
     return "\n".join([*lines, f"  `pico runs show {run}`{back}"])
 
 
@@ -44,7 +45,7 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
     return [f"  {row}" for row in columns(rows)]
 
 
-def data(found: Optimized, chosen: Chosen, setup: Setup, *, run: str) -> dict[str, Any]:
+def data(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: str = "") -> dict[str, Any]:
     """Return schema `pico.optimization/v1`: `goal`, `algorithm`, `met`, `why`, `measurements`, `seconds`, `first`,
     `last`, `points` (an array in the content store, its `columns`), `run`."""
     return {"schema": "pico.optimization/v1", **as_json(found), "goal": chosen.name, "algorithm": chosen.algorithm,

@@ -83,8 +83,11 @@ class Measurements:
             if kind and "auto_range" in kind.primitives:
                 return f"`pico do {found.component} auto_range` finds an exposure that suits"
             return "weaken the beam with a filter, or lower the gain"
-        if not found.unknown:
-            return ""
+        return self.dark() if found.unknown else ""
+
+    def dark(self) -> str:
+        """Return what keeps light back on the bench, or where to see where it goes."""
+        setup = self.opened.setup
         known = self.opened.observe().known_values
         dark = [
             f"{name}.{tunable} is {'false' if value is False else value}"

@@ -82,6 +82,7 @@ def test_what_is_not_met_is_6_and_says_why(placed: Path, pico: Pico) -> None:
     pico("set", "laser.shutter", "closed", "--yes")
     answer = pico("optimize", "centre", "ly_150", "cam", "--yes")
     assert answer.code == 6 and "no light" in " ".join(answer.out.split())
+    assert "= help: laser.shutter is closed" in answer.out
     assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
 
 
