@@ -100,6 +100,27 @@ def remove(context: typer.Context, name: Component) -> None:
     _act(context, lambda sim: sim.remove(name), f"{name} is off the table{hand}; `pico sim nudge {name}` puts it home")
 
 
+@app.command(context_settings={"ignore_unknown_options": True})
+def slip(
+    context: typer.Context,
+    address: Annotated[str, typer.Argument(metavar="COMPONENT.TUNABLE", help="For example p1.angle.")],
+    by: Annotated[float, typer.Argument(metavar="BY", help="In its unit.", callback=_finite)],
+) -> None:
+    """Let a mount slip: an axis then reads another value than light finds.
+
+    Nothing that is read tells of it, and homing does not bring it back; a second slip adds to the first.
+
+    Examples:
+      pico sim slip p1.angle 2.1
+    """
+    session = Session.of(context)
+    bench = session.bench()
+    component, _, tunable = address.partition(".")
+    bench.sim.slip(component, tunable, by)
+    unit = bench.setup.type_of(component).tunables[tunable].unit
+    session.show(said, f"{address} truly is {by:g} {unit} more than before, and reads the same; light alone tells")
+
+
 @app.command()
 def view(context: typer.Context) -> None:
     """Open MuJoCo's own viewer on the bench; needs a display.

@@ -55,6 +55,11 @@ class World(Protocol):
         """Take a component off the table: it is then missing."""
         ...
 
+    def slip(self, name: str, tunable: str, by: float) -> None:
+        """Let the mount of a part slip: the true value of `tunable` is `by` more from now on, in its unit, than its
+        axis reads. Light alone finds it, and homing does not bring it back. Raises PicoError where none has a zero."""
+        ...
+
     def power_cycle(self) -> None:
         """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""
         ...

@@ -278,6 +278,11 @@ def test_the_simulated_world_is_changed_as_by_a_hand(bench: Bench) -> None:
     assert bench.observe().components["p2"].values["angle"].status == "unknown"
     with pytest.raises(PicoError, match="p9"):
         bench.sim.nudge("p9")
+    angle = bench.observe().components["p2"].values["angle"]
+    bench.sim.slip("p2", "angle", 2.0)
+    assert bench.observe().components["p2"].values["angle"] == angle
+    with pytest.raises(PicoError, match="exposure"):
+        bench.sim.slip("cam", "exposure", 2.0)
     bench.sim.reset()
     assert bench.observe().components["p1"].presence == "seen"
     assert set(bench.sim.true_cameras())

@@ -40,6 +40,25 @@ def remove(setup: Setup, world: World, name: str) -> World:
     return _released(world, name).with_body(name, presence="missing", pose=None, free=None)
 
 
+def slip(setup: Setup, world: World, name: str, tunable: str, by: float) -> World:
+    """Return the world after the mount of a part slipped: from now on the true value of `tunable` is `by` more, in its
+    unit, than its axis reads. Homing the axis does not bring it back.
+
+    Raises PicoError for a part or a tunable that there is not, and for one that nothing moves.
+    """
+    body, kinds = _body(world, name), setup.type_of(name).tunables
+    kind = kinds.get(tunable)
+    if kind is None:
+        hint = did_you_mean(tunable, kinds) or "it has none"
+        raise PicoError(error("unknown-tunable", f"{name} has no tunable `{tunable}`", hint=hint, address=name))
+    if kind.datatype != "float" or (kind.axis is None and kind.mover not in ("motor", "person")):
+        text, hint = f"{name}.{tunable} is no place of an axis, so it has no zero that could slip", ""
+        if axes := [key for key, other in kinds.items() if other.axis is not None]:
+            hint = f"{name} has: {', '.join(axes)}"
+        raise PicoError(error("no-axis", text, hint=hint, address=name))
+    return world.with_body(name, offsets={**body.offsets, tunable: body.offsets.get(tunable, 0.0) + by})
+
+
 def power_cycle(setup: Setup, world: World) -> World:
     """Return the world after its power was off: arms and absolute axes know where they are, axes that must be homed
     don't, open-loop ones are where they were last sent as far as anybody knows; electronics start dark and closed."""

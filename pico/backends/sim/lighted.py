@@ -33,7 +33,7 @@ def light_on(table: Table) -> Light:
     world = table.world
     standing = {n: b for n, b in world.components.items() if n in table.setup.lab.inventory and b.presence == "seen"}
     poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
-    values = {n: {t: v.value for t, v in b.values.items() if v.value is not None} for n, b in standing.items()}
+    values = {n: b.true_values for n, b in standing.items()}
     return light_of(table.setup, *in_the_world(table.setup, poses, values, world.seed, world.clock))
 
 

@@ -83,4 +83,5 @@ def _retyped(setup: Setup, name: str, body: WorldBody) -> WorldBody:
     if body.type == part.type and body.marker == part.marker and body.values.keys() == kind.tunables.keys():
         return body
     values = {key: body.values.get(key, first) for key, first in initial_values(kind).items()}
-    return replace(body, type=part.type, marker=part.marker, values=values)
+    offsets = {key: by for key, by in body.offsets.items() if key in values}
+    return replace(body, type=part.type, marker=part.marker, values=values, offsets=offsets)

@@ -123,6 +123,7 @@ def _body(data: Mapping[str, Any]) -> WorldBody:
         pose=_pose(data["pose"]) if "pose" in data else None,
         free=_free(free) if free else None,
         values={k: _value(v) for k, v in data["values"].items()},
+        offsets={k: _number(v) for k, v in data.get("offsets", {}).items()},
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.cameras import bump
 from pico.backends.sim.faults import faults_of, parse, save_faults
-from pico.backends.sim.hand import nudge, power_cycle, remove
+from pico.backends.sim.hand import nudge, power_cycle, remove, slip
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, new_world
 from pico.backends.world import Held
@@ -85,6 +85,12 @@ class SimulatedTable:
         """Take a component off the table: it is then missing."""
         require_component(self._setup, name)
         self._change(f"sim remove {name}", lambda world: remove(self._setup, world, name))
+
+    def slip(self, name: str, tunable: str, by: float) -> None:
+        """Let the mount of a part slip: the true value of `tunable` is `by` more from now on, in its unit, than its
+        axis reads. Light alone finds it, and homing does not bring it back. Raises PicoError where none has a zero."""
+        require_component(self._setup, name)
+        self._change(f"sim slip {name}.{tunable}", lambda world: slip(self._setup, world, name, tunable, by))
 
     def power_cycle(self) -> None:
         """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""

@@ -44,7 +44,8 @@ class WorldBody:
 
     `pose` is its planar pose, None where it is `missing`; of a part that is `held` or `toppled`, where its origin is
     above the table. `free`: its full pose where physics left it off the plane. `values`: as they are, also where their
-    status is `unknown` and the bench does not read them. `type` names an entry of `World.shapes`.
+    status is `unknown` and the bench does not read them. `type` names an entry of `World.shapes`. `offsets`: how
+    much more the true value of a tunable is than it reads, in its unit, where a mount slipped: light alone finds it.
     """
 
     type: str
@@ -53,6 +54,17 @@ class WorldBody:
     pose: Pose | None = None
     free: FreePose | None = None
     values: Mapping[str, ObservedValue] = field(default_factory=dict)
+    offsets: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def true_values(self) -> dict[str, Value]:
+        """The tunables as light finds them, where they are anywhere: nobody reads them so."""
+        read = {name: live.value for name, live in self.values.items() if live.value is not None}
+        return {name: _off(value, self.offsets.get(name, 0.0)) for name, value in read.items()}
+
+
+def _off(value: Value, offset: float) -> Value:
+    return value + offset if offset and isinstance(value, float | int) else value
 
 
 @record

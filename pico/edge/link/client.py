@@ -165,6 +165,10 @@ class RemoteWorld:
         """Take a component off the table."""
         self._line.call("world.remove", name)
 
+    def slip(self, name: str, tunable: str, by: float) -> None:
+        """Let the true value of a tunable be `by` more, in its unit, than its axis reads."""
+        self._line.call("world.slip", name, tunable, by)
+
     def power_cycle(self) -> None:
         """Switch the bench off and on."""
         self._line.call("world.power_cycle")
