@@ -122,6 +122,57 @@ def slip(
 
 
 @app.command()
+def upset(
+    context: typer.Context,
+    name: Component,
+    by: Annotated[list[str], typer.Argument(metavar="WHAT=BY...", help="For example up=0.1 loss=0.2.")],
+) -> None:
+    """Let something befall a part that no camera over the bench sees.
+
+    Displaced along its own axes: ahead, left, up [mm]; turned about them: roll, pitch, yaw [deg]; dirty: loss, a share
+    of its light. Of a polarizer leak, a share of what it should stop; of a detector gain, a factor, and dark, what it
+    reads without light. It adds to what befell it before.
+
+    Examples:
+      pico sim upset lx_100 up=0.08
+      pico sim upset cam gain=0.9 dark=200
+    """
+    from pico.diagnostics import PicoError, error
+
+    given: dict[str, float] = {}
+    for word in by:
+        key, _, value = word.partition("=")
+        try:
+            given[key] = float(value)
+        except ValueError:
+            raise PicoError(error("usage", f"`{word[:40]}` is no number by name", hint="for example up=0.1")) from None
+    said_so = ", ".join(f"{key} {value:g}" for key, value in given.items())
+    _act(context, lambda sim: sim.upset(name, **given), f"{name}: {said_so}; no camera over the bench sees it")
+
+
+@app.command()
+def wait(
+    context: typer.Context,
+    how_long: Annotated[str, typer.Argument(metavar="TIME", help="For example '8 h' or 300 (seconds).")],
+) -> None:
+    """Let time pass on the bench's clock: light drifts meanwhile, where the lab has an environment.
+
+    Examples:
+      pico sim wait '8 h'
+    """
+    from pico.diagnostics import PicoError, error
+    from pico.model.quantities import QuantityError, convert
+
+    try:
+        seconds = _finite(float(convert(how_long if " " in how_long else f"{how_long} s", "s")))
+    except (QuantityError, ValueError) as exc:
+        raise PicoError(error("usage", f"`{how_long[:40]}` is no time: {exc}", hint="for example '8 h'")) from None
+    if seconds < 0:
+        raise PicoError(error("usage", "time passes one way only", hint="for example '8 h'"))
+    _act(context, lambda sim: sim.wait(seconds), f"{seconds:g} s later on the bench's clock")
+
+
+@app.command()
 def view(context: typer.Context) -> None:
     """Open MuJoCo's own viewer on the bench; needs a display.
 

@@ -60,6 +60,15 @@ class World(Protocol):
         axis reads. Light alone finds it, and homing does not bring it back. Raises PicoError where none has a zero."""
         ...
 
+    def upset(self, name: str, **by: float) -> None:
+        """Let something befall a part that no camera over the bench sees, `up=0.1` or `loss=0.2`: the fields of
+        `pico.optics.unseen.Unseen`. Light alone finds it. Raises PicoError for what there is not."""
+        ...
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass on the bench's clock [s], in which the world does what it does by itself."""
+        ...
+
     def power_cycle(self) -> None:
         """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""
         ...

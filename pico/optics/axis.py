@@ -19,6 +19,7 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
 from pico.optics.geometry import Event, Kick, Struck, Vector, geometry_of
+from pico.optics.unseen import SEEN, Unseen
 
 Values = Mapping[str, Mapping[str, Any]]
 """Tunables of components by name, in the units of the catalog."""
@@ -147,7 +148,10 @@ def beams(setup: Setup, poses: Mapping[str, Pose], values: Values | None = None)
             yield axis_of(setup, poses, name, values)
 
 
-def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any]) -> Optic:
+def optic_of(
+    kind: ComponentType, name: str, pose: Pose, values: Mapping[str, Any], unseen: Unseen = SEEN
+) -> Optic:  # fmt: skip
+    """Return a component as a ray finds it, with its tunables as `values` and otherwise as `unseen` says."""
     geometry, element = kind.geometry, kind.optics.element
     if element == "mirror" and values.get("flipped") == "down":
         element = "none"  # what is flipped away lets light pass
@@ -166,15 +170,25 @@ def optic_of(kind: ComponentType, name: str, pose: Pose, values: Mapping[str, An
     facing = math.radians(pose.yaw) + tip + (math.pi if does.faces_back else 0.0)
     normal = (math.cos(facing) * math.cos(tilt), math.sin(facing) * math.cos(tilt), math.sin(tilt))
     where = (x, y, center[2] + up) if aperture else None
+    yaw = math.radians(pose.yaw)
+    aside = (-math.sin(yaw), math.cos(yaw), 0.0)
+    if unseen.displaced:
+        local = (center[0] + ahead, center[1] + left, center[2] + up)
+        where = unseen.place(pose, local, kind.frames.optical) if aperture else None
+        normal, aside = (unseen.point(pose, _own(pose, way)) for way in (normal, aside))
     if where is not None and (pushed := shift(kind, values, "piezo")):
         where = _sum(where, _times(normal, pushed))
     shape = placed(geometry.footprint, pose)
     width = aperture.diameter if aperture else 0.0
     if isinstance(opening, int | float):
         width = min(width, float(opening))
-    yaw = math.radians(pose.yaw)
-    aside = (-math.sin(yaw), math.cos(yaw), 0.0)
     return Optic(name, element, shape, geometry.height, where, normal, width / 2, aside, does.kicks(kind))
+
+
+def _own(pose: Pose, way: Vector) -> Vector:
+    """Return a direction on the table in the frame of what is at `pose`."""
+    x, y = Pose(0.0, 0.0, -pose.yaw).apply(way[0], way[1])
+    return x, y, way[2]
 
 
 def _aperture(kind: ComponentType) -> ClearAperture | None:

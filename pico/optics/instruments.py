@@ -26,8 +26,8 @@ def sensor_of(part: Part) -> Sensor:
         size=(round(part.number("pixels_across", "pixel", 0)), round(part.number("pixels_up", "pixel", 0))),
         pitch=part.number("pixel_size", "um", 1.0), bits=round(part.number("bit_depth", "bit", 12)),
         full_well=part.number("full_well", "", 1e4), read_noise=part.number("read_noise", "", 0.0),
-        dark_current=part.number("dark_current", "", 0.0), black=part.number("black_level", "count", 0.0),
-        name=part.name,
+        dark_current=part.number("dark_current", "", 0.0) + part.unseen.dark,
+        black=part.number("black_level", "count", 0.0), name=part.name,
     )  # fmt: skip
 
 
@@ -53,7 +53,7 @@ def camera_frame(
     mean = electrons_of(arrivals, part, stray)
     return frame(
         sensor_of(part), lambda first, last: mean[first:last], exposure=part.value("exposure", "ms", 1.0),
-        gain=decibel(part.values), errors=errors, seed=seed, number=number,
+        gain=decibel(part.values) + 20 * math.log10(part.unseen.gain), errors=errors, seed=seed, number=number,
     )  # fmt: skip
 
 
@@ -99,7 +99,7 @@ def balanced_reading(arrivals: tuple[Arrival, ...], part: Part, *, seed: int = 1
     per_power = 1e-3 * part.number("responsivity", "A/W", 1.0) * part.number("transimpedance", "V/A", 1.0)
     dark, most = part.number("noise", "V", 1e-4), part.number("saturation", "V", math.inf)
     noise = np.random.default_rng([seed, number, *part.name.encode()]).standard_normal()
-    signal = (powers[0] - powers[1] + common) * per_power + dark * noise
+    signal = (powers[0] - powers[1] + common) * per_power * part.unseen.gain + part.unseen.dark + dark * noise
     return Power(max(-most, min(signal, most)), dark, abs(signal) >= most)
 
 
@@ -127,9 +127,10 @@ def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, num
     if volts is not None:
         gain = part.number("transimpedance", "V/A", 1.0) * 10 ** (decibel(part.values) / 20)
         dark = part.number("noise", "V", 1e-4)
-        signal = power * 1e-3 * part.number("responsivity", "A/W", 1.0) * gain + dark * noise
+        gain *= part.unseen.gain
+        signal = power * 1e-3 * part.number("responsivity", "A/W", 1.0) * gain + part.unseen.dark + dark * noise
         return Power(min(signal, volts), dark, signal >= volts)
     least, greatest = part.number("least_power", "mW", 0.0), part.number("greatest_power", "mW", math.inf)
     share = part.number("uncertainty", "", 0.0) / 2
-    read = power * (1 + share * own) + least * noise
+    read = power * (1 + share * own) * part.unseen.gain + part.unseen.dark + least * noise
     return Power(min(read, greatest), math.hypot(share * power, least), read >= greatest)

@@ -6,8 +6,9 @@ It meets what `pico.optics.axis` says that a ray meets next, and what an element
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
 from typing import cast
@@ -19,13 +20,14 @@ from pico.manifest.checks.elements import module_of
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.optics.axis import Optic, Ray, Values, beside_the_edge, first_met, optic_of
-from pico.optics.beam import Beam, forward, moments
+from pico.optics.beam import Beam, forward, moments, scaled
 from pico.optics.coherence import dispersed
 from pico.optics.emission import emit
 from pico.optics.geometry import Event
 from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
 from pico.optics.part import Element, Met, Part, Straying
+from pico.optics.unseen import SEEN, Unseen
 
 FAINT = 1e-10
 """The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
@@ -68,7 +70,7 @@ class Light:
     def at(self, component: str) -> tuple[Arrival, ...]:
         """Return what of the light a detector takes."""
         mine = (c for c in self.crossings if c.component == component and c.event == "detected")
-        return tuple(Arrival(c.beam, self.parts[component], c.clipped) for c in mine)
+        return tuple(Arrival(_cleared(c.beam, self.parts[component]), self.parts[component], c.clipped) for c in mine)
 
     def way(self, number: int) -> tuple[Crossing, ...]:
         """Return the crossings from the source to one of them, that the last."""
@@ -135,16 +137,17 @@ def element(name: str) -> Element:
 
 def light_of(
     setup: Setup, poses: Mapping[str, Pose], values: Values | None = None, *, lit: Callable[[str], bool] | None = None,
-    astray: Least | None = None,
+    astray: Least | None = None, unseen: Mapping[str, Unseen] | None = None,
 ) -> Light:  # fmt: skip
     """Return the light of the sources among what stands at `poses`.
 
     `values`: tunables by component, in the units of the catalog; those of shutters, stages, mirrors, irises, polarizers
     and wave plates count. `lit`: which sources shine; without, all that `values` do not say are off or shut.
     `astray`: follow what faces of glass send astray, too, and all down to so many mW; without, down to `FAINT`.
+    `unseen`: how components are otherwise than they are seen.
     """
-    known = values or {}
-    parts = {name: _part(setup, name, pose, known) for name, pose in poses.items()}
+    known, hidden = values or {}, unseen or {}
+    parts = {name: _part(setup, name, pose, known, hidden.get(name, SEEN)) for name, pose in poses.items()}
     shines = lit or (lambda name: not is_dark(known.get(name, {})))
     crossings: list[Crossing] = []
     endless: list[str] = []
@@ -165,11 +168,11 @@ def is_dark(laser: Mapping[str, object]) -> bool:
     return laser.get("emission") is False or laser.get("shutter") == "closed"
 
 
-def _part(setup: Setup, name: str, pose: Pose, values: Values) -> Part:
+def _part(setup: Setup, name: str, pose: Pose, values: Values, unseen: Unseen) -> Part:
     own, kind = values.get(name, {}), setup.type_of(name)
     # an iris stops what is beside its opening itself: its leaves are no housing
     seen = {key: value for key, value in own.items() if key != "opening"}
-    return Part(name, kind, own, pose, optic_of(kind, name, pose, seen))
+    return Part(name, kind, own, pose, optic_of(kind, name, pose, seen, unseen), unseen)
 
 
 def _followed(
@@ -202,6 +205,8 @@ def _crossing(
         partly = element(optic.element).meet(parts[optic.name], beam)
         if partly.clipped < 1.0 - LEAST:
             met, event = partly, beside
+    if optic is not None and parts[optic.name].unseen.loss:
+        met = replace(met, onward=tuple(_cleared(b, parts[optic.name]) for b in met.onward))
     onward = sum(b.power for b in met.onward)
     name = optic.name if optic else ""
     crossing = Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, before)
@@ -212,6 +217,11 @@ def _strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
     """Return what a part sends astray, none of an element that does not say."""
     found = element(part.optic.element)
     return cast(Straying, found).strays(part, beam, met) if hasattr(found, "strays") and met.clipped < 1.0 else ()
+
+
+def _cleared(beam: Beam, part: Part) -> Beam:
+    """Return what dirt on a component lets through of a beam."""
+    return scaled(beam, math.sqrt(1.0 - part.unseen.loss)) if part.unseen.loss else beam
 
 
 def _point(vector: NDArray[np.float64]) -> tuple[float, float, float]:

@@ -19,6 +19,7 @@ from pico.optics.beam import Beam, forward, groups_of, scaled
 from pico.optics.geometry import Event, geometry_of
 from pico.optics.polarization import Vector
 from pico.optics.rays import Surface
+from pico.optics.unseen import SEEN, Unseen
 
 SPOT = 0.9
 """The share that must pass an edge for the spot behind it to be taken as Gaussian still: a circle of radius 1.07 w."""
@@ -26,17 +27,22 @@ SPOT = 0.9
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A component that stands on the table: its type, tunables in the units of the catalog, pose, and its optic."""
+    """A component that stands on the table: its type, tunables in the units of the catalog, pose, its optic, and what
+    nobody sees of it."""
 
     name: str
     kind: ComponentType
     values: Mapping[str, Any]
     pose: Pose
     optic: Optic
+    unseen: Unseen = SEEN
 
     @property
     def axes(self) -> tuple[Vector, Vector, Vector]:
         """The component's own directions in the table frame: ahead, left, up."""
+        if self.unseen.displaced:
+            ahead, left, up = (self.unseen.point(self.pose, way) for way in _AXES)
+            return np.array(ahead), np.array(left), np.array(up)
         turned = math.radians(self.pose.yaw)
         c, s = math.cos(turned), math.sin(turned)
         return np.array([c, s, 0.0]), np.array([-s, c, 0.0]), np.array([0.0, 0.0, 1.0])
@@ -50,6 +56,8 @@ class Part:
     def origin(self) -> Vector:
         """Where its optical axis meets it (3,) [mm]."""
         x, y, z = self.kind.frames.optical
+        if self.unseen.displaced:
+            return np.array(self.unseen.place(self.pose, (x, y, z), (x, y, z)))
         return np.array([*self.pose.apply(x, y), z])
 
     def number(self, parameter: str, unit: str, otherwise: float) -> float:
@@ -76,6 +84,9 @@ class Part:
         """Return the plane across its axis, so far ahead of its center [mm]."""
         along = self.axes[0]
         return Surface(self.center + ahead * along, along, before=before, after=after)
+
+
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True, eq=False)

@@ -283,6 +283,13 @@ def test_the_simulated_world_is_changed_as_by_a_hand(bench: Bench) -> None:
     assert bench.observe().components["p2"].values["angle"] == angle
     with pytest.raises(PicoError, match="exposure"):
         bench.sim.slip("cam", "exposure", 2.0)
+    seen = bench.observe()
+    bench.sim.upset("ly_150", up=0.1, loss=0.2)
+    assert bench.observe().components == seen.components
+    with pytest.raises(PicoError, match="it is no detector"):
+        bench.sim.upset("ly_150", gain=2.0)
+    bench.sim.wait(3600.0)
+    assert bench.observe().time == pytest.approx(seen.time + 3600.0)
     bench.sim.reset()
     assert bench.observe().components["p1"].presence == "seen"
     assert set(bench.sim.true_cameras())

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, replace
 
 from pico.backends.sim.world import World, WorldBody, footprints, initial_value
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
@@ -13,6 +14,7 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue
 from pico.model.pose import Pose, wrap
 from pico.model.state import home_state, place_of
+from pico.optics.unseen import Unseen
 
 _TOUCH = 1e-6  # mm: parts may touch
 
@@ -57,6 +59,50 @@ def slip(setup: Setup, world: World, name: str, tunable: str, by: float) -> Worl
             hint = f"{name} has: {', '.join(axes)}"
         raise PicoError(error("no-axis", text, hint=hint, address=name))
     return world.with_body(name, offsets={**body.offsets, tunable: body.offsets.get(tunable, 0.0) + by})
+
+
+def upset(setup: Setup, world: World, name: str, by: Mapping[str, float]) -> World:
+    """Return the world after something befell a part that no camera over the bench sees: `by` are fields of
+    `pico.optics.unseen.Unseen`, which add to what befell it before; losses and gains multiply.
+
+    Raises PicoError for a part or a field that there is not, and for a number that is none of it.
+    """
+    body = _body(world, name)
+    known = [one.name for one in fields(Unseen)]
+    problems = []
+    for key, value in by.items():
+        if key not in known:
+            hint = did_you_mean(key, known) or f"known: {', '.join(known)}"
+            problems.append(error("unseen", f"nothing unseen of a part is called `{key}`", hint=hint, address=name))
+        elif not math.isfinite(value) or (key in _SHARES and not 0 <= value < 1) or (key == "gain" and value <= 0):
+            wanted = (
+                "a share from 0 to below 1" if key in _SHARES else "a factor above 0" if key == "gain" else "finite"
+            )
+            problems.append(error("unseen", f"`{key}` of {name} is {value:g}: it is {wanted}", address=name))
+        elif wrong := _not_of(setup, name, key):
+            problems.append(error("unseen", f"{name} has no `{key}`: {wrong}", address=name))
+    if problems:
+        raise PicoError(problems)
+    was = body.unseen or Unseen()
+    now = {key: _joined(key, getattr(was, key), value) for key, value in by.items()}
+    return world.with_body(name, unseen=replace(was, **now))
+
+
+_SHARES = ("loss", "leak")
+
+
+def _not_of(setup: Setup, name: str, key: str) -> str:
+    """Return why nothing of that name befalls a part; empty where it may."""
+    element = setup.type_of(name).optics.element
+    if key in ("gain", "dark") and element != "detector":
+        return "it is no detector"
+    return "it is no polarizer" if key == "leak" and element != "polarizer" else ""
+
+
+def _joined(key: str, was: float, by: float) -> float:
+    if key == "gain":
+        return was * by
+    return 1 - (1 - was) * (1 - by) if key == "loss" else was + by
 
 
 def power_cycle(setup: Setup, world: World) -> World:

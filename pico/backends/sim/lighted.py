@@ -34,7 +34,9 @@ def light_on(table: Table) -> Light:
     standing = {n: b for n, b in world.components.items() if n in table.setup.lab.inventory and b.presence == "seen"}
     poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
     values = {n: b.true_values for n, b in standing.items()}
-    return light_of(table.setup, *in_the_world(table.setup, poses, values, world.seed, world.clock))
+    unseen = {name: body.unseen for name, body in standing.items() if body.unseen is not None}
+    disturbed = in_the_world(table.setup, poses, values, world.seed, world.clock)
+    return light_of(table.setup, *disturbed, unseen=unseen)
 
 
 def room_light(table: Table) -> float:

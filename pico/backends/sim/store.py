@@ -21,6 +21,7 @@ from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.optics.unseen import Unseen
 
 
 def world_path(root: Path) -> Path:
@@ -124,6 +125,7 @@ def _body(data: Mapping[str, Any]) -> WorldBody:
         free=_free(free) if free else None,
         values={k: _value(v) for k, v in data["values"].items()},
         offsets={k: _number(v) for k, v in data.get("offsets", {}).items()},
+        unseen=Unseen(**{k: _number(v) for k, v in data["unseen"].items()}) if data.get("unseen") else None,
     )
 
 

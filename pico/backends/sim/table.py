@@ -10,7 +10,7 @@ from typing import Any
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.cameras import bump
 from pico.backends.sim.faults import faults_of, parse, save_faults
-from pico.backends.sim.hand import nudge, power_cycle, remove, slip
+from pico.backends.sim.hand import nudge, power_cycle, remove, slip, upset
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, new_world
 from pico.backends.world import Held
@@ -91,6 +91,16 @@ class SimulatedTable:
         axis reads. Light alone finds it, and homing does not bring it back. Raises PicoError where none has a zero."""
         require_component(self._setup, name)
         self._change(f"sim slip {name}.{tunable}", lambda world: slip(self._setup, world, name, tunable, by))
+
+    def upset(self, name: str, **by: float) -> None:
+        """Let something befall a part that no camera over the bench sees, `up=0.1` or `loss=0.2`: the fields of
+        `pico.optics.unseen.Unseen`. Light alone finds it. Raises PicoError for what there is not."""
+        require_component(self._setup, name)
+        self._change(f"sim upset {name}", lambda world: upset(self._setup, world, name, by))
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass on the bench's clock [s], in which the world does what it does by itself."""
+        self._change("sim wait", lambda world: replace(world, clock=world.clock + max(0.0, seconds)))
 
     def power_cycle(self) -> None:
         """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""

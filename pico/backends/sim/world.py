@@ -17,6 +17,7 @@ from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import Format, record
 from pico.model.state import home_state, place_of
+from pico.optics.unseen import Unseen
 
 FORMAT = Format("pico.world")
 
@@ -46,6 +47,7 @@ class WorldBody:
     above the table. `free`: its full pose where physics left it off the plane. `values`: as they are, also where their
     status is `unknown` and the bench does not read them. `type` names an entry of `World.shapes`. `offsets`: how
     much more the true value of a tunable is than it reads, in its unit, where a mount slipped: light alone finds it.
+    `unseen`: what else of it light alone finds.
     """
 
     type: str
@@ -55,6 +57,7 @@ class WorldBody:
     free: FreePose | None = None
     values: Mapping[str, ObservedValue] = field(default_factory=dict)
     offsets: Mapping[str, float] = field(default_factory=dict)
+    unseen: Unseen | None = None
 
     @property
     def true_values(self) -> dict[str, Value]:

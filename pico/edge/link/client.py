@@ -169,6 +169,14 @@ class RemoteWorld:
         """Let the true value of a tunable be `by` more, in its unit, than its axis reads."""
         self._line.call("world.slip", name, tunable, by)
 
+    def upset(self, name: str, **by: float) -> None:
+        """Let something befall a part that only light finds."""
+        self._line.call("world.upset", name, by)
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass on the bench's clock [s]."""
+        self._line.call("world.wait", seconds)
+
     def power_cycle(self) -> None:
         """Switch the bench off and on."""
         self._line.call("world.power_cycle")

@@ -160,6 +160,8 @@ class Server:
             return world.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
         if method == "bump":
             return world.bump(arguments[0], shift=arguments[1], turn=arguments[2])
+        if method == "upset":
+            return world.upset(arguments[0], **arguments[1])
         if method == "true_cameras":
             return Calibration(cameras=world.true_cameras()).as_json()
         return getattr(world, method)(*arguments)

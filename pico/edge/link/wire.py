@@ -66,6 +66,8 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "world.true_arms": ((), dict[str, ArmOffsets]),
     "world.remove": ((str,), None),
     "world.slip": ((str, str, float), None),
+    "world.upset": ((str, dict[str, float]), None),
+    "world.wait": ((float,), None),
     "world.power_cycle": ((), None),
     "world.person": ((bool,), None),
     "world.faults": ((list[str],), dict[str, Any]),

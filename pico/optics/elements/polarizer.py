@@ -24,8 +24,10 @@ def meet(part: Part, beam: Beam) -> Met:
     angle = math.radians(part.value("angle", "deg", part.number("angle", "deg", 0.0)))
     absorbs = math.cos(angle) * up - math.sin(angle) * left
     why = linear(passed, along)
+    extinction = 1 / (1 / part.number("extinction", "", math.inf) + part.unseen.leak) if part.unseen.leak else None
     behind = polarized(
-        passed, along, absorbs, part.number("transmission", "", 1.0), part.number("extinction", "", math.inf),
+        passed, along, absorbs, part.number("transmission", "", 1.0),
+        part.number("extinction", "", math.inf) if extinction is None else extinction,
         cast(Substrate, part.word("substrate", "film")), part.number("refractive_index", "", 1.5),
     )  # fmt: skip
     if why and not behind.unknown:
