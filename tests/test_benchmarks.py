@@ -43,6 +43,7 @@ SMALLEST = {
     "omissions": "--cases 30",
     "optics_references": "",
     "pick_and_place": "--moves 1 --sight exact",
+    "placements": "--moves 1 --sight exact",
     "planning_fuzz": "--cases 5 --most 8",
     "planted_bugs": "--seeds 500 --only start",
     "predicted": "--transitions 1 --labs labs/minimal",

@@ -416,8 +416,10 @@ class SimErrors:
     Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
     random axis, and its focal length is wrong by the share `focal_length`, up or down. `marker_height`: sigma by which
     a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
-    `noise`: factor on the sensors' noise. `arm`: what is wrong with arms, `light`: with the light, `sensor`: with the
-    sensors of beam cameras; nothing where they are left out.
+    `noise`: factor on the sensors' noise. `seat`: how far off a part comes to sit that is put down, as a multiple of
+    its type's repeatability; where it is left out 1 in physics, and 0 (exactly) in kinematic fidelity. `arm`: what is
+    wrong with arms, `light`: with the light, `sensor`: with the sensors of beam cameras; nothing where they are left
+    out.
     """
 
     camera_position: Length = 0.0
@@ -426,9 +428,14 @@ class SimErrors:
     marker_height: Length = 0.0
     lost_frames: float = 0.0
     noise: float = 1.0
+    seat: float | None = None
     arm: ArmErrors | None = None
     light: BadLight | None = None
     sensor: SensorErrors | None = None
+
+    def __post_init__(self) -> None:
+        if self.seat is not None and not 0 <= self.seat <= 10:
+            raise ValueError(f"`seat` is a multiple of the repeatability, from 0 to 10, not {self.seat:g}")
 
 
 @record

@@ -4,11 +4,13 @@ sees: the simulated world has such changes, and who asks what a reading tells su
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.model.record import record
 
 if TYPE_CHECKING:
+    from pico.geometry.seat import Seat
     from pico.model.pose import Pose
 
 Vector = tuple[float, float, float]
@@ -39,6 +41,15 @@ class Unseen:
     def displaced(self) -> bool:
         """Whether it stands otherwise than its pose says."""
         return any((self.ahead, self.left, self.up, self.roll, self.pitch, self.yaw))
+
+    def sitting(self, seat: Seat, about: Vector) -> Unseen:
+        """Return the same of a component that sits so: it leans about its foot, by which what is above that, such as
+        its optical frame at `about` [mm], is displaced."""
+        turned = Unseen(roll=seat.roll, pitch=seat.pitch).turn(about)
+        return replace(
+            self, ahead=self.ahead + turned[0] - about[0], left=self.left + turned[1] - about[1],
+            up=self.up + turned[2] - about[2] + seat.height, roll=self.roll + seat.roll, pitch=self.pitch + seat.pitch,
+        )  # fmt: skip
 
     def place(self, pose: Pose, at: Vector, about: Vector) -> Vector:
         """Return where a point of a component that is at `pose` is on the table [mm]; `at` and what it is turned

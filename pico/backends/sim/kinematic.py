@@ -8,7 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.backends.sim.mover import InProgress, MoveFailed
-from pico.backends.sim.world import World
+from pico.backends.sim.world import World, put_down
+from pico.geometry.seat import Seat
 from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
@@ -36,13 +37,14 @@ BRAKE = 0.2
 
 class KinematicWorld:
     """Moves robots and components of `world` without dynamics: what a perfect arm carries ends exactly at its goal,
-    what another one does where that takes it.
+    what another one does where that takes it, and where the lab asks for it, what the seat makes of that.
 
     `step`: seconds of a path that are walked in one go. `known`: how arms are off, as calibration found it.
     """
 
     def __init__(self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None) -> None:
-        self._setup, self._known = setup, known
+        self._setup, self._known, self._start = setup, known, world
+        self._times = setup.lab.sim.errors.seat or 0.0
         self.step = STEP
         self._arms = {n: arm for n, arm in arms_of(setup, world.seed, known).items() if not arm.perfect}
         self._slack: dict[str, Array] = {}  # by how much motors are ahead of joints, of arms that are not perfect
@@ -54,6 +56,7 @@ class KinematicWorld:
                 self._held[name] = (robot.holding, self._tool(name).inverse().compose(body.pose))
         self._stages: dict[str, Stage] = {}
         self._placed: dict[str, Pose] = {}  # what was put down since
+        self._seats: dict[str, Seat] = {}  # and how it sits
         self._fallen: dict[str, Presence] = {}  # and what does not stand
         self._scene: Posed | None = None
 
@@ -69,10 +72,17 @@ class KinematicWorld:
             if segment.name == "grip":
                 self._held[robot] = (operation.component, self._tool(robot).inverse().compose(start))
             elif segment.name == "release":
-                self._placed[operation.component] = (robot in self._arms and self.carried(robot)) or goal
+                self._put_down(operation.component, (robot in self._arms and self.carried(robot)) or goal)
                 del self._held[robot]
                 self._fallen.pop(operation.component, None)
         return {}
+
+    def _put_down(self, name: str, goal: Pose) -> None:
+        body = self._start.components[name]
+        now = self._start.with_body(name, seat=self._seats.get(name, body.seat))
+        self._placed[name], seat = put_down(self._setup, now, name, goal, self._times)
+        if self._times or body.seat:
+            self._seats[name] = seat
 
     def park(self, path: MovePath) -> InProgress:
         """Walk `path`."""
@@ -111,7 +121,8 @@ class KinematicWorld:
         for name, pose in self._placed.items():
             presence = self._fallen.get(name, "seen")
             where = None if presence == "missing" else pose
-            components[name] = replace(components[name], presence=presence, pose=where, free=None)
+            seat = self._seats.get(name, components[name].seat)
+            components[name] = replace(components[name], presence=presence, pose=where, free=None, seat=seat)
         robots = {
             name: ObservedRobot(joints=joints, holding=self._held[name][0] if name in self._held else None)
             for name, joints in self._joints.items()

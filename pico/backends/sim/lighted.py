@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from pico.backends.sim.cameras import lamps
 from pico.backends.sim.readings import Table
+from pico.backends.sim.world import WorldBody
+from pico.geometry.seat import Seat
 from pico.model.lab import Setup
+from pico.optics.unseen import SEEN, Unseen
 
 if TYPE_CHECKING:
     from pico.optics.light import Arrival, Light
@@ -34,9 +38,22 @@ def light_on(table: Table) -> Light:
     standing = {n: b for n, b in world.components.items() if n in table.setup.lab.inventory and b.presence == "seen"}
     poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
     values = {n: b.true_values for n, b in standing.items()}
-    unseen = {name: body.unseen for name, body in standing.items() if body.unseen is not None}
+    unseen = {name: found for name, body in standing.items() if (found := unseen_of(table.setup, name, body))}
     disturbed = in_the_world(table.setup, poses, values, world.seed, world.clock)
     return light_of(table.setup, *disturbed, unseen=unseen)
+
+
+def unseen_of(setup: Setup, name: str, body: WorldBody) -> Unseen | None:
+    """Return what no camera sees of a component, with how it sits and how far physics left it off the plane; None where
+    it is as it is seen."""
+    own, seat = body.unseen or SEEN, body.seat or Seat()
+    if body.free is not None:
+        w, x, y, z = body.free.quaternion
+        pitch = math.degrees(math.asin(max(-1.0, min(1.0, 2 * (w * y - x * z)))))
+        roll = math.degrees(math.atan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+        seat = Seat(pitch=seat.pitch + pitch, roll=seat.roll + roll, height=seat.height + body.free.position[2])
+    found = own if seat.level else own.sitting(seat, setup.type_of(name).frames.optical)
+    return None if found == SEEN else found
 
 
 def room_light(table: Table) -> float:

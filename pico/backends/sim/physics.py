@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -11,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.mover import InProgress, MoveFailed
-from pico.backends.sim.world import FreePose, World, WorldBody
+from pico.backends.sim.world import FreePose, World, WorldBody, put_down
 from pico.diagnostics import error
+from pico.geometry.seat import Seat
 from pico.model.catalog import Geometry
 from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
@@ -62,7 +62,7 @@ class PhysicsWorld:
         known: Mapping[str, ArmOffsets] | None = None,
     ) -> None:
         self._setup = setup
-        self._random = random.Random(f"{world.seed} {world.clock:.6f}")
+        self._start, self._seats = world, dict[str, Seat]()
         places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
         things = {n: SceneBody(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
         self._own = tuple(things)
@@ -136,7 +136,8 @@ class PhysicsWorld:
         held = {name: self._held(name) for name in world.robots}
         components = dict(world.components)
         for name in self._own:
-            components[name] = _seen(components[name], self.twin.placement(name), name in held.values())
+            body = replace(components[name], seat=self._seats.get(name, components[name].seat))
+            components[name] = _seen(body, self.twin.placement(name), name in held.values())
         robots = {
             name: ObservedRobot(joints=self.twin.joints(name), holding=held[name]) if name in self.twin.arms else robot
             for name, robot in world.robots.items()
@@ -145,13 +146,14 @@ class PhysicsWorld:
         return replace(world, components=components, robots=robots, openings=openings)
 
     def _seat(self, component: str) -> None:
-        """A seat takes hold of a part that was let go: it comes to rest within the repeatability of its type, one
-        standard deviation in x, in y and in yaw. A free part stays where it stands."""
-        if self._setup.seating_of(component) not in ("magnet", "kinematic"):
-            return
-        repeatability = self._setup.type_of(component).repeatability
-        sigmas = (repeatability.position, repeatability.position, repeatability.yaw)
-        self.twin.pull(component, *(self._random.gauss(0.0, sigma) for sigma in sigmas))
+        """A seat takes hold of a part that was let go: it comes to rest within the repeatability of its type. A free
+        part stays where it stands, but leans as it may."""
+        here, asked = Pose(0.0, 0.0), self._setup.lab.sim.errors.seat
+        now = self._start.with_body(component, seat=self._seats.get(component, self._start.components[component].seat))
+        off, seat = put_down(self._setup, now, component, here, 1.0 if asked is None else asked)
+        self._seats[component] = seat
+        if self._setup.seating_of(component) in ("magnet", "kinematic"):
+            self.twin.pull(component, off.x, off.y, off.yaw)
 
     def _guarded(self, robot: str, work: Generator[float, None, Any]) -> Generator[float, None, Any]:
         """Do `work`; where it fails or is stopped, the arm stops where it is."""

@@ -16,6 +16,7 @@ from pico.backends.sim.world import FORMAT, FreePose, RememberedShape, World, Wo
 from pico.cameras.errors import CameraShift
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import sweep, write_whole, writing
+from pico.geometry.seat import Seat
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
@@ -123,6 +124,7 @@ def _body(data: Mapping[str, Any]) -> WorldBody:
         presence=presence,
         pose=_pose(data["pose"]) if "pose" in data else None,
         free=_free(free) if free else None,
+        seat=_seat(data["seat"]) if data.get("seat") else None,
         values={k: _value(v) for k, v in data["values"].items()},
         offsets={k: _number(v) for k, v in data.get("offsets", {}).items()},
         unseen=Unseen(**{k: _number(v) for k, v in data["unseen"].items()}) if data.get("unseen") else None,
@@ -133,6 +135,11 @@ def _free(data: Mapping[str, Any]) -> FreePose:
     x, y, z = _numbers(data["position"])
     a, b, c, d = _numbers(data["quaternion"])
     return FreePose(position=(x, y, z), quaternion=(a, b, c, d))
+
+
+def _seat(data: Mapping[str, Any]) -> Seat:
+    pitch, roll, height = (_number(data[key]) for key in ("pitch", "roll", "height"))
+    return Seat(pitch=pitch, roll=roll, height=height, count=int(data["count"]))
 
 
 def _shift(data: Mapping[str, Any]) -> CameraShift:

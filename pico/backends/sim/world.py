@@ -10,6 +10,7 @@ from dataclasses import field, replace
 from typing import Any
 
 from pico.cameras.errors import CameraShift
+from pico.geometry.seat import Seat, drawn
 from pico.model.catalog import ComponentType, Footprint, Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
@@ -44,10 +45,10 @@ class WorldBody:
     """One component of the simulated table.
 
     `pose` is its planar pose, None where it is `missing`; of a part that is `held` or `toppled`, where its origin is
-    above the table. `free`: its full pose where physics left it off the plane. `values`: as they are, also where their
-    status is `unknown` and the bench does not read them. `type` names an entry of `World.shapes`. `offsets`: how
-    much more the true value of a tunable is than it reads, in its unit, where a mount slipped: light alone finds it.
-    `unseen`: what else of it light alone finds.
+    above the table. `free`: its full pose where physics left it off the plane. `seat`: how it truly sits since it was
+    put down, which no camera sees. `values`: as they are, also where their status is `unknown` and the bench does not
+    read them. `type` names an entry of `World.shapes`. `offsets`: how much more the true value of a tunable is than it
+    reads, in its unit, where a mount slipped: light alone finds it. `unseen`: what else of it light alone finds.
     """
 
     type: str
@@ -55,6 +56,7 @@ class WorldBody:
     presence: Presence = "seen"
     pose: Pose | None = None
     free: FreePose | None = None
+    seat: Seat | None = None
     values: Mapping[str, ObservedValue] = field(default_factory=dict)
     offsets: Mapping[str, float] = field(default_factory=dict)
     unseen: Unseen | None = None
@@ -148,6 +150,14 @@ def initial_value(tunable: Tunable) -> Value:
     if tunable.axis is not None:
         return tunable.axis.home
     return tunable.range[0] if tunable.range else 0.0
+
+
+def put_down(setup: Setup, world: World, name: str, goal: Pose, times: float) -> tuple[Pose, Seat]:
+    """Return where a component comes to stand that is put down at `goal`, and how it sits: off by `times` what it
+    scatters, by the seed of the world and how often it was put down."""
+    seat = world.components[name].seat
+    error = drawn(setup, name, world.seed, count := (seat.count if seat else 0) + 1, times)
+    return (error.of(goal) if times else goal), error.seat(count)
 
 
 def footprints(world: World) -> Iterator[tuple[str, Footprint, Pose]]:

@@ -1,0 +1,73 @@
+"""How a component comes to sit that is put down: where beside its goal, and how it leans. Lengths in mm, angles in deg.
+
+The catalog says how well a type repeats. What a lab knows of one placement is what its cameras see of it from above:
+x, y and yaw. Pitch, roll and height only light tells.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+
+from pico.model.catalog import SEATINGS, Repeatability, SeatingKind
+from pico.model.lab import Setup
+from pico.model.pose import Pose, wrap
+from pico.model.record import record
+
+
+@record
+class Seat:
+    """How a component sits: turned by `pitch` about its own y and `roll` about its own x, both right-handed, and raised
+    by `height`, in its `count`-th placement. No camera that looks from above tells it."""
+
+    pitch: float = 0.0
+    roll: float = 0.0
+    height: float = 0.0
+    count: int = 0
+
+    @property
+    def level(self) -> bool:
+        """Whether it sits as the lab means it to."""
+        return not (self.pitch or self.roll or self.height)
+
+
+@dataclass(frozen=True, slots=True)
+class PlacementError:
+    """By how much a component that was put down is off: in the table's frame, but pitch and roll about its own axes."""
+
+    x: float = 0.0
+    y: float = 0.0
+    yaw: float = 0.0
+    pitch: float = 0.0
+    roll: float = 0.0
+    height: float = 0.0
+
+    def of(self, goal: Pose) -> Pose:
+        """Return where a component comes to stand that is put down at a goal."""
+        return Pose(goal.x + self.x, goal.y + self.y, wrap(goal.yaw + self.yaw))
+
+    def seat(self, count: int) -> Seat:
+        """Return how it then sits."""
+        return Seat(pitch=self.pitch, roll=self.roll, height=self.height, count=count)
+
+
+def scatter_of(setup: Setup, component: str) -> PlacementError:
+    """Return one standard deviation of a placement each way: as the type of a component says, what it does not say by
+    how the component is seated."""
+    return scatter(setup.type_of(component).repeatability, setup.seating_of(component))
+
+
+def scatter(repeats: Repeatability, seating: SeatingKind) -> PlacementError:
+    """Return the same of a type's repeatability, and how the component is seated."""
+    usual = SEATINGS[seating]
+    said = (repeats.pitch, repeats.roll, repeats.height)
+    pitch, roll, height = (u if own is None else own for own, u in zip(said, usual, strict=True))
+    return PlacementError(repeats.position, repeats.position, repeats.yaw, pitch, roll, height)
+
+
+def drawn(setup: Setup, component: str, seed: int, count: int, times: float = 1.0) -> PlacementError:
+    """Return the error of the `count`-th placement of a component, `times` as large as it scatters: Gaussian, the same
+    for the same seed, component and count."""
+    draw, one = random.Random(f"{seed}/{component}/placed/{count}"), scatter_of(setup, component)
+    sigmas = (one.x, one.y, one.yaw, one.pitch, one.roll, one.height)
+    return PlacementError(*(times * draw.gauss(0.0, sigma) for sigma in sigmas))
