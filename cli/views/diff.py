@@ -101,6 +101,8 @@ def _symbol(change: Change) -> str:
 
 
 def _ends(change: Change) -> str:
+    if change.requested:
+        return "a request"
     if change.tunable != "pose" or change.before is None or change.after is None:
         return ""
     if isinstance(change.before, str) and not isinstance(change.after, str):

@@ -244,7 +244,7 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     if plan.errored:
         return []
     if not plan.reached:
-        names = dict.fromkeys([*(c.component for c in plan.changes if not c.tolerated), *plan.unsure])
+        names = dict.fromkeys([*(c.component for c in plan.changes if c.counts), *plan.unsure])
         return [
             f"Nothing can be moved, but the bench is not {goal_name(plan)}: the warnings say why ({listed([*names])})."
         ]

@@ -53,6 +53,9 @@ def _cells(row: StatusRow) -> list[str]:
         live = paint("yellow" if row.edited else "red", f"{place(row.live)}{aside}{unit} !")
     else:
         live = "=" if row.exact else f"= {row.near}"
+    if row.requested and not row.note:
+        live = "unknown" if row.live is None else f"{place(row.live)}{unit}"
+        live += paint("dim", f"  ({place(row.desired)} is a request)")
     return [row.address, committed, desired, live]
 
 
@@ -72,7 +75,8 @@ def _summary(status: Status) -> list[str]:
     if not said:
         if all(row.committed is None for row in status.rows):
             return ['The bench is as the manifest says; nothing is committed yet: `pico commit -m "why"`.']
-        return ["Committed, desired and live are equal."]
+        but = ", but for light that is asked for" if any(r.requested for r in status.rows) else ""
+        return [f"Committed, desired and live are equal{but}."]
     advice = []
     if any(d.code == "goes-on" for d in status.cut_short):
         advice.append("A run goes on: this is the bench in between.")

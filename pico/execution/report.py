@@ -64,7 +64,8 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
     return tuple(
         change
         for change in diff_observed(setup, seen, wanted)
-        if not change.tolerated and (whole or (change.component, change.tunable) in asked)
+        if (change.counts or (plan.asked and not change.tolerated))
+        and (whole or (change.component, change.tunable) in asked)
     )
 
 

@@ -25,14 +25,16 @@ def differences(
     """Return for each component the entries to write so that `wanted` says what `live` is.
 
     A component that `live` lacks (not seen) and one that the inventory lacks stay as they are; tunables that `wanted`
-    does not name stay unnamed, except of a component that it does not name at all. `named`: only these tunables.
+    does not name stay unnamed, except of a component that it does not name at all. `named`: only these tunables. Light
+    that is asked for stays asked for, unless it is named.
     """
     changes: dict[str, dict[str, Change]] = {}
     for name in sorted(live.components.keys() & setup.lab.inventory.keys()):
         seen = live.components[name]
         entries = _place(setup, name, wanted, live)
         if name in wanted.components:
-            entries |= _values(setup, name, wanted.components[name], seen)
+            values = _values(setup, name, wanted.components[name], seen)
+            entries |= {k: v for k, v in values.items() if named is not None or not setup.requests(name, k)}
         elif entries:
             entries |= {k: rounded(setup, name, k, v) for k, v in sorted(seen.values.items()) if _known(setup, name, k)}
         if named is not None:

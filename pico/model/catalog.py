@@ -22,7 +22,7 @@ from pico.model.quantities import (
 from pico.model.record import record
 
 Mover = Literal["arm", "motor", "electronics", "person", "none"]
-RestoreKind = Literal["setpoint", "align", "none"]
+RestoreKind = Literal["setpoint", "align", "request", "none"]
 SeatingKind = Literal["free", "magnet", "kinematic", "bolted"]
 
 
@@ -43,7 +43,8 @@ class Restore:
     """How a checkout brings a tunable back.
 
     `setpoint`: drive to the value. `align`: an optimization has the last word within `trim` (in the tunable's unit)
-    around the committed value, until `goal` holds. `none`: open loop, shown and never restored.
+    around the committed value, until `goal` holds. `request`: light that is asked for, no state: shown, neither
+    compared nor brought back by itself. `none`: open loop, shown and never restored.
     """
 
     kind: RestoreKind = "setpoint"
@@ -426,12 +427,26 @@ _THRESHOLDS: Mapping[str, Mapping[str, Value]] = {
 _DECLARED = ("beam_camera", "photodiode", "power_meter", "shutter")
 """Types of the catalog that are declared to end beams since beams are audited."""
 _SCALES = {"nW": 1e-6}  # to mW
+_REQUESTS: Mapping[str, tuple[str, ...]] = {"source": ("emission", "shutter", "power"), "shutter": ("shutter",)}
+"""Tunables that let light out, by element: what a state says of them is a request, also in types that were written when
+there were none."""
 
 
 def lifted(kind: ComponentType) -> ComponentType:
-    """Return a type with all that its file has under `optics.properties` as parameters; those that it has stay."""
+    """Return a type with all that its file has under `optics.properties` as parameters, of which those that it has
+    stay; and what it asks of light as requests."""
     more = {n: Parameter(value=v, description=LIFTED) for n, v in kind.optics.properties.items()}
-    return replace(kind, parameters={**more, **kind.parameters}) if more else kind
+    kind = replace(kind, parameters={**more, **kind.parameters}) if more else kind
+    return _restored(kind, "setpoint", "request")
+
+
+def _restored(kind: ComponentType, before: RestoreKind, after: RestoreKind) -> ComponentType:
+    """Return a type whose tunables that let light out are restored otherwise, those that are as `before`."""
+    tunables = dict(kind.tunables)
+    for name in _REQUESTS.get(kind.optics.element, ()):
+        if name in tunables and tunables[name].restore.kind == before:
+            tunables[name] = replace(tunables[name], restore=replace(tunables[name].restore, kind=after))
+    return replace(kind, tunables=tunables) if tunables != kind.tunables else kind
 
 
 def as_first_written(kind: ComponentType) -> ComponentType:
@@ -439,6 +454,7 @@ def as_first_written(kind: ComponentType) -> ComponentType:
 
     The digest of a lab is taken of that, so that the plans which that release saved are not stale: see decision 11.
     """
+    kind = _restored(kind, "request", "setpoint")
     element, written = kind.optics.element, dict(kind.optics.properties)
     alone = {n for n, p in kind.parameters.items() if p.description == LIFTED and n in written}
     if not written:

@@ -19,7 +19,8 @@ Deviation = Literal["none", "tolerated", "off"]
 @record
 class Change:
     """One tunable that differs. `before` and `after` hold a slot's name, a pose as {x, y, yaw}, or a value; `before`
-    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it."""
+    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it.
+    `requested`: it is light that is asked for, which no state is: the bench equals the state nevertheless."""
 
     component: str
     tunable: str
@@ -27,6 +28,12 @@ class Change:
     after: Any = None
     text: str = ""
     tolerated: bool = False
+    requested: bool | None = None
+
+    @property
+    def counts(self) -> bool:
+        """Whether two states are not the same because of it."""
+        return not (self.tolerated or self.requested)
 
 
 def place_json(slot: str | None, pose: Pose) -> Any:
@@ -58,7 +65,10 @@ def diff_states(setup: Setup, a: LabState, b: LabState) -> tuple[Change, ...]:
             if before != after:
                 kind = setup.type_of(name).tunables.get(tunable, Tunable())
                 text = describe_value(kind, before, after)
-                changes.append(Change(component=name, tunable=tunable, before=before, after=after, text=text))
+                asked = kind.restore.kind == "request" or None
+                changes.append(Change(
+                    component=name, tunable=tunable, before=before, after=after, text=text, requested=asked
+                ))  # fmt: skip
     return tuple(changes)
 
 
@@ -136,6 +146,7 @@ def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: L
                 after=goal,
                 text=text,
                 tolerated=off == "tolerated" and not exact,
+                requested=kind.restore.kind == "request" or None,
             )
         )
     return changes

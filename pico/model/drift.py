@@ -25,10 +25,11 @@ NEAR = 100.0
 def drift_of(setup: Setup, seen: Observation, wanted: LabState) -> tuple[Change, ...]:
     """Return where the bench as observed has left `wanted`, as it happened, sorted by component: `after` is live.
 
-    A part that is missing, held or lies is a difference of its own; so is one that was seen less exactly than it must
-    stand and of which nobody can therefore say that it is right.
+    Light that the state asks for is none. A part that is missing, held or lies is a difference of its own; so is one
+    that was seen less exactly than it must stand and of which nobody can therefore say that it is right.
     """
-    found = [_happened(setup, seen, wanted, repair) for repair in diff_observed(setup, seen, wanted)]
+    off = (change for change in diff_observed(setup, seen, wanted) if not change.requested)
+    found = [_happened(setup, seen, wanted, repair) for repair in off]
     beyond = {c.component for c in found if c.tunable == "pose" and not c.tolerated}
     unsure = [change for change in _unsure(setup, seen, wanted) if change.component not in beyond]
     names = {change.component for change in unsure}

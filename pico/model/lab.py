@@ -537,6 +537,11 @@ class Setup:
         said = optics.ends_beams if own is None else own
         return optics.element == "block" if said is None else said
 
+    def requests(self, component: str, tunable: str) -> bool:
+        """Return whether what a state says of a tunable is a request: light, which is asked for and never restored."""
+        kind = self.type_of(component).tunables.get(tunable)
+        return kind is not None and kind.restore.kind == "request"
+
     def movable(self, component: str) -> bool:
         """Return whether an arm may move `component`: not bolted, has a grasp, and its type says that an arm does."""
         kind = self.type_of(component)

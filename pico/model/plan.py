@@ -136,8 +136,11 @@ class Plan:
 
     @property
     def reached(self) -> bool:
-        """Whether the bench, as it was observed, equals the target already; of a plan for some components, these."""
-        if self.operations or self.absent or self.errored or not all(c.tolerated for c in self.changes):
+        """Whether the bench, as it was observed, equals the target already; of a plan for some components, these. Light
+        that is asked for is no part of that, though a plan may bring it."""
+        asked = {(c.component, c.tunable) for c in self.changes if c.requested}
+        rest = [op for op in self.operations if (op.component, op.arguments.get("tunable")) not in asked]
+        if rest or self.absent or self.errored or any(c.counts for c in self.changes):
             return False
         return bool(self.target.scope) or not self.unsure
 

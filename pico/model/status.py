@@ -22,7 +22,8 @@ class StatusRow:
     `edited`: desired differs from committed. `off`: live differs from desired by more than the tolerance. `drifted`:
     it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
     deviation; `near` says what a tolerated deviation is, `aside` how far off the centre of a slot it stands. `unit`: of
-    the values. `note`: missing, held, toppled or uncertain.
+    the values. `requested`: it differs, and is light that is asked for, which no state is. `note`: missing, held,
+    toppled or uncertain.
     """
 
     component: str
@@ -37,6 +38,7 @@ class StatusRow:
     near: str = ""
     aside: str = ""
     unit: str = ""
+    requested: bool = False
     note: str = ""
 
     @property
@@ -47,7 +49,7 @@ class StatusRow:
     @property
     def equal(self) -> bool:
         """Whether there is nothing to tell about it."""
-        return not (self.edited or self.off or self.note)
+        return not (self.edited or self.off or self.note or self.requested)
 
 
 @record
@@ -154,11 +156,12 @@ def _values(state: LabState | None, name: str) -> Mapping[str, Any]:
 
 def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes) -> dict[str, Any]:
     change, drift = off.get(key), moved.get(key)
-    is_off = change is not None and not change.tolerated
+    is_off = change is not None and change.counts
     return {
         "off": is_off,
         "drifted": is_off and drift is not None and not drift.tolerated,
         "exact": change is None,
+        "requested": change is not None and bool(change.requested),
     }
 
 

@@ -50,11 +50,16 @@ def evidence(
     """
     if not stands(setup, seen, state):
         return "planned"
-    known = [(c, t) for c, t in changed if c in setup.lab.inventory]
+    known = _restored(setup, changed)
     if not known:
         return before if before in STRENGTH and before != "planned" else observed
     brought = _brought(setup, memory, state, known)
     return min((brought.get(one) or observed for one in known), key=lambda e: STRENGTH.get(e, 0))
+
+
+def _restored(setup: Setup, changed: Tunables) -> list[tuple[str, str]]:
+    """Return the tunables among some that the bench has, and that are more than a request."""
+    return [(c, t) for c, t in changed if c in setup.lab.inventory and not setup.requests(c, t)]
 
 
 def by_hand(
@@ -66,7 +71,7 @@ def by_hand(
     before says. What else no run changed was written into the manifest. Raises PicoError where the journal can't be
     read.
     """
-    known = [one for one in changed if one[0] in setup.lab.inventory]
+    known = _restored(setup, changed)
     if not known or not stands(setup, seen, state):
         return set()
     brought = _brought(setup, memory, state, known)
@@ -83,7 +88,7 @@ def never_here(
     hand has changed it since. What a single operation changed is as somebody wanted it. Raises PicoError where the
     journal can't be read.
     """
-    off = {(c.component, c.tunable) for c in diff_observed(setup, seen, state) if not c.tolerated}
+    off = {(c.component, c.tunable) for c in diff_observed(setup, seen, state) if c.counts}
     if off and memory and _reached(memory, state):
         return set()
     known = _last_said(setup, memory, state, off, stood) if off and memory else {}

@@ -333,10 +333,10 @@ def test_the_first_commit_of_a_lab_takes_what_set_did_and_refuses_an_edit(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert pico("init", ".").code == 0 and pico("apply", "--yes").code == 0
-    assert pico("set", "laser", "emission=true", "--yes").code == 0
-    edit(tmp_path / "state" / "table.yaml", "exposure: 5", "exposure: 7")
+    assert pico("set", "camera", "exposure=6", "--yes").code == 0
+    edit(tmp_path / "state" / "table.yaml", "slot: storage/a2", "slot: storage/a1")
     refused = pico("commit", "-m", "first")
-    assert refused.code == 1 and "edits that were never applied: camera.exposure\n" in refused.err
-    edit(tmp_path / "state" / "table.yaml", "exposure: 7", "exposure: 5")
+    assert refused.code == 1 and "edits that were never applied: lens" in refused.err
+    edit(tmp_path / "state" / "table.yaml", "slot: storage/a1", "slot: storage/a2")
     made = pico("commit", "-m", "first")
     assert made.code == 0 and "1 tunable taken from the bench" in made.out

@@ -65,7 +65,7 @@ class PlanSeconds:
         moves, values = [], []
         for change in diff_observed(self.setup, seen, goal):
             part = seen.components[change.component]
-            if change.tolerated or part.pose is None:
+            if not change.counts or part.pose is None:
                 continue
             if change.tunable == "pose":
                 moves.append((change.component, part.pose, place_of(self.setup, goal, change.component)[1]))

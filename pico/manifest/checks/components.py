@@ -34,6 +34,7 @@ def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
     found += [d for part in ("parameters", "tunables", "measurables") for d in check_names(document, part)]
     for name, tunable in kind.tunables.items():
         found += _tunable(document, name, tunable)
+        found += _request(document, kind, name)
     if kind.pose.mover == "arm" and kind.seating != "bolted" and kind.geometry.grasp:
         found += _tolerances(document, kind)
     found += _sizes(document, kind)
@@ -92,6 +93,13 @@ def _tunable(document: Document, name: str, tunable: Tunable) -> Iterator[Diagno
         if value is not None and (value < 0 or (key == "period" and value == 0)):
             source = where(document, "tunables", name, key)
             yield error("value", f"the {key} of `{name}` is {value:g}", hint="expected above zero", source=source)
+
+
+def _request(document: Document, kind: ComponentType, name: str) -> Iterator[Diagnostic]:
+    if kind.tunables[name].restore.kind == "request" and kind.optics.element not in ("source", "shutter"):
+        text = f"`{name}` can't be a request: only what lets light out is, of a source or a shutter"
+        hint = "expected `restore: {kind: setpoint}`, `align` or `none`"
+        yield error("restore", text, hint=hint, source=where(document, "tunables", name, "restore"))
 
 
 def _tolerances(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:

@@ -79,7 +79,7 @@ def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Oper
             address=name,
         )
     done = done_by(operations)
-    rest = [c for c in changes if not c.tolerated and (c.component, c.tunable) not in done]
+    rest = [c for c in changes if c.counts and (c.component, c.tunable) not in done]
     left = sorted({_name(chosen, c) for c in rest if not chosen.chosen(c.component, c.tunable)})
     if left:
         names = ", ".join(left[:6]) + (f" and {len(left) - 6} more" if len(left) > 6 else "")
