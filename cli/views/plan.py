@@ -197,6 +197,9 @@ def _tolerated(plan: Plan) -> list[str]:
 
 def _near(change: Change) -> str:
     before, after = change.before, change.after
+    if change.aligned:
+        when = f" {ago(change.aligned.at)}" if change.aligned.at else ""
+        return f"{change.text}: within its trim, stays; {change.aligned.goal} aligned{when}"
     if not isinstance(before, dict) or not isinstance(after, dict):
         return f"{change.text}: within tolerance, stays"
     away = math.hypot(after["x"] - before["x"], after["y"] - before["y"])

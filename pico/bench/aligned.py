@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic
 from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.lab import Goal, Setup
-from pico.model.observation import Observation
+from pico.model.observation import Aligned, Observation
 from pico.model.operation import Operation, touched_by
 from pico.model.primitive import primitive
 from pico.model.quantities import convert
@@ -22,8 +21,20 @@ from pico.optics.axis import beams
 from pico.planning.optimizing import algorithm_for, seconds
 
 if TYPE_CHECKING:
+    from pico.edge.protocol import Edge
     from pico.runs.journal import JournalRecord
     from pico.runs.memory import Memory
+
+
+class Remembering(Protocol):
+    """A bench whose edge has a memory; `pico.bench.opened` is one, and asks here itself."""
+
+    @property
+    def setup(self) -> Setup: ...
+
+    @property
+    def edge(self) -> Edge: ...
+
 
 Status = Literal["aligned", "stale", "lost", "never measured"]
 MOST = 1000
@@ -60,7 +71,7 @@ def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRec
     return [record for own in reversed(found) for record in own]
 
 
-def standing(opened: Opened, seen: Observation) -> tuple[Alignment, ...]:
+def standing(opened: Remembering, seen: Observation) -> tuple[Alignment, ...]:
     """Return how the goals of a bench's Lab stand."""
     setup, goals, memory = opened.setup, opened.setup.lab.goals or {}, opened.edge.memory
     if not goals:
@@ -68,6 +79,39 @@ def standing(opened: Opened, seen: Observation) -> tuple[Alignment, ...]:
     took = {n: seconds(setup, goal, goal.algorithm or algorithm_for(setup, goal)[0]) for n, goal in goals.items()}
     records = since_last_sought(memory, goals) if memory else ()
     return alignments(setup, seen, records, utc_now(), took)
+
+
+def with_aligned(opened: Remembering, seen: Observation) -> Observation:
+    """Return an observation with which tunables are aligned: those with a trim of which a goal is."""
+    by_goal = trimmed(opened.setup)
+    if not by_goal:
+        return seen
+    met = {one.goal: Aligned(goal=one.goal, at=one.at) for one in standing(opened, seen) if one.status == "aligned"}
+    found = {address: met[name] for name in met for address in by_goal.get(name, ())}
+    return replace(seen, aligned=found) if found else seen
+
+
+def trimmed(setup: Setup) -> dict[str, tuple[str, ...]]:
+    """Return by goal of the Lab the tunables that are right within their trim while it is aligned: those whose
+    `restore` names it, and those that it tunes and that name none."""
+    found: dict[str, list[str]] = {}
+    for name in setup.lab.inventory:
+        for tunable, kind in setup.type_of(name).tunables.items():
+            address = f"{name}.{tunable}"
+            if kind.restore.kind != "align" or kind.restore.trim is None:
+                continue
+            for goal, one in (setup.lab.goals or {}).items():
+                if kind.restore.goal == goal or (kind.restore.goal is None and address in one.tunables):
+                    found.setdefault(goal, []).append(address)
+    return {goal: tuple(addresses) for goal, addresses in found.items()}
+
+
+def not_aligned_after(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Observation:
+    """Return an observation in which only those tunables are aligned whose goals still will be after operations."""
+    goals = {met.goal for met in (seen.aligned or {}).values()} & (setup.lab.goals or {}).keys()
+    lost = {name for name in goals if _upset_by(setup, seen, name, operations)}
+    left = {address: met for address, met in (seen.aligned or {}).items() if met.goal not in lost}
+    return replace(seen, aligned=left or None)
 
 
 def alignments(
@@ -86,20 +130,24 @@ def made_stale(
     setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
 ) -> Iterator[Diagnostic]:
     """Yield a note for each goal that is aligned now and will not be after a plan."""
+    for one in standing:
+        wrong = _upset_by(setup, seen, one.goal, operations) if one.status == "aligned" else ""
+        if wrong:
+            text = f"{one.goal} is aligned, and will not be: {wrong} changes"
+            hint = f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s"
+            yield Diagnostic("note", "goal", text, hint=hint, address=wrong.partition(".")[0])
+
+
+def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[Operation]) -> str:
+    """Return which of what operations touch a goal depends on; empty for none, and where one of them seeks it."""
     touched = {
         one
         for op in operations
         if op.reason.kind not in _ALONG and op.kind.mutating
         for one in touched_by(op.component, op.arguments)
     }
-    for one in standing:
-        goal = (setup.lab.goals or {})[one.goal]
-        own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == one.goal]
-        wrong = _upset(setup, seen, goal, touched)
-        if one.status == "aligned" and wrong and not own:
-            text = f"{one.goal} is aligned, and will not be: {wrong} changes"
-            hint = f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s"
-            yield Diagnostic("note", "goal", text, hint=hint, address=wrong.partition(".")[0])
+    own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == name]
+    return "" if own else _upset(setup, seen, (setup.lab.goals or {})[name], touched)
 
 
 def _alignment(

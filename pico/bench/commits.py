@@ -25,7 +25,7 @@ from pico.history.messages.default import default_message
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
 from pico.history.writing.in_progress import message_of, require_resolved
 from pico.model.address import Named, holds, read_addresses
-from pico.model.diff import Change, diff_states
+from pico.model.diff import Change, as_trimmed, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
 from pico.model.state import LabState, home_state
@@ -53,13 +53,13 @@ class Commits:
             seen = self.opened.observe()
             with told_with(self.opened, seen):
                 _refuse_in_hand(seen, named)
-            return self.folder.capture(self._live(seen), named, write=False)
+            return self.folder.capture(self._live(seen, named), named, write=False)
         seen, moved = self._seen()
         if moved:
             raise moved
         with told_with(self.opened, seen):
             _refuse_in_hand(seen, named)
-        return self.folder.capture(self._live(seen), named)
+        return self.folder.capture(self._live(seen, named), named)
 
     def _seen(self) -> tuple[Observation, PicoError | None]:
         """Look at the bench; what stands there while somebody moves it is no state that anybody wanted: nothing of it
@@ -71,8 +71,10 @@ class Commits:
     def _used(self) -> bool:
         return self.opened.wait(self.opened.edge.describe()).kept
 
-    def _live(self, seen: Observation) -> LabState:
-        return live_state(self.folder.setup, seen, sure=True)
+    def _live(self, seen: Observation, named: Named | None) -> LabState:
+        """Return what there is to capture: what is right by its trim is as it is committed, unless it is named."""
+        live = live_state(self.folder.setup, seen, sure=True)
+        return live if named else as_trimmed(self.folder.setup, seen, live, self.folder.state)
 
     def commit(
         self,
@@ -113,7 +115,7 @@ class Commits:
             if not ending:
                 _refuse(folder, seen, mode, named, used=self._used())
             if not ending and mode != "planned":
-                captured = folder.capture(self._live(seen), named)
+                captured = folder.capture(self._live(seen, named), named)
             content = contents(folder, named)
             realized = stands(folder.setup, seen, content.state)
             runs = recording.pending(folder, seen, content.state) if realized else {}
@@ -141,7 +143,7 @@ class Commits:
         _refuse(folder, seen, mode, named, used=self._used())
         captured, state = (Captured(), folder.state)
         if mode != "planned":
-            captured, state = folder.preview(self._live(seen), named)
+            captured, state = folder.preview(self._live(seen, named), named)
         content = contents(folder, named)
         if not (captured.files or content.paths or empty or recording.awaited(folder)):
             raise PicoError(nothing(named))

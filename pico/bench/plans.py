@@ -102,9 +102,16 @@ class Plans:
         from pico.planning import plan
 
         motion = DeferredMotion(self.opened.setup)
-        found = plan(
-            self.opened.setup, seen, wanted, motion=motion, target=target, **self._start(seen), **options
-        )  # fmt: skip
+        start, setup = self._start(seen), self.opened.setup
+        found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
+        while seen.aligned and found.operations:
+            from pico.bench.aligned import not_aligned_after
+
+            still = not_aligned_after(setup, seen, found.operations)
+            if still.aligned == seen.aligned:
+                break
+            seen = still  # what it makes stale has no last word on its tunables any more
+            found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
         if told or calibration:
             found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
         return self._judged(found, seen)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic
@@ -21,7 +22,11 @@ from pico.model.state import place_of, state_from_json
 def run_report(
     setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation, *, wall: float, able: Capabilities
 ) -> RunReport:
-    """Return the report of a run with these `events`, the last of which ended it, after which `seen` was observed."""
+    """Return the report of a run with these `events`, the last of which ended it, after which `seen` was observed.
+
+    What a plan left within its trim is right where it is.
+    """
+    seen = replace(seen, aligned={f"{c.component}.{c.tunable}": c.aligned for c in plan.changes if c.aligned})
     asked = plan.asked
     whole = not asked and not plan.target.scope
     return RunReport(

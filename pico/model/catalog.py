@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field, replace
-from typing import Literal
+from typing import Any, Literal
 
 from pico.model.body import Body, grooved
 from pico.model.quantities import (
@@ -489,19 +489,37 @@ Catalog = Mapping[str, ComponentType]
 
 
 _KEPT = 1024
-_made: dict[tuple[int, tuple[tuple[str, Value], ...]], tuple[ComponentType, ComponentType]] = {}
+_made: dict[tuple[int, tuple[tuple[str, Any], ...]], tuple[ComponentType, ComponentType]] = {}
 
 
 def with_parameters(kind: ComponentType, given: Mapping[str, Value]) -> ComponentType:
     """Return a type with other values of its parameters, in their units or with one (`80 mm`); the same object for the
     same type and values. Raises KeyError for a parameter that it does not have, QuantityError for what is none."""
+    return _kept(kind, given, _made_of)
+
+
+def with_restore(kind: ComponentType, given: Mapping[str, Restore]) -> ComponentType:
+    """Return a type some of whose tunables are restored otherwise, the same object for the same type and words. Those
+    that it does not have are left out, and light that is asked for stays a request."""
+    return _kept(kind, given, _otherwise_restored)
+
+
+def _kept(
+    kind: ComponentType, given: Mapping[str, Any], make: Callable[[ComponentType, Mapping[str, Any]], ComponentType]
+) -> ComponentType:  # fmt: skip
     key = id(kind), tuple(sorted(given.items()))
     found = _made.get(key)
     if found is None or found[0] is not kind:
         if len(_made) >= _KEPT:
             _made.clear()
-        found = _made[key] = kind, _made_of(kind, given)
+        found = _made[key] = kind, make(kind, given)
     return found[1]
+
+
+def _otherwise_restored(kind: ComponentType, given: Mapping[str, Restore]) -> ComponentType:
+    able = {name for name, one in kind.tunables.items() if one.restore.kind != "request"}
+    own = {name: replace(kind.tunables[name], restore=one) for name, one in given.items() if name in able}
+    return replace(kind, tunables={**kind.tunables, **own})
 
 
 def _made_of(kind: ComponentType, given: Mapping[str, Value]) -> ComponentType:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, Literal
 
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.observation import Aligned, Observation, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.quantities import Value
 from pico.model.record import as_json, record
@@ -19,8 +20,9 @@ Deviation = Literal["none", "tolerated", "off"]
 @record
 class Change:
     """One tunable that differs. `before` and `after` hold a slot's name, a pose as {x, y, yaw}, or a value; `before`
-    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it.
-    `requested`: it is light that is asked for, which no state is: the bench equals the state nevertheless."""
+    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it; or by
+    no more than its trim, while the goal that it is tuned for is `aligned`. `requested`: it is light that is asked for,
+    which no state is: the bench equals the state nevertheless."""
 
     component: str
     tunable: str
@@ -29,6 +31,7 @@ class Change:
     text: str = ""
     tolerated: bool = False
     requested: bool | None = None
+    aligned: Aligned | None = None
 
     @property
     def counts(self) -> bool:
@@ -75,8 +78,9 @@ def diff_states(setup: Setup, a: LabState, b: LabState) -> tuple[Change, ...]:
 def diff_observed(setup: Setup, seen: Observation, wanted: LabState, *, exact: bool = False) -> tuple[Change, ...]:
     """Return what must change for the bench as observed to be as wanted, sorted by component and tunable.
 
-    Differences below the resolution are none; those within tolerance are listed as `tolerated` unless `exact`. Missing,
-    held and toppled components are left to the caller; tunables that the observation does not hold are not compared.
+    Differences below the resolution are none; those within tolerance are listed as `tolerated` unless `exact`, and so
+    are those within the trim of a tunable that `seen` knows to be aligned. Missing, held and toppled components are
+    left to the caller; tunables that the observation does not hold are not compared.
     """
     changes: list[Change] = []
     for name in sorted(setup.lab.inventory):
@@ -86,7 +90,7 @@ def diff_observed(setup: Setup, seen: Observation, wanted: LabState, *, exact: b
         move = _observed_move(setup, name, part.pose, wanted, exact)
         if move:
             changes.append(move)
-        changes.extend(_observed_values(setup, name, part, wanted, exact))
+        changes.extend(_observed_values(setup, name, seen, wanted, exact))
     return tuple(changes)
 
 
@@ -125,8 +129,8 @@ def slot_left(setup: Setup, name: str, pose: Pose, goal: Pose) -> str | None:
     return None if slot == slot_at(setup, goal) else slot
 
 
-def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: LabState, exact: bool) -> list[Change]:
-    changes = []
+def _observed_values(setup: Setup, name: str, seen: Observation, wanted: LabState, exact: bool) -> list[Change]:
+    changes, part = [], seen.components[name]
     state = wanted.components.get(name)
     for tunable, goal in sorted(state.values.items()) if state else ():
         kind = setup.type_of(name).tunables.get(tunable)
@@ -137,6 +141,8 @@ def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: L
         off = "off" if value is None else value_deviation(kind, value, goal)
         if off == "none":
             continue
+        met = (seen.aligned or {}).get(f"{name}.{tunable}") if off == "off" and value is not None else None
+        trimmed = met is not None and value is not None and within_trim(kind, value, goal)
         text = describe_value(kind, value, goal)
         changes.append(
             Change(
@@ -145,11 +151,29 @@ def _observed_values(setup: Setup, name: str, part: ObservedComponent, wanted: L
                 before=value,
                 after=goal,
                 text=text,
-                tolerated=off == "tolerated" and not exact,
+                tolerated=(off == "tolerated" or trimmed) and not exact,
+                aligned=met if trimmed and not exact else None,
                 requested=kind.restore.kind == "request" or None,
             )
         )
     return changes
+
+
+def within_trim(kind: Tunable, value: Value, goal: Value) -> bool:
+    """Return whether a tunable that an optimization has the last word on is within its trim of the value that is
+    committed: right, while its goal is aligned."""
+    trim = kind.restore.trim
+    return kind.restore.kind == "align" and trim is not None and value_distance(kind, value, goal) <= trim
+
+
+def as_trimmed(setup: Setup, seen: Observation, live: LabState, wanted: LabState) -> LabState:
+    """Return `live` with what is right by its trim at the value that is wanted: the same state, as commits mean it."""
+    right = {(c.component, c.tunable): c.after for c in diff_observed(setup, seen, wanted) if c.aligned and c.tolerated}
+    parts = {
+        name: replace(part, values={t: right.get((name, t), v) for t, v in part.values.items()})
+        for name, part in live.components.items()
+    }
+    return replace(live, components=parts) if right else live
 
 
 def value_deviation(kind: Tunable, value: Value, goal: Value) -> Deviation:

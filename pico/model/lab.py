@@ -11,10 +11,12 @@ from pico.model.catalog import (
     Catalog,
     ComponentType,
     Measurable,
+    Restore,
     SeatingKind,
     as_first_written,
     value_of,
     with_parameters,
+    with_restore,
 )
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length, Value
@@ -222,7 +224,8 @@ class Tether:
 class Part:
     """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`. `parameters`: of its own, where
     they are others than its type's, such as the focal length of one of many lenses. `ends_beams`: this one is meant to
-    end beams (or is not), whatever its type says."""
+    end beams (or is not), whatever its type says. `restore`: how tunables of this one are restored, where that is
+    otherwise than its type says, such as `{tip: {kind: align, trim: 12, goal: centred}}`."""
 
     type: str
     marker: int | None = None
@@ -236,6 +239,7 @@ class Part:
     note: str = ""
     parameters: Mapping[str, Value] | None = None
     ends_beams: bool | None = None
+    restore: Mapping[str, Restore] | None = None
 
     def __post_init__(self) -> None:
         if (self.home is None) == (self.pose is None):
@@ -521,10 +525,12 @@ class Setup:
     catalog: Catalog
 
     def type_of(self, component: str) -> ComponentType:
-        """Return the type of `component`, with the parameters that are the part's own; raises KeyError for a part that
-        the inventory does not have."""
+        """Return the type of `component`, with the parameters that are the part's own and how it is restored; raises
+        KeyError for a part that the inventory does not have."""
         part = self.lab.inventory[component]
         kind = self.catalog[part.type]
+        if part.restore:
+            kind = with_restore(kind, part.restore)
         return with_parameters(kind, part.parameters) if part.parameters else kind
 
     def seating_of(self, component: str) -> SeatingKind:

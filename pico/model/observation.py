@@ -75,12 +75,24 @@ class ObservedRobot:
 
 
 @record
+class Aligned:
+    """Why a tunable is right anywhere within its trim: the `goal` that it is tuned for was met, and at what time by the
+    wall (ISO 8601)."""
+
+    goal: str
+    at: str = ""
+
+
+@record
 class Observation:
     """A bench as a backend saw it. `time`: the backend's own clock [s], which simulated time advances.
 
     `person`: whether somebody is at the table, None where nothing tells.
 
     `measurements`: what was measured of it as it is, by address (`cam.image`); what was only peeked at is no such.
+
+    `aligned`: tunables by address (`m1.tip`) whose goal is aligned, as the journal of the bench knows; a backend itself
+    knows of none.
 
     `problems`: what could not be told, or is not as it should be; an error about a component keeps a plan from
     touching it.
@@ -95,6 +107,7 @@ class Observation:
     person: bool | None = None
     measurements: Mapping[str, Measurement] = field(default_factory=dict)
     problems: tuple[Diagnostic, ...] = ()
+    aligned: Mapping[str, Aligned] | None = None
 
     @property
     def known_values(self) -> dict[str, dict[str, Value]]:

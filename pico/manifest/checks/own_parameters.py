@@ -1,4 +1,4 @@
-"""Whether the parameters that a part has of its own are those of its type, and can be what they say."""
+"""Whether what a part has of its own, parameters and how it is restored, is of what its type has."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.manifest.checks.parameters import wrong_parameters
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
-from pico.model.catalog import ComponentType, value_of
+from pico.model.catalog import ComponentType, Restore, value_of
 from pico.model.lab import Setup
 from pico.model.quantities import QuantityError, Value
 
@@ -19,6 +19,25 @@ def check_own_parameters(document: Document, setup: Setup) -> Iterator[Diagnosti
     for name, part in setup.lab.inventory.items():
         if part.parameters and part.type in setup.catalog:
             yield from _parameters(document, setup, name)
+        if part.restore and part.type in setup.catalog:
+            yield from _restores(document, setup, name, part.restore)
+
+
+def _restores(document: Document, setup: Setup, name: str, given: Mapping[str, Restore]) -> Iterator[Diagnostic]:
+    kinds, goals = setup.catalog[setup.lab.inventory[name].type].tunables, setup.lab.goals or {}
+    for tunable, one in given.items():
+        if tunable not in kinds:
+            hint = did_you_mean(tunable[:40], kinds) or f"it has: {', '.join(kinds) or 'none'}"
+            at = where_key(document, "inventory", name, "restore", tunable)
+            yield error("unknown-tunable", f"{name} has no tunable `{tunable[:40]}`", hint=hint, source=at)
+        elif kinds[tunable].restore.kind == "request" != one.kind:
+            text = f"{name}.{tunable} is light that is asked for; it stays a request"
+            at = where_key(document, "inventory", name, "restore", tunable)
+            yield error("request", text, hint="leave it out", source=at)
+        if one.goal is not None and one.goal not in goals:
+            hint = did_you_mean(one.goal[:40], goals) or f"goals of this lab: {', '.join(goals) or 'none'}"
+            at = where(document, "inventory", name, "restore", tunable, "goal")
+            yield error("goal", f"this lab has no goal `{one.goal[:40]}`", hint=hint, source=at)
 
 
 def _parameters(document: Document, setup: Setup, name: str) -> Iterator[Diagnostic]:
