@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-Kind = Literal["number", "bool", "text", "list", "any"]
+Kind = Literal["number", "bool", "text", "list", "numbers", "texts", "any"]
 MOST_SOURCE = 4096
 """Bytes that the source of an expression may have."""
 
@@ -26,8 +26,15 @@ _PATH = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
 _FOUND = re.compile(r"ERROR: <input>:(-?\d+):(-?\d+): ([^\n\[]*(?:\[(?!\w+\]\s*$)[^\n\[]*)*)")
 _UNKNOWN = re.compile(r'No value with name "([^"]*)" found in Activation')
 _OVERLOAD = re.compile(r"found no matching overload for '([^']*)' applied to '(.*)'")
-_WORDS = {"double": "a number", "int": "a whole number", "string": "text", "bool": "true or false"}
+_WORDS = {
+    "double": "a number", "int": "a whole number", "string": "text", "bool": "true or false",
+    "list<double>": "a list of numbers", "list<string>": "a list of texts",
+}  # fmt: skip
 _WANTED = {"number": "a number", "bool": "true or false"}
+_TOLD: dict[str, Kind] = {
+    "double": "number", "bool": "bool", "string": "text", "list<double>": "numbers", "list<string>": "texts",
+    "list<dyn>": "list",
+}  # fmt: skip
 _KINDS = {"number": "DOUBLE", "bool": "BOOL", "text": "STRING", "any": "DYN"}
 _TOO_DEEP = "too deep or too long: brackets and sums have at most about 32 terms; `&&` chains may be longer"
 
@@ -68,7 +75,8 @@ class Language:
 
         self.names = names
         self._kinds = {kind: getattr(cel.Type, word) for kind, word in _KINDS.items()}
-        self._kinds["list"] = cel.Type.List(cel.Type.DYN)
+        lists = {"list": cel.Type.DYN, "numbers": cel.Type.DOUBLE, "texts": cel.Type.STRING}
+        self._kinds |= {kind: cel.Type.List(of) for kind, of in lists.items()}
         by_name: dict[str, list[Any]] = {}
         for n, function in enumerate((*_COUNTS, *functions)):
             by_name.setdefault(function.name, []).append(self._declare(cel, function, str(n)))
@@ -91,6 +99,13 @@ class Language:
         if given not in (wanted, "dyn") and wanted != "dyn":
             raise ExpressionError(f"it is {_WORDS.get(given, given)}, not {_WORDS.get(wanted, wanted)}", 0, len(text))
         return Expression(text, result, compiled)
+
+    def kind_of(self, text: str) -> tuple[Kind, Expression]:
+        """Return of which kind the value of an expression will be, with it: `any` where only its values tell, `list`
+        for an empty one. Raises ExpressionError for a mistake in it."""
+        found = self.compile(text, "any")
+        kind = _TOLD.get(found._compiled.return_type().name().lower(), "any")
+        return kind, Expression(text, kind, found._compiled)
 
     def _declare(self, cel: Any, function: Function, tag: str) -> Any:
         parameters = [self._kinds[kind] for kind in function.parameters]
@@ -156,7 +171,9 @@ class Expression:
         return value
 
 
-_PYTHON: dict[Kind, Any] = {"number": float, "bool": bool, "text": str, "list": list, "any": object}
+_PYTHON: dict[Kind, Any] = {
+    "number": float, "bool": bool, "text": str, "list": list, "numbers": list, "texts": list, "any": object,
+}  # fmt: skip
 
 
 def _count(items: Any) -> float:

@@ -15,7 +15,7 @@ ORDER = (
     "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "content",
     "geometry",
     "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
-    "backends", "policy", "execution", "runs", "edge", "history", "bench",
+    "backends", "policy", "execution", "runs", "edge", "history", "bench", "recipes",
 )  # fmt: skip
 LOOSE = 6
 """How many modules may lie beside the rooms."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,11 +11,12 @@ from pico.bench.auditing import with_audit
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
-from pico.model.diff import Change
+from pico.model.diff import Change, show_value
 from pico.model.drift import drift_of
 from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.plan import Base, Plan, Target
+from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
 from pico.model.state import LabState, place_of, state_from_json
 from pico.motion.deferred import DeferredMotion
@@ -193,16 +194,60 @@ class Plans:
     def to_measure(self, revision: str | None = None) -> Plan:
         """Return the plan that measures what the expectations of a revision, or of the manifest, speak of, as far as
         this bench can; it has no operations where that is nothing."""
-        from pico import planning
         from pico.model.vocabulary import measured_in
 
-        opened, setup = self.opened, self.opened.setup
+        opened = self.opened
         state = opened.folder.state_at(revision) if revision else opened.state
-        able, seen = opened.wait(opened.edge.describe()), opened.observe()
-        spoken = measured_in(setup, [one.that for one in state.expect])
-        wanted = [(name, m) for name, m in spoken if f"{name}.{m}" in able.measurables]
+        able = opened.wait(opened.edge.describe())
+        spoken = measured_in(opened.setup, [one.that for one in state.expect])
+        return self.measuring([(name, m) for name, m in spoken if f"{name}.{m}" in able.measurables])
+
+    def measuring(self, wanted: Sequence[tuple[str, str]]) -> Plan:
+        """Return the plan that measures measurables, each as its component and its name."""
+        from pico import planning
+
+        setup, seen = self.opened.setup, self.opened.observe()
         found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **self._start(seen))
         return self._judged(found, seen)
+
+    def setting(self, values: Mapping[str, Value]) -> Plan:
+        """Return the plan that brings tunables to values exactly, by address (`p1.angle`), side by side as far as their
+        motors can; nothing else is set or moved."""
+        if len(values) == 1:
+            (address, value), = values.items()
+            component, _, tunable = address.partition(".")
+            return self.single(component, "set", {tunable: show_value(value)})
+        parts: dict[str, dict[str, Value]] = {}
+        for address, value in values.items():
+            component, _, tunable = address.partition(".")
+            parts.setdefault(component, {})[tunable] = value
+        seen = self.opened.observe()
+        live = live_state(self.opened.setup, seen)
+        changed = {
+            name: replace(live.components[name], values={**live.components[name].values, **own})
+            for name, own in parts.items() if name in live.components
+        }  # fmt: skip
+        return self._asked(seen, replace(live, components={**live.components, **changed}), values)
+
+    def moving(self, places: Mapping[str, str | Mapping[str, float]]) -> Plan:
+        """Return the plan that takes parts to slots or poses (what is not named of one stays as observed), in an order
+        in which they pass one another; nothing else is moved but what must make way."""
+        seen = self.opened.observe()
+        live = live_state(self.opened.setup, seen)
+        changed = {}
+        for name, place in places.items():
+            part = seen.components.get(name)
+            if part is None or part.pose is None or name not in live.components:
+                raise PicoError(error("missing", f"nobody sees {name}, so it can't be moved", address=name))
+            own, pose = live.components[name], None
+            if not isinstance(place, str):
+                pose = replace(part.pose, **{k: float(v) for k, v in place.items()})
+            changed[name] = replace(own, slot=place if isinstance(place, str) else None, pose=pose)
+        return self._asked(seen, replace(live, components={**live.components, **changed}), places)
+
+    def _asked(self, seen: Observation, wanted: LabState, named: Collection[str]) -> Plan:
+        target = Target(title=", ".join(named), only=tuple(sorted(named)), state=wanted.as_json())
+        return self.to_state(seen, wanted, target, exact=True, targets=tuple(named))
 
     def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""

@@ -33,7 +33,8 @@ def about_run(setup: Setup, plan: Plan, able: Capabilities) -> dict[str, Any]:
 def cause_of(plan: Plan) -> dict[str, str]:
     """Return the `kind` of what a plan was made for, and `of` which run; see `pico.model.run.Cause`."""
     if plan.target.cause:
-        return {"kind": plan.target.cause, **({"of": plan.target.of} if plan.target.of else {})}
+        more = {"of": plan.target.of, "recipe": plan.target.recipe, "step": plan.target.step}
+        return {"kind": plan.target.cause, **{key: value for key, value in more.items() if value}}
     return {"kind": "single" if plan.asked else "apply"}
 
 

@@ -42,7 +42,8 @@ class Target:
     `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
     is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
-    `heal`; `single`: for one operation that somebody asked for), and `of` which run.
+    `heal`; `single`: for one operation that somebody asked for), and `of` which run; `recipe`: of which run
+    of a recipe (`NAME@ID`) it is a `step`.
     """
 
     revision: str | None = None
@@ -54,6 +55,8 @@ class Target:
     expect: tuple[Expectation, ...] | None = None
     cause: str | None = None
     of: str | None = None
+    recipe: str | None = None
+    step: str | None = None
 
     @property
     def name(self) -> str:
@@ -153,6 +156,10 @@ class Plan:
     def because(self, cause: str, of: str | None = None) -> Plan:
         """Return the plan, sealed, with why it was made: see `Target`."""
         return replace(self, target=replace(self.target, cause=cause, of=of)).sealed()
+
+    def for_recipe(self, recipe: str, step: str) -> Plan:
+        """Return the plan, sealed, as that of a step of a recipe: see `Target`."""
+        return replace(self, target=replace(self.target, cause="recipe", recipe=recipe, step=step)).sealed()
 
     def sealed(self) -> Plan:
         """Return the plan with its digest set."""

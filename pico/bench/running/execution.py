@@ -39,15 +39,16 @@ class Execution:
         *,
         recording: Recording | None = None,
         resumes: str | None = None,
+        run_id: str | None = None,
         stop_on_error: bool = False,
         wait: float = 0.0,
         speed: float | None = None,
     ) -> None:
         """`thread`: where the edge lives. `named`: what the goal is called once the run is over. `recording`: gets what
-        a film of it shows. `resumes`: the run that goes on under its id. `stop_on_error`, `wait`,
+        a film of it shows. `resumes`: the run that goes on under its id. `run_id`: of the new one. `stop_on_error`, `wait`,
         `speed`: see `pico.edge.protocol.Job`.
         """
-        self.plan, self.id = plan, resumes or new_run_id()
+        self.plan, self.id = plan, resumes or run_id or new_run_id()
         self._edge, self._thread, self._recording = edge, thread, recording
         self._named = named or (lambda: plan.target.name)
         self._job = Job(

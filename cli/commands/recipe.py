@@ -1,0 +1,87 @@
+"""Recipes, 2: `pico recipe`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode
+
+from ..arguments import group
+from ..session import Session
+from ..terminal.waiting import waiting
+from ..views import recipe as view
+from ..views import recipe_list as table
+from ..views import recipe_steps as steps_view
+
+app = group(
+    help="List and check recipes: experiments that anybody can run again.",
+    examples=("pico recipe", "pico recipe check tilt_scan", "pico recipe steps"),
+    alone=True,
+)
+
+
+@app.callback()
+def main(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        list_(context)
+
+
+@app.command("list")
+def list_(context: typer.Context) -> None:
+    """List the recipes of the lab, and runs of recipes that were cut short; `pico recipe` alone does the same.
+
+    Examples:
+      pico recipe list
+    """
+    from pico.recipes.recipes import Recipes
+
+    session = Session.of(context)
+    recipes = Recipes(session.bench())
+    session.show(table, recipes.listed(), recipes.cut_short())
+
+
+@app.command()
+def check(
+    context: typer.Context,
+    recipe: Annotated[str, typer.Argument(metavar="RECIPE", help="A file, or a name in `recipes/`.")],
+    given: Annotated[
+        list[str] | None, typer.Option("-p", "--param", metavar="NAME=VALUE", help="A parameter; may be repeated.")
+    ] = None,
+) -> int:
+    """Check a recipe on this bench before anything moves.
+
+    Names, kinds, units, what the bench can do; then every state that is known in advance is planned from the one
+    before it. What depends on measurements is left out. Exits with 1 for mistakes, 3 for what is physically impossible.
+
+    Examples:
+      pico recipe check tilt_scan -p tilts='[0, 45]'
+    """
+    from pico.recipes.recipes import Recipes
+
+    from .run import _pairs
+
+    session = Session.of(context)
+    recipes = Recipes(session.bench())
+    found, wrong = recipes.check(recipe)
+    if wrong or found is None:
+        session.report(wrong)
+        return int(ExitCode.ERROR)
+    with waiting("Planning what is known in advance"):
+        ahead = recipes.ahead(found, recipes.arguments(found, _pairs(given or [])))
+    session.show(view, found, ahead)
+    session.report(ahead.diagnostics)
+    return int(ahead.exit_code)
+
+
+@app.command()
+def steps(context: typer.Context) -> None:
+    """List the steps that recipes may have, each with an example.
+
+    Examples:
+      pico recipe steps
+    """
+    from pico.recipes.registry import known, step_file
+
+    Session.of(context).show(steps_view, {name: step_file(name).KIND for name in known()})

@@ -1,0 +1,127 @@
+"""Recipes, 1: `pico run`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pico.diagnostics import ExitCode, PicoError, error
+
+from ..arguments import Fidelity, LockTimeout, Yes
+from ..runs.running import say
+from ..session import Session
+from ..terminal.waiting import waiting
+from ..views import recipe as view
+from ..views import recipe_progress as progress
+
+if TYPE_CHECKING:
+    from pico.recipes.ahead import Foreseen
+    from pico.recipes.log import Log
+    from pico.recipes.recipe import Recipe
+    from pico.recipes.recipes import Recipes
+
+Given = Annotated[
+    list[str] | None,
+    typer.Option("-p", "--param", metavar="NAME=VALUE", help="A parameter, with its unit or without; may be repeated."),
+]
+Until = Annotated[str, typer.Option("--until", metavar="STEP", help="Stop before this step: `3`, `3[2].1`.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Go on with the run that was cut short last.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the steps as far as they are known; move nothing.")]
+
+
+def run(
+    context: typer.Context,
+    recipe: Annotated[str | None, typer.Argument(metavar="RECIPE", help="A file, or a name in `recipes/`.")] = None,
+    given: Given = None,
+    dry_run: DryRun = False,
+    until: Until = "",
+    resume: Resume = False,
+    fidelity: Fidelity = None,
+    auto_approve: Yes = False,
+    lock_timeout: LockTimeout = None,
+) -> int:
+    """Run a recipe: an experiment, step by step.
+
+    It is checked first, and every state that is known in advance is planned; then it asks. Each step is written down
+    when it begins and when it is done: after Ctrl-C, a kill or a power cut `pico run --resume` goes on where it was,
+    measures nothing twice and loses nothing. An assertion that fails ends it with exit code 6. With --json: a line for
+    each step, and one for the end.
+
+    Examples:
+      pico run tilt_scan -p tilts='[0, 15, 30]'
+      pico run recipes/tilt_scan.yaml --dry-run
+      pico run --resume
+    """
+    from pico.recipes.recipes import Recipes
+
+    session = Session.of(context)
+    if (recipe is None) != resume:
+        hint = "`pico run RECIPE`, or `pico run --resume` for the one that was cut short"
+        raise PicoError(error("usage", "name a recipe, or say --resume", hint=hint))
+    bench = session.bench(fidelity, writing=not dry_run)
+    recipes = Recipes(bench)
+    if resume:
+        log = recipes.unended()
+        return _carry_out(session, recipes, recipes.taken_up(log), log, until, auto_approve)
+    assert recipe is not None
+    found = recipes.read(recipe)
+    arguments = recipes.arguments(found, _pairs(given or []))
+    with waiting("Planning what is known in advance"):
+        ahead = recipes.ahead(found, arguments)
+    if dry_run or ahead.diagnostics:
+        session.show(view, found, ahead)
+        session.report(ahead.diagnostics)
+        return int(ahead.exit_code)
+    if not _agreed(session, found, ahead, auto_approve):
+        session.say("Nothing was done.")
+        return int(ExitCode.ERROR)
+    return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True)
+
+
+def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: bool) -> bool:
+    session.require_answer(auto_approve)
+    session.say(view.head(recipe, ahead))
+    return session.confirm(f"Run {recipe.name}?", auto_approve)
+
+
+def _carry_out(session: Session, recipes: Recipes, recipe: Recipe, log: Log, until: str, agreed: bool) -> int:
+    from pico.recipes.running import Watching
+
+    if not agreed and not session.confirm(f"Go on with {recipe.name}, run {log.about.id}?", agreed):
+        session.say("Nothing was done.")
+        return int(ExitCode.ERROR)
+    attended = sys.stdin is not None and sys.stdin.isatty() and not session.json
+    lines = progress.Lines(recipes.bench.setup)
+
+    def write(found: Any) -> None:
+        if session.json:
+            session.document(found)
+        elif found:
+            session.say(found)
+
+    watching = Watching(
+        entered=lambda entered: write(progress.data(entered) if session.json else lines.entered(entered)),
+        ended=lambda path, told, before: write(
+            progress.told(path, told, before) if session.json else lines.ended(path, told, before)
+        ),
+        until=until,
+    )
+    how: dict[str, Any] = {"attended": attended, "say": say}
+    if attended:
+        how["ask"] = lambda question: session.confirm(question, False)
+    outcome = recipes.run(recipe, log, watching, **how)
+    if session.json:
+        session.document(view.outcome_data(outcome, recipe))
+    else:
+        session.say(view.outcome(outcome, recipe))
+    session.tell(outcome.diagnostics)
+    return int(outcome.exit_code)
+
+
+def _pairs(words: list[str]) -> dict[str, str]:
+    for word in words:
+        if "=" not in word:
+            raise PicoError(error("usage", f"-p takes NAME=VALUE, not `{word[:40]}`", hint="`-p tilt='30 deg'`"))
+    return dict(word.split("=", 1) for word in words)

@@ -1,0 +1,86 @@
+"""A recipe before it is run, and what became of its run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pico.model.record import as_json
+
+from .style import count, paint, seconds, shorten, wide, wrap
+
+if TYPE_CHECKING:
+    from pico.recipes.ahead import Foreseen
+    from pico.recipes.recipe import Recipe
+    from pico.recipes.running import Outcome
+    from pico.recipes.walking import Entered
+
+
+def text(recipe: Recipe, ahead: Foreseen) -> str:
+    """Return the steps as far as they are known, with what each takes."""
+    lines = [head(recipe, ahead), ""]
+    for entered, takes in ahead.steps:
+        took = f"  {seconds(takes)}" if takes else ""
+        lines.append(shorten(line(entered), wide() - len(took)) + paint("dim", took))
+    return "\n".join(lines)
+
+
+def line(entered: Entered) -> str:
+    """Return a step in a line: its path, what it does, in which turn of a loop with which values."""
+    turn = ""
+    if entered.turn:
+        values = ", ".join(f"{name} = {_short(value)}" for name, value in entered.values.items())
+        total = f"/{entered.turn[1]}" if entered.turn[1] else ""
+        turn = paint("cyan", f"  {values}  ({entered.turn[0]}{total})".replace("    (", "  ("))
+    title = "foreach" if entered.turn and entered.values else entered.step.title
+    return f"{'  ' * (entered.depth + 1)}{paint('dim', entered.path)} {title}{turn}"
+
+
+def head(recipe: Recipe, ahead: Foreseen) -> str:
+    """Return what a recipe is, how many of its steps are known in advance, and how long they take."""
+    known = sum(takes is not None for _, takes in ahead.steps)
+    title = f": {recipe.title}" if recipe.title else ""
+    more = "" if ahead.whole else "; more may follow"
+    said = f"{recipe.name}{title} · {count(known, 'step')} foreseen, about {seconds(ahead.seconds)} on the bench{more}"
+    return "\n".join(wrap(said, ""))
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def data(recipe: Recipe, ahead: Foreseen) -> dict[str, Any]:
+    """Return schema `pico.recipe_ahead/v1`: `recipe`, `digest`, `seconds`, `whole`, `steps` with `path`, `title`,
+    `seconds`, and `diagnostics`."""
+    steps = [
+        {"path": e.path, "title": e.step.title, **({"seconds": takes} if takes is not None else {})}
+        for e, takes in ahead.steps
+    ]
+    return {
+        "schema": "pico.recipe_ahead/v1", "recipe": recipe.name, "digest": recipe.digest, "seconds": ahead.seconds,
+        "whole": ahead.whole, "steps": steps, "diagnostics": as_json(ahead.diagnostics),
+    }  # fmt: skip
+
+
+def outcome(found: Outcome, recipe: Recipe) -> str:
+    """Return how a run of a recipe ended, what it returns, and what to do next."""
+    colour = {"done": "green", "failed": "red"}.get(found.outcome, "yellow")
+    at = f" at step {found.at}" if found.at else ""
+    before = f", {found.before} of them before it was taken up" if found.before else ""
+    lines = [
+        f"\n{recipe.name}: {paint(colour, found.outcome)}{at}, {count(found.acted + found.before, 'step')}{before}"
+    ]
+    lines += [f"  {name} = {_short(value)}" for name, value in found.returns.items()]
+    if found.outcome == "interrupted":
+        lines.append("Go on with `pico run --resume`.")
+    lines.append(f"Run {found.id}: `pico runs` lists what it did on the bench, `pico commit` keeps it.")
+    return "\n".join(lines)
+
+
+def outcome_data(found: Outcome, recipe: Recipe) -> dict[str, Any]:
+    """Return schema `pico.recipe_run/v1`: `run`, `recipe`, `outcome`, `at`, `returns`, `acted`, `before`,
+    `diagnostics`."""
+    return {
+        "schema": "pico.recipe_run/v1", "run": found.id, "recipe": recipe.name, "digest": recipe.digest,
+        "outcome": found.outcome, "at": found.at, "returns": dict(found.returns), "acted": found.acted,
+        "before": found.before, "diagnostics": as_json(found.diagnostics),
+    }  # fmt: skip

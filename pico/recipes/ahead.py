@@ -1,0 +1,121 @@
+"""A recipe ahead of time: every state that is known in advance is planned from the one before it, and nothing moves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, cast
+
+from pico.bench.bench import Bench
+from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.model.observation import Observation, ObservedComponent, ObservedValue
+from pico.model.operation import Operation
+from pico.model.pose import Pose
+from pico.model.vocabulary import values_of
+from pico.recipes.doing import Doing
+from pico.recipes.recipe import Act, Recipe
+from pico.recipes.registry import StepFile, step_file
+from pico.recipes.walking import Ask, Entered, Told, walk
+
+MOST = 400
+"""Steps that are looked at ahead."""
+
+
+@dataclass(frozen=True)
+class Foreseen:
+    """What is known of a recipe in advance: its steps as they would be begun with the seconds that each takes [s, None
+    where nobody knows], the `seconds` of all, what is impossible; `whole`: no step was left out."""
+
+    steps: tuple[tuple[Entered, float | None], ...]
+    seconds: float
+    diagnostics: tuple[Diagnostic, ...] = ()
+    whole: bool = True
+    exit_code: ExitCode = ExitCode.DONE
+
+
+class _Later(Bench):
+    """A bench as it will be: it is observed as the plans so far would leave it."""
+
+    def __init__(self, bench: Bench) -> None:
+        kept = {k: v for k, v in vars(bench).items() if not isinstance(getattr(Bench, k, None), cached_property)}
+        self.__dict__.update(kept)
+        self.seen = bench.observe()
+
+    def observe(self) -> Observation:
+        """Return what would be seen."""
+        return self.seen
+
+
+def foresee(bench: Bench, recipe: Recipe, arguments: Mapping[str, Any]) -> Foreseen:
+    """Return what is known of a recipe in advance on a bench as it stands."""
+    return _Ahead(bench, recipe, arguments).run()
+
+
+class _Ahead:
+    def __init__(self, bench: Bench, recipe: Recipe, arguments: Mapping[str, Any]) -> None:
+        self.later = _Later(bench)
+        self.walk = walk(recipe, arguments, self.entered, ahead=True)
+        self.steps: list[tuple[Entered, float | None]] = []
+        self.found: list[Diagnostic] = []
+        self.whole, self.acts, self.code = True, 0, ExitCode.DONE
+
+    def entered(self, entered: Entered) -> None:
+        self.steps.append((entered, None))
+
+    def run(self) -> Foreseen:
+        try:
+            ask = next(self.walk)
+            while self.acts < MOST:
+                ask = self.walk.send(self.told(ask))
+            self.whole = False
+        except StopIteration:
+            pass
+        except PicoError as exc:
+            self.found.extend(exc.diagnostics)
+            self.code = exc.exit_code
+        seconds = sum(s for _, s in self.steps if s is not None)
+        return Foreseen(tuple(self.steps), seconds, tuple(self.found), self.whole and not self.found, self.code)
+
+    def told(self, ask: Ask) -> Told:
+        if ask.step is None:
+            parts = sorted({n.partition(".")[0] for n in ask.names})
+            values, _ = values_of(self.later.setup, self.later.seen, parts)
+            return {n: values[n] for n in ask.names if n in values}
+        self.acts += 1
+        seconds = self.planned(ask, ask.step, step_file(ask.step.kind))
+        self.steps[-1] = (self.steps[-1][0], seconds)
+        return {}
+
+    def planned(self, ask: Ask, step: Act, file: StepFile) -> float | None:
+        """Plan a step from the bench as it would be by then, and let that be done; return how long it takes [s]."""
+        if not hasattr(file, "plan"):
+            return float(ask.given["seconds"]) if "seconds" in ask.given else 0.0
+        try:
+            plan = cast(Any, file).plan(Doing(self.later, step=ask.path), ask.given)
+        except PicoError as exc:
+            raise PicoError([replace(d, source=step.source) for d in exc.diagnostics], exc.exit_code) from exc
+        if plan.exit_code:
+            wrong = [d for d in plan.diagnostics if d.severity == "error"]
+            raise PicoError([replace(d, source=step.source) for d in wrong], plan.exit_code)
+        for op in plan.operations:
+            self.later.seen = done(self.later.seen, op)
+        return float(plan.makespan)
+
+
+def done(seen: Observation, op: Operation) -> Observation:
+    """Return what would be seen once an operation was done as it is planned."""
+    part = seen.components.get(op.component)
+    if part is None:
+        return seen
+    if op.kind.carries and "pose" in op.arguments.get("to", {}):
+        part = replace(part, pose=Pose(**op.arguments["to"]["pose"]), presence="seen")
+    elif op.primitive == "set" and "to" in op.arguments:
+        part = _with(part, str(op.arguments["tunable"]), op.arguments["to"])
+    else:
+        return seen
+    return replace(seen, components={**seen.components, op.component: part})
+
+
+def _with(part: ObservedComponent, tunable: str, value: Any) -> ObservedComponent:
+    return replace(part, values={**part.values, tunable: ObservedValue(value=value)})

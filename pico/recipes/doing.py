@@ -1,0 +1,91 @@
+"""What steps do things by: the bench, and the run of the recipe that they belong to."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import ExitCode, PicoError, error
+
+if TYPE_CHECKING:
+    from pico.bench.bench import Bench
+    from pico.model.event import Event
+    from pico.model.measurement import Measurement
+    from pico.model.plan import Plan
+
+
+def _deaf(_: object) -> None:
+    return None
+
+
+def nobody(question: str) -> bool:
+    """Answer a question where nobody is there; raises PicoError."""
+    hint = "run it at a terminal; or give the step `unattended: skip`"
+    raise PicoError(error("unattended", f"nobody is there to be asked: {question}", hint=hint))
+
+
+@dataclass
+class Doing:
+    """One recipe under way on a bench.
+
+    `recipe`, `step`: what runs are recorded as caused by. `begin` is told the id of each run before it begins;
+    `begun`: runs that this step began before it was cut short, as it was where it is done `again`. `head`: the commit
+    checked out when it first began. `attended`: a person is there, to whom `ask` puts questions; `show` hears events,
+    `say` what a signal leads to.
+    """
+
+    bench: Bench
+    recipe: str = ""
+    step: str = ""
+    begun: Sequence[str] = ()
+    again: bool = False
+    attended: bool = False
+    head: str | None = None
+    begin: Callable[[str], None] = _deaf
+    ask: Callable[[str], bool] = nobody
+    show: Callable[[Event], None] = _deaf
+    say: Callable[[str], None] = _deaf
+
+    def run(self, plan: Plan) -> Mapping[str, Measurement]:
+        """Run a plan, and return what was measured in it; raises PicoError where it can't be run, or fails.
+
+        A plan that only measures and was carried out before the recipe was cut short is not run again.
+        """
+        from pico.bench.running.attending import attend
+        from pico.bench.running.execution import new_run_id
+        from pico.recipes.taken_up import measured_before
+
+        plan = plan.for_recipe(self.recipe, self.step)
+        if plan.exit_code:
+            raise PicoError([d for d in plan.diagnostics if d.severity == "error"] or _denied(plan), plan.exit_code)
+        if not plan.operations:
+            return {}
+        if (before := measured_before(self.bench, self.begun, plan)) is not None:
+            return before
+        run_id = new_run_id()
+        self.begin(run_id)
+        run = self.bench.moves.run(plan, holder=f"pico run {self.recipe}", run_id=run_id)
+        came = attend(run, self.show, self.say)
+        report = run.report
+        if came or report.exit_code == ExitCode.INTERRUPTED:
+            raise PicoError(error("interrupted", f"interrupted at step {self.step}"), ExitCode.INTERRUPTED)
+        if report.exit_code:
+            wrong = [d for d in report.diagnostics if d.severity == "error"]
+            found = wrong or [error("failed", f"run {report.run} did not reach its goal", hint="`pico runs show`")]
+            raise PicoError(found, report.exit_code)
+        return report.measurements
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass on the bench's clock [s]: a simulated one passes at once."""
+        if self.bench.wait(self.bench.edge.describe()).simulated:
+            self.bench.sim.wait(seconds)
+        else:
+            time.sleep(seconds)
+
+
+def _denied(plan: Plan) -> list[Any]:
+    broken = [rule for rule in plan.policy if not rule.get("holds") and rule.get("level") == "mandatory"]
+    said = "; ".join(str(rule.get("message") or rule.get("name")) for rule in broken)
+    return [error("denied", f"the policy of {plan.lab.name} does not allow it: {said}")]

@@ -1,0 +1,153 @@
+"""What a run of a recipe has done, line by line in `.pico/recipes/ID.jsonl`: told again, it leads to the same place.
+
+The first line says which recipe, by its digest, with which parameters. A step that acts has a line when it begins, one
+for each run that it begins on the bench, and one with what came of it. Every line is on the disk before what it tells
+of begins, or anybody hears of it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pico.attachment import bench_folder
+from pico.diagnostics import PicoError, error
+from pico.disk import unwritable
+from pico.model.record import digest
+
+SCHEMA = "pico.recipe_run/v1"
+
+
+@dataclass
+class Logged:
+    """What is known of a step that acts: the digest of what it was `given`, the `head` commit when it first began, the
+    `runs` that it began, and what it `told`, None while it has not ended."""
+
+    given: str
+    head: str | None = None
+    runs: list[str] = field(default_factory=list)
+    told: Mapping[str, Any] | None = None
+
+
+@dataclass(frozen=True)
+class About:
+    """A run of a recipe: its id, the recipe by name, path and digest, the values of its parameters, when it began;
+    `ended` as what, empty while it has not."""
+
+    id: str
+    name: str
+    path: str
+    digest: str
+    arguments: Mapping[str, Any]
+    at: str
+    ended: str = ""
+
+
+class Log:
+    """The log of one run of a recipe. Raises PicoError where it can't be written."""
+
+    def __init__(self, path: Path, about: About, steps: dict[str, Logged]) -> None:
+        self.path, self.about, self.steps = path, about, steps
+
+    @classmethod
+    def begin(cls, root: Path, about: About) -> Log:
+        """Begin the log of a new run on the bench of the lab in `root`."""
+        log = cls(folder(root) / f"{about.id}.jsonl", about, {})
+        data = {k: v for k, v in vars(about).items() if k != "ended"}
+        log._write({"schema": SCHEMA, **data})
+        return log
+
+    @classmethod
+    def read(cls, path: Path) -> Log:
+        """Return the log of a run that was begun before; a last line that was cut short does not count."""
+        try:
+            lines = path.read_text(encoding="utf-8").split("\n")[:-1]
+            first, *rest = [json.loads(line) for line in lines]
+            known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at")}
+            if first.get("schema") != SCHEMA:
+                raise ValueError(f"it is {first.get('schema')}")
+            ended, steps = "", dict[str, Logged]()
+            for line in rest:
+                ended = line.get("ended", "")
+                _take(steps, line)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
+            hint = "begin the recipe anew: what it did is in the runs of the bench"
+            raise PicoError(error("recipe-log", f"{path} can't be read: {exc}", hint=hint)) from exc
+        return cls(path, About(**known, ended=ended), steps)
+
+    def begun(self, path: str, given: Any, head: str | None) -> Logged:
+        """Note that a step begins; return what is known of it, which is what it was where it began before.
+
+        Raises PicoError where it was given something else then: the recipe can't be taken up.
+        """
+        known, content = self.steps.get(path), digest(given)
+        if known is None:
+            known = self.steps[path] = Logged(content, head)
+            self._write({"step": path, "given": content, "head": head})
+        elif known.given != content:
+            text = f"step {path} is not what it was when this recipe was cut short"
+            raise PicoError(error("recipe-changed", text, hint="begin it anew, without --resume"))
+        return known
+
+    def running(self, path: str, run: str) -> None:
+        """Note that a step begins a run on the bench."""
+        self.steps[path].runs.append(run)
+        self._write({"step": path, "run": run})
+
+    def told(self, path: str, result: Mapping[str, Any]) -> None:
+        """Note what came of a step."""
+        self.steps[path].told = result
+        self._write({"step": path, "told": result, "digest": digest(result)})
+
+    def end(self, how: str) -> None:
+        """Note how the run ended: `done`, `failed`; one that was interrupted has no end, and can be taken up."""
+        self._write({"ended": how})
+
+    def _write(self, line: Mapping[str, Any]) -> None:
+        text = json.dumps(line, ensure_ascii=False, allow_nan=False, sort_keys=True)
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            with self.path.open("ab") as file:
+                if file.tell() and not _ends_line(self.path):
+                    file.truncate(_whole(self.path))  # what a kill left of the last line
+                file.write(f"{text}\n".encode())
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as exc:
+            what = f"{self.path} can't be written"
+            raise PicoError(unwritable(self.path, exc, what=what, code="recipe-log")) from exc
+
+
+def folder(root: Path) -> Path:
+    """Return where the logs of a bench are."""
+    return bench_folder(root) / "recipes"
+
+
+def logs(root: Path) -> list[Path]:
+    """Return the logs of a bench, the latest first."""
+    return sorted(folder(root).glob("*.jsonl"), reverse=True)
+
+
+def _take(steps: dict[str, Logged], line: Mapping[str, Any]) -> None:
+    if "given" in line:
+        steps[line["step"]] = Logged(line["given"], line.get("head"))
+    elif "run" in line:
+        steps[line["step"]].runs.append(line["run"])
+    elif "told" in line:
+        if digest(line["told"]) != line["digest"]:
+            raise ValueError(f"what step {line['step']} told was changed")
+        steps[line["step"]].told = line["told"]
+
+
+def _ends_line(path: Path) -> bool:
+    with path.open("rb") as file:
+        file.seek(-1, os.SEEK_END)
+        return file.read(1) == b"\n"
+
+
+def _whole(path: Path) -> int:
+    return path.read_bytes().rfind(b"\n") + 1

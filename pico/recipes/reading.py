@@ -1,0 +1,116 @@
+"""From the text of a recipe to its steps, or all that is wrong with it, before anything moves."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping
+
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.manifest.text.kinds import API
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Map, Node, Scalar, parse
+from pico.model.lab import Setup
+from pico.recipes.parameters import read_parameters
+from pico.recipes.reader import Able, Reader
+from pico.recipes.reading_steps import Reading, read_steps
+from pico.recipes.recipe import Name, Recipe
+from pico.recipes.scope import Scope, bench_names
+from pico.recipes.terms import Term
+
+KEYS = ("apiVersion", "kind", "metadata", "parameters", "steps", "finally", "returns")
+METADATA = ("name", "title", "description", "lab")
+DEEPEST = 8
+"""How deep recipes may call one another."""
+Fetch = Callable[[str, str], tuple[str, bytes]]
+"""Returns the path and the text of a recipe by its name, as called from the recipe at a path; raises PicoError."""
+
+
+def read_recipe(
+    source: Source, setup: Setup, fetch: Fetch, able: Able | None = None, above: tuple[str, ...] = (),
+    bench: Mapping[str, Name] | None = None, made: set[str] | None = None,
+) -> tuple[Recipe | None, list[Diagnostic]]:  # fmt: skip
+    """Return the recipe of a text, and all that is wrong with it on this bench; None where it can't be read."""
+    documents, found = parse(source)
+    if found or len(documents) != 1 or not isinstance(documents[0].root, Map):
+        text = "a recipe is one mapping of keys to values"
+        return None, found or [error("recipe", text, hint=f"begin it with `apiVersion: {API}`", source=source.range(0))]
+    document, root = documents[0], documents[0].root
+    reader = Reader(document, setup, found, able or Able(), made)
+    names, called = bench_names(setup) if bench is None else bench, list[Recipe]()
+
+    def call(node: Node) -> Recipe | None:
+        found = _called(reader, fetch, node, (*above, source.path), names)
+        called.extend([found] if found else [])
+        return found
+
+    reader.keys(root, KEYS, "a recipe")
+    about = _about(reader, root)
+    parameters = read_parameters(reader, root.get("parameters"))
+    full = frozenset(p.name for p in parameters.values() if p.kind in ("numbers", "texts"))
+    reading = Reading(root, reader, full, call)
+    own = {p.name: Name(p.kind, p.unit) for p in parameters.values()}
+    scope = Scope(names, own)
+    steps = read_steps(reading, scope, root.get("steps"), "", "steps")
+    if not root.get("steps"):
+        reader.wrong(root, "missing-key", "the recipe has no `steps`", "`steps: [{apply: e1}]`")
+    finally_ = read_steps(reading, Scope(names, own), root.get("finally"), "finally.", "finally")
+    returns, returned = _returns(reader, scope, root.get("returns"))
+    digest = hashlib.sha256("\0".join([source.content, *(r.digest for r in called)]).encode()).hexdigest()
+    recipe = Recipe(
+        **about, parameters=parameters, steps=steps, finally_=finally_, returns=returns, returned=returned,
+        digest=f"sha256:{digest}", path=source.path,
+    )  # fmt: skip
+    return recipe, found
+
+
+def _about(reader: Reader, root: Map) -> dict[str, str]:
+    node = root.get("metadata")
+    kind = root.get("kind")
+    if not isinstance(kind, Scalar) or kind.text != "Recipe":
+        reader.wrong(kind or root, "kind", "this is no recipe", "`kind: Recipe`")
+    api = root.get("apiVersion")
+    if not isinstance(api, Scalar) or api.text != API:
+        reader.wrong(api or root, "api-version", f"`apiVersion` is not `{API}`", f"begin it with `apiVersion: {API}`")
+    if not isinstance(node, Map):
+        reader.wrong(node or root, "missing-key", "the recipe has no `metadata`", "`metadata: {name: tilt_scan}`")
+        return {"name": "recipe"}
+    reader.keys(node, METADATA, "metadata of a recipe")
+    found = {k: v.text for k, (_, v) in node.entries.items() if k in METADATA and isinstance(v, Scalar)}
+    if "name" not in found:
+        reader.wrong(node, "missing-key", "the recipe has no name", "`metadata: {name: tilt_scan}`")
+    lab = reader.setup.lab.name
+    if found.get("lab", lab) != lab:
+        where = node.entries["lab"][1]
+        hint = "take `lab` out where it suits any lab that has the parts it speaks of"
+        reader.wrong(where, "lab", f"this recipe is for the lab `{found['lab'][:40]}`, the bench here is `{lab}`", hint)
+    return {"name": "recipe", **found}
+
+
+def _returns(reader: Reader, scope: Scope, node: Node | None) -> tuple[dict[str, Term], dict[str, Name]]:
+    if node is not None and not isinstance(node, Map):
+        reader.wrong(node, "type", "`returns` is a mapping of names to values", "`returns: {width: spot.x}`")
+    entries = node.entries if isinstance(node, Map) else {}
+    found = {name: reader.any(scope, value, name) for name, (_, value) in entries.items()}
+    return {name: term for name, (term, _) in found.items()}, {name: kind for name, (_, kind) in found.items()}
+
+
+def _called(
+    reader: Reader, fetch: Fetch, node: Node, above: tuple[str, ...], names: Mapping[str, Name]
+) -> Recipe | None:  # fmt: skip
+    name = node.text if isinstance(node, Scalar) else ""
+    if not name:
+        reader.wrong(node, "type", "`call` takes the name of a recipe", "`call: null_scan`")
+        return None
+    try:
+        path, text = fetch(name, above[-1])
+    except PicoError as exc:
+        reader.wrong(node, exc.diagnostics[0].code, exc.diagnostics[0].summary, exc.diagnostics[0].hint)
+        return None
+    if path in above or len(above) >= DEEPEST:
+        way = " → ".join([*above[-3:], path])
+        reader.wrong(node, "circle", f"recipes must not call one another in a circle: {way}")
+        return None
+    source = Source(path, text.decode("utf-8", "replace"))
+    recipe, found = read_recipe(source, reader.setup, fetch, reader.able, above, names, reader.made)
+    reader.found.extend(found)
+    return None if found else recipe

@@ -1,0 +1,238 @@
+"""The steps of a recipe as they are read: each against the names that are known where it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pico.diagnostics import did_you_mean
+from pico.manifest.text.tree import List, Map, Node, Scalar
+from pico.recipes.reader import NOTHING, Reader
+from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Parameter, Recipe, Step, While
+from pico.recipes.registry import CONTROL, known, step_file
+from pico.recipes.scope import Scope
+from pico.recipes.terms import Term, literal
+
+BESIDE = ("as", "name", "retries")
+"""Keys that may stand beside any step."""
+_OF: Mapping[str, tuple[str, ...]] = {
+    "foreach": ("steps",), "if": ("then", "else"), "while": ("most", "steps"), "call": ("with",), "let": (),
+    "assert": ("message",),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One recipe while it is read: `called` returns one that it calls, None where that is wrong, which is said; `full`:
+    lists that are never empty."""
+
+    root: Map
+    reader: Reader
+    full: frozenset[str]
+    called: Callable[[Node], Recipe | None]
+
+
+def read_steps(reading: Reading, scope: Scope, node: Node | None, at: str, what: str) -> tuple[Step, ...]:
+    """Return the steps of a list; names that they give are known to those that follow."""
+    if not isinstance(node, List):
+        if node is not None:
+            reading.reader.wrong(node, "type", f"`{what}` is no list of steps", "each begins with `- `")
+        return ()
+    found = []
+    for n, item in enumerate(node.items):
+        if (step := _step(reading, scope, item, f"{at}{n + 1}")) is not None:
+            found.append(step)
+    return tuple(found)
+
+
+def _step(reading: Reading, scope: Scope, node: Node, at: str) -> Step | None:
+    reader = reading.reader
+    names = (*CONTROL, *known())
+    if not isinstance(node, Map):
+        hint = f"`- {node.text}:`" if isinstance(node, Scalar) and node.text in names else "`- measure: cam.centroid`"
+        reader.wrong(node, "type", "a step is a mapping that begins with what is done", hint)
+        return None
+    kinds = [key for key in node.entries if key in names]
+    if len(kinds) != 1:
+        first = next(iter(node.entries.values()))[0] if node.entries else node
+        if kinds:
+            text = f"one step does one thing: `{kinds[0]}` or `{kinds[1]}`"
+            reader.wrong(node.entries[kinds[1]][0], "step", text, "begin another step with `- `")
+        else:
+            word = first.text if isinstance(first, Scalar) else ""
+            hint = did_you_mean(word[:40], names) or f"steps: {', '.join(names)}"
+            reader.wrong(first, "step", f"there is no step `{word[:40]}`", hint)
+        return None
+    kind = kinds[0]
+    allowed = (kind, *BESIDE, *(_OF[kind] if kind in CONTROL else step_file(kind).KIND.keys))
+    reader.keys(node, allowed, f"the step `{kind}`")
+    beside = {k: v for k, (_, v) in node.entries.items() if k != kind}
+    common = {"at": at, "title": _title(beside.get("name"), kind, node), "source": reader.at(node.entries[kind][0])}
+    common["retries"] = _retries(reader, scope, beside.get("retries"))
+    body = node.entries[kind][1]
+    if kind in CONTROL:
+        return _CONTROL[kind](reading, scope, body, beside, common)
+    return _act(reading, scope, kind, body, beside, common)
+
+
+def _act(reading: Reading, scope: Scope, kind: str, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    given = step_file(kind).read(reading.reader, scope, body, beside)
+    binds = _bind(reading, scope, beside.get("as"), kind, given.names)
+    scope.measured.update(given.measured)
+    return Act(**common, kind=kind, given=given.values, binds=binds, names=dict(given.names))
+
+
+def _bind(reading: Reading, scope: Scope, node: Node | None, kind: str, names: Any) -> str:
+    """Return the name that `as` gives to a result, which is known from then on; empty for none."""
+    reader = reading.reader
+    if node is None:
+        return ""
+    word = node.text if isinstance(node, Scalar) else ""
+    if not names:
+        reader.wrong(node, "name", f"`{kind}` here has no result that could be called `{word[:40]}`")
+    elif reader.new_name(node, word, scope):
+        _define(scope, word, names)
+        return word
+    return ""
+
+
+def _define(scope: Scope, word: str, names: Mapping[str, Name]) -> None:
+    gone = [n for n in scope.own if n == word or n.startswith(f"{word}.")]
+    for old in gone:
+        del scope.own[old]
+    scope.own.update({f"{word}.{part}" if part else word: kind for part, kind in names.items()})
+
+
+def _title(node: Node | None, kind: str, step: Map) -> str:
+    if isinstance(node, Scalar) and node.text:
+        return node.text
+    body = step.entries[kind][1]
+    if isinstance(body, Scalar):
+        return f"{kind} {body.text}".strip()
+    if isinstance(body, Map):
+        entries = ((k, v) for k, (_, v) in body.entries.items())
+        return f"{kind} {', '.join(f'{k}: {v.text}' if isinstance(v, Scalar) else k for k, v in entries)}"
+    return f"{kind} {', '.join(i.text for i in body.items if isinstance(i, Scalar))}"
+
+
+def _retries(reader: Reader, scope: Scope, node: Node | None) -> int:
+    if node is None:
+        return 0
+    term = reader.number(scope, node, "retries", low=0, high=100)
+    if not term.known or term is NOTHING or term.literal != int(term.literal):
+        if term is not NOTHING:
+            reader.wrong(node, "type", "`retries` is a whole number, written out")
+        return 0
+    return int(term.literal)
+
+
+# the language itself
+
+
+def _foreach(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    reader = reading.reader
+    inner, over = scope.inner(), dict[str, Term]()
+    if not isinstance(body, Map) or not body.entries:
+        reader.wrong(body, "type", "`foreach` takes names with their values", "`foreach: {tilt: [0, 15, 30]}`")
+        return Each(**common)
+    for word, (at, node) in body.entries.items():
+        term, each = reader.values(scope, node, word)
+        if reader.new_name(at, word, scope):
+            over[word] = term
+            _define(inner, word, {"": each})
+    steps = _inside(reading, inner, beside, "steps", common["at"])
+    if all(term.literal or any(term.text == f"${{{name}}}" for name in reading.full) for term in over.values()):
+        scope.measured |= inner.measured  # it goes round at least once
+    return Each(**common, over=over, steps=steps)
+
+
+def _inside(reading: Reading, scope: Scope, beside: Mapping[str, Node], key: str, at: str) -> tuple[Step, ...]:
+    if key not in beside:
+        hint = f"`{key}:` and a list of steps below it"
+        reading.reader.wrong(reading.root, "missing-key", f"step {at} has no `{key}`", hint)
+        return ()
+    return read_steps(reading, scope, beside[key], f"{at}.", key)
+
+
+def _if(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    that = reading.reader.flag(scope, body, "the condition")
+    then = _inside(reading, scope.inner(), beside, "then", common["at"])
+    other = (
+        read_steps(reading, scope.inner(), beside["else"], f"{common['at']}.else.", "else") if "else" in beside else ()
+    )
+    return Choice(**common, that=that, then=then, otherwise=other)
+
+
+def _while(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    reader = reading.reader
+    that = reader.flag(scope, body, "the condition")
+    most = reader.number(scope, beside["most"], "most", low=1, high=10_000) if "most" in beside else NOTHING
+    if most is NOTHING or not most.known:
+        reader.wrong(beside.get("most", body), "bound", "`while` needs a bound, written out", "`most: 10`")
+        most = literal(1)
+    steps = _inside(reading, scope.inner(), beside, "steps", common["at"])
+    return While(**common, that=that, most=int(most.literal), steps=steps)
+
+
+def _let(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    reader = reading.reader
+    if not isinstance(body, Map) or not body.entries:
+        reader.wrong(body, "type", "`let` takes names with their values", "`let: {half: (a - b) / 2}`")
+        return Let(**common)
+    values = {}
+    for word, (at, node) in body.entries.items():
+        term, kind = reader.any(scope, node, word)
+        old = scope.own.get(word)
+        if old is not None and old.kind != kind.kind and term is not NOTHING:
+            reader.wrong(at, "type", f"`{word}` was {old.kind} before, and now is {kind.kind}", "another name for it")
+        elif reader.new_name(at, word, scope):
+            values[word] = term
+            _define(scope, word, {"": old or kind})
+    return Let(**common, values=values)
+
+
+def _assert(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    that = reading.reader.flag(scope, body, "what must hold")
+    said = reading.reader.text(scope, beside["message"], "the message") if "message" in beside else None
+    return Assert(**common, that=that, message=said)
+
+
+def _call(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    reader = reading.reader
+    recipe = reading.called(body)
+    if recipe is None:
+        return Call(**common)
+    given, arguments = dict[str, Term](), beside.get("with")
+    entries = arguments.entries if isinstance(arguments, Map) else {}
+    if arguments is not None and not isinstance(arguments, Map):
+        reader.wrong(arguments, "type", "`with` is a mapping of parameters to values")
+    for word, (at, node) in entries.items():
+        parameter = recipe.parameters.get(word)
+        if parameter is None:
+            hint = did_you_mean(word[:40], recipe.parameters) or "it has no parameters"
+            reader.wrong(at, "unknown-key", f"{recipe.name} has no parameter `{word[:40]}`", hint)
+        else:
+            given[word] = _argument(reader, scope, node, parameter)
+    missing = [p.name for p in recipe.parameters.values() if p.default is None and p.name not in entries]
+    if missing:
+        reader.wrong(
+            body, "missing-key", f"{recipe.name} is not told {', '.join(missing)}", f"`with: {{{missing[0]}: ...}}`"
+        )
+    binds = _bind(reading, scope, beside.get("as"), "call", recipe.returned)
+    return Call(**common, recipe=recipe, given=given, binds=binds)
+
+
+def _argument(reader: Reader, scope: Scope, node: Node, parameter: Parameter) -> Term:
+    if parameter.kind == "number":
+        return reader.number(scope, node, parameter.name, parameter.unit, parameter.low, parameter.high)
+    if parameter.kind == "bool":
+        return reader.flag(scope, node, parameter.name)
+    if parameter.kind == "text":
+        return reader.text(scope, node, parameter.name)
+    return reader.values(scope, node, parameter.name, parameter.unit)[0]
+
+
+_CONTROL: Mapping[str, Callable[..., Step]] = {
+    "foreach": _foreach, "if": _if, "while": _while, "let": _let, "assert": _assert, "call": _call,
+}  # fmt: skip

@@ -1,0 +1,145 @@
+"""A recipe that was read and checked: frozen steps whose values are terms. See docs/how-to/recipes.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from pico.diagnostics import SourceRange
+from pico.expressions import Kind
+from pico.recipes.terms import Term
+
+MOST_TURNS = 10_000
+"""Turns that a recipe takes in all its loops together; more are a loop that runs away."""
+
+
+@dataclass(frozen=True)
+class Name:
+    """What a name stands for in expressions: the kind of its value, and its unit where that is a number of one."""
+
+    kind: Kind
+    unit: str = ""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A value that whoever runs a recipe may give, in `unit`; `default` None: it must be given. Numbers lie from `low`
+    to `high`, texts are one of `choices` where there are any; so is each item of a list."""
+
+    name: str
+    kind: Literal["number", "bool", "text", "numbers", "texts"]
+    unit: str = ""
+    default: Any = None
+    low: float | None = None
+    high: float | None = None
+    choices: tuple[str, ...] = ()
+    description: str = ""
+    source: SourceRange | None = None
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step. `at`: its place in the recipe, `2.then.0`; `title`: what a person calls it; `retries`: how often it is
+    tried again after a failure."""
+
+    at: str
+    title: str
+    source: SourceRange | None = field(default=None, compare=False)
+    retries: int = 0
+
+
+@dataclass(frozen=True)
+class Act(Step):
+    """A step that does something on the bench or in Git: its `kind` is the name of a file of `steps/`, `given` what
+    that reads; `binds`: the name under which its result is known afterwards, empty for none."""
+
+    kind: str = ""
+    given: Mapping[str, Any] = field(default_factory=dict)
+    binds: str = ""
+    names: Mapping[str, Name] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Let(Step):
+    """Names get values."""
+
+    values: Mapping[str, Term] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Assert(Step):
+    """What must hold; `message`: what is said where it does not."""
+
+    that: Term | None = None
+    message: Term | None = None
+
+
+@dataclass(frozen=True)
+class Each(Step):
+    """Steps for each value of a list, or each combination of several: the last name changes fastest."""
+
+    over: Mapping[str, Term] = field(default_factory=dict)
+    steps: tuple[Step, ...] = ()
+
+
+@dataclass(frozen=True)
+class Choice(Step):
+    """Steps where something holds, and others where it does not."""
+
+    that: Term | None = None
+    then: tuple[Step, ...] = ()
+    otherwise: tuple[Step, ...] = ()
+
+
+@dataclass(frozen=True)
+class While(Step):
+    """Steps again and again while something holds, `most` times at the most: then it has failed."""
+
+    that: Term | None = None
+    most: int = 1
+    steps: tuple[Step, ...] = ()
+
+
+@dataclass(frozen=True)
+class Call(Step):
+    """Another recipe, with arguments; it knows nothing of the names around it, and `binds` what it `returns`."""
+
+    recipe: Recipe | None = None
+    given: Mapping[str, Term] = field(default_factory=dict)
+    binds: str = ""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """An experiment. `digest`: of its text and of those that it calls; `returns`: values that a call has by
+    name, `returned` what they are."""
+
+    name: str
+    title: str = ""
+    description: str = ""
+    lab: str = ""
+    parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    steps: tuple[Step, ...] = ()
+    finally_: tuple[Step, ...] = ()
+    returns: Mapping[str, Term] = field(default_factory=dict)
+    returned: Mapping[str, Name] = field(default_factory=dict)
+    digest: str = ""
+    path: str = ""
+
+
+def blocks(step: Step) -> Sequence[tuple[str, tuple[Step, ...]]]:
+    """Return the steps within a step, by what they are called."""
+    if isinstance(step, Each | While):
+        return (("steps", step.steps),)
+    if isinstance(step, Choice):
+        return (("then", step.then), ("else", step.otherwise))
+    return ()
+
+
+def every(steps: Sequence[Step]) -> Iterator[Step]:
+    """Yield steps and those within them, in the order of the text; not those of recipes that are called."""
+    for step in steps:
+        yield step
+        for _, inner in blocks(step):
+            yield from every(inner)

@@ -1,0 +1,160 @@
+"""Recipes of one lab: found by name, checked, run on its bench, and taken up again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.manifest.text.source import Source
+from pico.manifest.text.tree import Document, Map
+from pico.recipes.doing import Doing
+from pico.recipes.log import About, Log, logs
+from pico.recipes.parameters import given_values
+from pico.recipes.reader import Able, Reader
+from pico.recipes.reading import read_recipe
+from pico.recipes.recipe import Recipe
+from pico.recipes.running import Outcome, Watching, run_recipe
+
+if TYPE_CHECKING:
+    from pico.bench.bench import Bench
+    from pico.recipes.ahead import Foreseen
+
+FOLDER = "recipes"
+"""Where the recipes of a lab are, below its folder."""
+MOST_LISTED = 20
+"""Runs of recipes that are looked through for those that can go on."""
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A recipe of a lab in a list: `parameters` in words, `wrong` where it has mistakes."""
+
+    name: str
+    title: str
+    parameters: str
+    wrong: bool
+
+
+class Recipes:
+    """Recipes on one bench."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+
+    def names(self) -> tuple[str, ...]:
+        """Return the recipes of the lab by name: files of its folder `recipes`, without their ending."""
+        return tuple(sorted(p.stem for p in (self.bench.root / FOLDER).glob("*.yaml")))
+
+    def path(self, word: str, beside: str = "") -> Path:
+        """Return the file of a recipe: a path, or the name of one of the lab; of one that another one calls, also from
+        the folder of that. Raises PicoError where there is none."""
+        folders = [Path(beside).parent] if beside else [Path()]
+        for folder in (*folders, self.bench.root / FOLDER):
+            for name in (word, f"{word}.yaml"):
+                if (folder / name).is_file():
+                    return folder / name
+        known = self.names()
+        hint = did_you_mean(word[:40], known) or f"a path, or a file in `{FOLDER}/` of the lab"
+        raise PicoError(error("no-recipe", f"there is no recipe `{word[:60]}`", hint=hint))
+
+    def check(self, word: str) -> tuple[Recipe | None, tuple[Diagnostic, ...]]:
+        """Return a recipe, and all that is wrong with it on this bench; nothing moves. Raises PicoError where there is
+        none of that name, or it can't be read."""
+        path = self.path(word)
+        made, found = read_recipe(Source(str(path), _text(path).decode("utf-8", "replace")), self.bench.setup,
+                                  self._fetch, self._able())  # fmt: skip
+        return made, tuple(found)
+
+    def read(self, word: str) -> Recipe:
+        """Return a recipe that is right; raises PicoError with all that is wrong with it."""
+        recipe, found = self.check(word)
+        if found or recipe is None:
+            raise PicoError(found)
+        return recipe
+
+    def listed(self) -> tuple[Listed, ...]:
+        """Return the recipes of the lab with what they are about."""
+        found = []
+        for name in self.names():
+            recipe, wrong = self.check(name)
+            parameters = (
+                ", ".join(f"{p.name} [{p.unit}]" if p.unit else p.name for p in recipe.parameters.values())
+                if recipe
+                else ""
+            )
+            found.append(Listed(name, recipe.title if recipe else "", parameters, bool(wrong) or recipe is None))
+        return tuple(found)
+
+    def arguments(self, recipe: Recipe, given: Mapping[str, str]) -> dict[str, Any]:
+        """Return the values of all parameters, of those given as a person writes them; raises PicoError."""
+        nothing = Reader(Document(Source(recipe.path, ""), Map(0, True)), self.bench.setup, [])
+        return given_values(recipe.parameters, given, nothing)
+
+    def ahead(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Foreseen:
+        """Return what is known of a recipe in advance; nothing moves."""
+        from pico.recipes.ahead import foresee
+
+        return foresee(self.bench, recipe, arguments)
+
+    def begin(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Log:
+        """Begin a run of a recipe with the values of all its parameters."""
+        from pico.bench.running.execution import new_run_id
+
+        at = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
+        path = str(Path(recipe.path).resolve())
+        return Log.begin(self.bench.root, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at))
+
+    def cut_short(self) -> tuple[About, ...]:
+        """Return the runs of recipes that have no end, the latest first."""
+        found = (Log.read(path).about for path in logs(self.bench.root)[:MOST_LISTED])
+        return tuple(about for about in found if not about.ended)
+
+    def unended(self, run: str | None = None) -> Log:
+        """Return the run of a recipe that was cut short last, or the one named; raises PicoError where there is none,
+        or it has ended."""
+        for path in logs(self.bench.root):
+            if run is not None and not path.stem.startswith(run):
+                continue
+            log = Log.read(path)
+            if not log.about.ended:
+                return log
+            if run is not None:
+                text = f"run {log.about.id} of {log.about.name} has ended"
+                raise PicoError(error("recipe-ended", text, hint="begin it anew"))
+        raise PicoError(
+            error("nothing-to-resume", f"no run of a recipe{f' called {run}' if run else ''} was cut short")
+        )
+
+    def taken_up(self, log: Log) -> Recipe:
+        """Return the recipe of a run that was cut short; raises PicoError where it was edited since."""
+        recipe = self.read(log.about.path)
+        if recipe.digest != log.about.digest:
+            text = f"{log.about.path} was edited since run {log.about.id} began"
+            raise PicoError(error("recipe-changed", text, hint="begin it anew, without --resume"))
+        return recipe
+
+    def run(
+        self, recipe: Recipe, log: Log, watching: Watching = Watching(), **how: Any  # noqa: B008
+    ) -> Outcome:  # fmt: skip
+        """Run a recipe, or go on with it; `how`: see `pico.recipes.doing.Doing`. What goes wrong is in the outcome."""
+        return run_recipe(self.bench, recipe, log, Doing(self.bench, **how), watching)
+
+    def _able(self) -> Able:
+        able = self.bench.wait(self.bench.edge.describe())
+        return Able(measurables=able.measurables, revision=self.bench.history.is_revision)
+
+    def _fetch(self, word: str, caller: str) -> tuple[str, bytes]:
+        path = self.path(word, caller)
+        return str(path), _text(path)
+
+
+def _text(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as exc:
+        said = (exc.strerror or str(exc)).lower()
+        raise PicoError(error("unreadable", f"{path} can't be read: {said}")) from exc

@@ -1,0 +1,79 @@
+"""Steps by name: a file each of `pico.recipes.steps`; a plug-in brings more by the entry point `pico.recipe_steps`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Any, Protocol, cast
+
+from pico.manifest.text.tree import Node
+from pico.recipes.doing import Doing
+from pico.recipes.reader import Reader
+from pico.recipes.recipe import Name
+from pico.recipes.scope import Scope
+
+FOLDER = "pico.recipes.steps"
+GROUP = "pico.recipe_steps"
+CONTROL = ("foreach", "if", "while", "call", "let", "assert")
+"""Steps that are the language itself."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a file of FOLDER declares: `what` the step does, an `example` of it, and the keys that may stand beside it,
+    each with what it says. `asks`: it waits for a person."""
+
+    what: str
+    example: str
+    keys: Mapping[str, str] = ()  # type: ignore[assignment]
+    asks: bool = False
+
+
+@dataclass(frozen=True)
+class Given:
+    """What was read of a step: terms and plain values by name, and the names that its result has, `""` for itself."""
+
+    values: Mapping[str, Any]
+    names: Mapping[str, Name] = ()  # type: ignore[assignment]
+    measured: tuple[str, ...] = ()
+
+
+class StepFile(Protocol):
+    """A file of FOLDER."""
+
+    KIND: Kind
+
+    def read(self, reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:
+        """Read a step: `body` is what stands under its name, `beside` the values of its other keys."""
+        ...
+
+    def run(self, doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Do it, with the values of its terms; return its result by name, as JSON data. Raises PicoError where it
+        fails."""
+        ...
+
+
+@cache
+def known() -> tuple[str, ...]:
+    """Return the names of all steps but those of the language itself; imports none."""
+    own = sorted(found.name.rstrip("_") for found in iter_modules(import_module(FOLDER).__path__))
+    return (*own, *sorted(_plugged_in().keys() - set(own)))
+
+
+@cache
+def _plugged_in() -> Mapping[str, str]:
+    from importlib.metadata import entry_points
+
+    return {entry.name: entry.value for entry in entry_points(group=GROUP)}
+
+
+@cache
+def step_file(name: str) -> StepFile:
+    """Return the file of a step; raises ImportError for a name that there is not."""
+    if name in _plugged_in():
+        return cast(StepFile, import_module(_plugged_in()[name]))
+    found = {f.name.rstrip("_"): f.name for f in iter_modules(import_module(FOLDER).__path__)}
+    return cast(StepFile, import_module(f"{FOLDER}.{found[name]}"))

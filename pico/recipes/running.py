@@ -1,0 +1,146 @@
+"""A recipe on a bench: walked step by step, each written down; taken up again where it was cut short."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.model.vocabulary import values_of
+from pico.recipes.doing import Doing
+from pico.recipes.log import Log
+from pico.recipes.recipe import Act, Recipe
+from pico.recipes.registry import step_file
+from pico.recipes.taken_up import settle
+from pico.recipes.walking import Ask, Entered, Told, walk
+
+if TYPE_CHECKING:
+    from pico.bench.bench import Bench
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run of a recipe ended: `done`, `failed` or `interrupted`; what it `returns`; how many steps acted, and how
+    many of them had been done before it was taken up; what went wrong at which step (`at`: `3[2].1`), and the exit
+    code."""
+
+    id: str
+    outcome: str
+    at: str = ""
+    returns: Mapping[str, Any] = field(default_factory=dict)
+    acted: int = 0
+    before: int = 0
+    diagnostics: tuple[Diagnostic, ...] = ()
+    exit_code: ExitCode = ExitCode.DONE
+
+
+@dataclass(frozen=True)
+class Watching:
+    """Who watches a recipe: `entered` hears of each step that begins, `ended` of each act that is over (True where it
+    had been done before); `until`: the path before which it stops."""
+
+    entered: Callable[[Entered], None] = lambda _: None
+    ended: Callable[[str, Told, bool], None] = lambda *_: None
+    until: str = ""
+
+
+def run_recipe(
+    bench: Bench, recipe: Recipe, log: Log, doing: Doing, watching: Watching = Watching()
+) -> Outcome:  # fmt: skip
+    """Run a recipe with the arguments of its log, which may tell of a part that was done; never raises PicoError, which
+    is in the outcome."""
+    return _Run(bench, recipe, log, doing, watching).run()
+
+
+class _Until(Exception):
+    """The step has come before which the recipe is to stop."""
+
+
+class _Run:
+    def __init__(self, bench: Bench, recipe: Recipe, log: Log, doing: Doing, watching: Watching) -> None:
+        self.bench, self.recipe, self.log, self.doing, self.watching = bench, recipe, log, doing, watching
+        self.acted = self.before = 0
+        self.at = self.failed = ""
+
+    def run(self) -> Outcome:
+        steps = walk(self.recipe, self.log.about.arguments, self._entered)
+        found: tuple[Diagnostic, ...] = ()
+        code = ExitCode.DONE
+        try:
+            returns = self._to_the_end(steps)
+        except _Until:
+            steps.close()
+            return self._outcome("interrupted")
+        except PicoError as exc:
+            found, code, returns = tuple(exc.diagnostics), exc.exit_code or ExitCode.ERROR, {}
+        if code == ExitCode.INTERRUPTED:
+            return self._outcome("interrupted", at=self.at, diagnostics=found, exit_code=code)
+        self.log.end("failed" if found else "done")
+        if found:
+            return self._outcome("failed", at=self.failed or self.at, diagnostics=found, exit_code=code)
+        return self._outcome("done", returns=returns)
+
+    def _outcome(self, how: str, **what: Any) -> Outcome:
+        return Outcome(self.log.about.id, how, acted=self.acted, before=self.before, **what)
+
+    def _entered(self, entered: Entered) -> None:
+        self.at = entered.path
+        self.watching.entered(entered)
+
+    def _to_the_end(self, steps: Any) -> dict[str, Any]:
+        send: Callable[[], Ask] = lambda: next(steps)  # noqa: E731
+        while True:
+            try:
+                ask = send()
+            except StopIteration as stop:
+                return dict(stop.value)
+            try:
+                told = self._answer(ask)
+            except PicoError as exc:
+                if exc.exit_code == ExitCode.INTERRUPTED:
+                    steps.close()
+                    raise
+                failed, self.failed = exc, self.failed or ask.path
+                send = lambda: steps.throw(failed)  # noqa: E731, B023
+            else:
+                answer = told
+                send = lambda: steps.send(answer)  # noqa: E731, B023
+
+    def _answer(self, ask: Ask) -> Told:
+        if self.watching.until and ask.path == self.watching.until:
+            raise _Until
+        content = {"kind": ask.step.kind, "given": ask.given} if ask.step else {"names": list(ask.names)}
+        again = ask.path in self.log.steps
+        known = self.log.begun(ask.path, content, self.bench.history.head_commit())
+        if known.told is not None:
+            self.before += ask.step is not None
+            self.watching.ended(ask.path, known.told, True)
+            return known.told
+        told = self._act(ask, ask.step, known.runs, known.head, again) if ask.step else self._looked(ask.names)
+        self.log.told(ask.path, told)
+        if ask.step:
+            self.acted += 1
+            self.watching.ended(ask.path, told, False)
+        return told
+
+    def _act(self, ask: Ask, step: Act, runs: list[str], head: str | None, again: bool) -> Told:
+        if again:
+            settle(self.bench, runs)
+        doing = replace(
+            self.doing, recipe=f"{self.recipe.name}@{self.log.about.id}", step=ask.path, begun=tuple(runs), again=again,
+            head=head if again else None, begin=lambda run: self.log.running(ask.path, run),
+        )  # fmt: skip
+        for attempt in range(step.retries + 1):
+            try:
+                return step_file(step.kind).run(doing, ask.given)
+            except PicoError as exc:
+                if attempt == step.retries or exc.exit_code in (ExitCode.INTERRUPTED, ExitCode.DENIED):
+                    raise
+        raise AssertionError("a step has at least one attempt")
+
+    def _looked(self, names: tuple[str, ...]) -> Told:
+        """Return the values of names of the bench as observed now; one that nobody knows is left out."""
+        seen = self.bench.observe()
+        values, _ = values_of(self.bench.setup, seen, sorted({n.partition(".")[0] for n in names}))
+        return {n: values[n] for n in names if n in values}

@@ -1,0 +1,1 @@
+"""Steps of recipes, a file each; the file's name is the step's."""

@@ -1,0 +1,28 @@
+"""`branch: e1`: a branch begins at the commit that is checked out; commits go to it from then on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pico.manifest.text.tree import Node
+from pico.recipes.doing import Doing
+from pico.recipes.reader import Reader
+from pico.recipes.registry import Given, Kind
+from pico.recipes.scope import Scope
+
+KIND = Kind("a branch begins here, and is checked out", "branch: e1")
+
+
+def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:
+    """See `pico.recipes.registry.StepFile`."""
+    return Given({"name": reader.new_revision(scope, body, "a branch")})
+
+
+def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    """See `pico.recipes.registry.StepFile`."""
+    history = doing.bench.folder.history()
+    if history.head().branch != given["name"]:
+        history.branch(str(given["name"]))
+        doing.bench.history.checkout(str(given["name"]))
+    return {}

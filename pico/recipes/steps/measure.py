@@ -1,0 +1,83 @@
+"""`measure: cam.centroid`: one measurable or several; expressions then speak of the numbers by their addresses, and by
+the name that `as` gives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pico.diagnostics import PicoError, error
+from pico.manifest.text.tree import Node
+from pico.model.measurement import Measurement
+from pico.model.plan import Plan
+from pico.model.record import as_json
+from pico.model.vocabulary import numbers_of
+from pico.recipes.doing import Doing
+from pico.recipes.reader import Reader, scalar_texts
+from pico.recipes.recipe import Name
+from pico.recipes.registry import Given, Kind
+from pico.recipes.scope import Scope
+
+KIND = Kind("one measurable or several", "{measure: cam.centroid, as: spot}")
+
+
+def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:
+    """See `pico.recipes.registry.StepFile`."""
+    listed = scalar_texts(body)
+    if listed is None:
+        reader.wrong(body, "type", "`measure` takes measurables", f"`{KIND.example}`")
+        return Given({"of": ()})
+    of = [text for node, text in listed if reader.measurable(node, text)]
+    numbers = {a: _numbers(reader, a) for a in of}
+    alone = numbers[of[0]] if len(of) == 1 else {}
+    return Given(
+        {"of": tuple(of)},
+        names=_names(alone),
+        measured=tuple(f"{a.partition('.')[0]}.{n}" for a in of for n in numbers[a]),
+    )
+
+
+def _numbers(reader: Reader, address: str) -> dict[str, str]:
+    """Return the numbers of a measurable, each with its unit where that is one for all."""
+    component, _, measurable = address.partition(".")
+    unit = reader.setup.measurables_of(component)[measurable].unit
+    return {n: unit for n, m in numbers_of(reader.setup, component).items() if m == measurable}
+
+
+def _names(numbers: Mapping[str, str]) -> dict[str, Name]:
+    """Return how a result is called, after its name: `x`, `x_sigma`; of a single number ``, `sigma`."""
+    found: dict[str, Name] = {}
+    for number, unit in numbers.items():
+        short = number.partition(".")[2]
+        found[short] = Name("number", "" if short else unit)
+        found[f"{short}_sigma" if short else "sigma"] = Name("number", "" if short else unit)
+    return found
+
+
+def plan(doing: Doing, given: Mapping[str, Any]) -> Plan:
+    """Return what is to be measured."""
+    return doing.bench.plans.measuring([tuple(a.split(".", 1)) for a in given["of"]])
+
+
+def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    """See `pico.recipes.registry.StepFile`."""
+    found = doing.run(plan(doing, given))
+    if without := [m for m in found.values() if m.unknown]:
+        advice = doing.bench.measurements.advice
+        raise PicoError([
+            error("unknown", f"{m.address} has no value: {m.unknown}", hint=advice(m), address=m.address)
+            for m in without
+        ])  # fmt: skip
+    return {"measurements": {address: as_json(m) for address, m in found.items()}, **_result(found, given["of"])}
+
+
+def _result(found: Mapping[str, Measurement], of: tuple[str, ...]) -> dict[str, float]:
+    if len(of) != 1 or of[0] not in found:
+        return {}
+    value, sigma = found[of[0]].value, found[of[0]].sigma
+    if isinstance(value, Mapping):
+        named = {n: float(v) for n, v in value.items()}
+        return named | {f"{n}_sigma": float(s) for n, s in (sigma.items() if isinstance(sigma, Mapping) else ())}
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return {}
+    return {"": float(value), **({"sigma": float(sigma)} if isinstance(sigma, int | float) else {})}
