@@ -24,9 +24,6 @@ MOVED = {
 RESERVED = {
     "teleop": "moving the arm by hand",
     "laser": "arming a laser",
-    "run": "running a recipe",
-    "recipe": "recipes",
-    "test": "recipes tried in the simulator",
     "budget": "error budgets",
     "morning": "the check of a morning",
     "swap": "exchanging one part for another",

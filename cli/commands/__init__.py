@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import os
 
-HEADINGS = ("The main job", "Manifests", "History", "One operation at a time", "The simulator, and the rest")
+HEADINGS = ("The main job", "Manifests", "History", "One operation at a time", "Recipes", "The simulator, and the rest")
 
 
 def files() -> dict[str, str]:

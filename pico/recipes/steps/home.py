@@ -27,7 +27,7 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
 
 def plan(doing: Doing, given: Mapping[str, Any]) -> Plan:
     """Return what is to be done."""
-    return doing.bench.plans.single(given["component"], "home", {given["tunable"]: ""})
+    return doing.bench.plans.single(given["component"], "home", {"tunable": given["tunable"]})
 
 
 def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:

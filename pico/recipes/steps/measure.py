@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pico.diagnostics import PicoError, error
+from pico.expressions import Kind as ValueKind
 from pico.manifest.text.tree import Node
 from pico.model.measurement import Measurement
 from pico.model.plan import Plan
@@ -18,6 +19,7 @@ from pico.recipes.recipe import Name
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
+_KINDS: Mapping[str, ValueKind] = {"float": "number", "bool": "bool", "choice": "text"}
 KIND = Kind("one measurable or several", "{measure: cam.centroid, as: spot}")
 
 
@@ -29,10 +31,10 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
         return Given({"of": ()})
     of = [text for node, text in listed if reader.measurable(node, text)]
     numbers = {a: _numbers(reader, a) for a in of}
-    alone = numbers[of[0]] if len(of) == 1 else {}
+    names = _result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
     return Given(
         {"of": tuple(of)},
-        names=_names(alone),
+        names=names,
         measured=tuple(f"{a.partition('.')[0]}.{n}" for a in of for n in numbers[a]),
     )
 
@@ -42,6 +44,17 @@ def _numbers(reader: Reader, address: str) -> dict[str, str]:
     component, _, measurable = address.partition(".")
     unit = reader.setup.measurables_of(component)[measurable].unit
     return {n: unit for n, m in numbers_of(reader.setup, component).items() if m == measurable}
+
+
+def _result_names(reader: Reader, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
+    component, _, measurable = address.partition(".")
+    kind = reader.setup.measurables_of(component)[measurable]
+    if kind.datatype == "pose":
+        return {"x": Name("number", "mm"), "y": Name("number", "mm"), "yaw": Name("number", "deg")}
+    if kind.datatype == "setpoint":
+        tunable = reader.setup.type_of(component).tunables[measurable]
+        return {"": Name(_KINDS[tunable.datatype], tunable.unit)}
+    return _names(numbers)
 
 
 def _names(numbers: Mapping[str, str]) -> dict[str, Name]:
@@ -71,13 +84,13 @@ def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     return {"measurements": {address: as_json(m) for address, m in found.items()}, **_result(found, given["of"])}
 
 
-def _result(found: Mapping[str, Measurement], of: tuple[str, ...]) -> dict[str, float]:
+def _result(found: Mapping[str, Measurement], of: tuple[str, ...]) -> dict[str, Any]:
     if len(of) != 1 or of[0] not in found:
         return {}
     value, sigma = found[of[0]].value, found[of[0]].sigma
     if isinstance(value, Mapping):
         named = {n: float(v) for n, v in value.items()}
         return named | {f"{n}_sigma": float(s) for n, s in (sigma.items() if isinstance(sigma, Mapping) else ())}
-    if not isinstance(value, int | float) or isinstance(value, bool):
-        return {}
+    if value is None or isinstance(value, bool | str):
+        return {} if value is None else {"": value}
     return {"": float(value), **({"sigma": float(sigma)} if isinstance(sigma, int | float) else {})}

@@ -1,0 +1,105 @@
+"""Recipes of a lab tried in the simulator, as CI does: each in a clone of the repository with a bench of its own."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.history.git.command import run as git
+from pico.history.repository.repository import Repository
+
+ASIDE = (".git", ".pico", "runs")
+"""What of a lab's folder does not go along as a file."""
+
+
+@dataclass(frozen=True)
+class Rehearsed:
+    """How a recipe went in the simulator: `done`, `failed` or `interrupted`, at which step; wall time [s]."""
+
+    name: str
+    outcome: str
+    at: str = ""
+    seconds: float = 0.0
+    returns: Mapping[str, Any] = field(default_factory=dict)
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def passed(self) -> bool:
+        """Whether it came to its end."""
+        return self.outcome == "done"
+
+
+def rehearse_all(
+    root: Path, names: Iterable[str], *, fidelity: str = "kinematic", jobs: int = 2,
+    heard: Callable[[Rehearsed], None] = lambda _: None,
+) -> tuple[Rehearsed, ...]:  # fmt: skip
+    """Try recipes by name or path, `jobs` at a time in processes of their own, and return how each went, in order;
+    `heard` is told of each as it ends. The lab and its bench are not touched."""
+    wanted, found = list(names), dict[str, Rehearsed]()
+    with ProcessPoolExecutor(max_workers=max(1, min(jobs, len(wanted) or 1)), mp_context=get_context("spawn")) as pool:
+        tried = {pool.submit(rehearse, str(root), name, fidelity): name for name in wanted}
+        for one in as_completed(tried):
+            found[tried[one]] = _ended(one, tried[one])
+            heard(found[tried[one]])
+    return tuple(found[name] for name in wanted)
+
+
+def _ended(one: Any, name: str) -> Rehearsed:
+    try:
+        found: Rehearsed = one.result()
+    except Exception as exc:  # a process that was killed takes its pool along
+        return Rehearsed(name, "failed", diagnostics=(error("process", f"{name} ended without a word: {exc}"),))
+    return found
+
+
+def rehearse(root: str, name: str, fidelity: str) -> Rehearsed:
+    """Try one recipe of the lab in `root`, in a clone that is gone afterwards."""
+    from pico.bench.bench import Bench
+    from pico.recipes.recipes import Recipes
+
+    began = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="pico-test-") as folder:
+        try:
+            lab = clone(Path(root), Path(folder) / "lab")
+            with Bench.open(lab, fidelity=fidelity) as bench:
+                recipes = Recipes(bench)
+                recipe = recipes.read(name)
+                out = recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
+        except PicoError as exc:
+            return Rehearsed(name, "failed", "", time.monotonic() - began, diagnostics=tuple(exc.diagnostics))
+        return Rehearsed(name, out.outcome, out.at, time.monotonic() - began, dict(out.returns), out.diagnostics)
+
+
+def clone(root: Path, to: Path) -> Path:
+    """Make a repository with all branches and tags of the one that a lab is in, and the lab's files as they are now;
+    return the lab's folder in it. Raises PicoError."""
+    repository = Repository.discover(root)
+    if repository is None:
+        shutil.copytree(root, to, ignore=lambda _, found: set(found) & set(ASIDE))
+        return to
+    source, doing = str(repository.root), "make a clone to try recipes in"
+    to.mkdir(parents=True)
+    git(to, ["init", "-q"], doing=doing, extra=_OWN)
+    refs = ["+refs/heads/*:refs/heads/*", "+refs/tags/*:refs/tags/*"]
+    git(to, ["fetch", "-q", "--no-auto-gc", "--update-head-ok", source, *refs], doing=doing, extra=_OWN)
+    head = repository.head()
+    if head.commit:
+        git(to, ["fetch", "-q", "--no-auto-gc", source, head.commit], doing=doing, extra=_OWN)
+        git(to, ["checkout", "-q", "-f", head.branch or head.commit], doing=doing, extra=_OWN)
+    lab = to / repository.relative(root)
+    shutil.copytree(root, lab, ignore=lambda _, found: set(found) & set(ASIDE), dirs_exist_ok=True)
+    return lab
+
+
+_OWN = {
+    "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_AUTHOR_NAME": "PICO", "GIT_AUTHOR_EMAIL": "pico@localhost",
+    "GIT_COMMITTER_NAME": "PICO", "GIT_COMMITTER_EMAIL": "pico@localhost", "GIT_ALLOW_PROTOCOL": "file",
+}  # fmt: skip

@@ -1,0 +1,174 @@
+"""A recipe on the bench of the case study: cut short at any of its lines, it goes on, and ends the same."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pico.bench.bench import Bench
+from pico.diagnostics import ExitCode, PicoError
+from pico.recipes.log import Log, logs
+from pico.recipes.recipes import Recipes
+from pico.recipes.running import Outcome, Watching
+
+TEXT = """apiVersion: pico/v1
+kind: Recipe
+metadata: {name: scan, lab: shel}
+parameters: {angles: {unit: deg, default: [10, 20]}}
+steps:
+  - set: {p1.angle: 5, hwp.angle: 20}
+  - foreach: {angle: angles}
+    steps:
+      - set: {p1.angle: angle}
+      - {measure: p1.angle, as: read}
+      - note: {p1: "turned to ${angle}"}
+  - commit: turned
+  - branch: mine
+  - tag: here
+  - if: p1.angle > 15
+    then: [{home: hwp.angle}]
+returns: {left: p1.angle}
+"""
+
+
+class Killed(BaseException):
+    """The process is gone."""
+
+
+@pytest.fixture
+def lab(case_study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for who in ("AUTHOR", "COMMITTER"):
+        monkeypatch.setenv(f"GIT_{who}_NAME", "A Physicist")
+        monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", "/dev/null")
+    shutil.copytree(case_study, tmp_path / "shel")
+    (tmp_path / "scan.yaml").write_text(TEXT)
+    return tmp_path / "shel"
+
+
+def begin(root: Path) -> Outcome:
+    with Bench.open(root) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(root.parent / "scan.yaml"))
+        return recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
+
+
+def resume(root: Path) -> Outcome:
+    with Bench.open(root) as bench:
+        recipes = Recipes(bench)
+        log = recipes.unended()
+        return recipes.run(recipes.taken_up(log), log)
+
+
+def ending(root: Path) -> dict[str, Any]:
+    """Return what is the same however often it was cut short."""
+    with Bench.open(root) as bench:
+        memory, history = bench.edge.memory, bench.folder.history()
+        assert memory is not None
+        records = memory.records()
+        taken = [r for r in records if r.kind == "done" and (r.data.get("data") or {}).get("measurement")]
+        return {
+            "values": {n: dict(v) for n, v in bench.observe().known_values.items()},
+            "measured": len(taken), "notes": [n.text for n in bench.history.notes("p1")],
+            "branch": history.head().branch, "commits": len(list(history.log())), "tag": bench.history.is_revision("here"),
+        }  # fmt: skip
+
+
+def test_it_runs_to_its_end_and_the_commit_carries_its_runs(lab: Path) -> None:
+    found = begin(lab)
+    assert (found.outcome, found.returns) == ("done", {"left": 20.0}), found
+    with Bench.open(lab) as bench:
+        runs = [run for run, commit in bench.history.runs() if commit]
+        assert {r.cause.kind for r in runs} == {"recipe"} and any(r.cause.step for r in runs)
+        assert all(str(r.cause.recipe).startswith("scan@") for r in runs)
+    with pytest.raises(PicoError, match="no run of a recipe was cut short"):
+        resume(lab)
+
+
+@pytest.mark.parametrize("after", [False, True])
+@pytest.mark.parametrize("line", [2, 5, 7, 9, 11, 15, 22, 23, 25, 28, 31])
+def test_killed_at_a_line_of_its_log_it_goes_on_and_ends_the_same(
+    lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: int, after: bool
+) -> None:
+    other = tmp_path / "whole" / "shel"
+    shutil.copytree(lab, other)
+    (other.parent / "scan.yaml").write_text(TEXT)
+    assert begin(other).outcome == "done"
+    lines, write = 0, Log._write
+
+    def cut(self: Log, data: Any) -> None:
+        nonlocal lines
+        lines += 1
+        if lines == line and not after:
+            raise Killed
+        write(self, data)
+        if lines == line and after:
+            raise Killed
+
+    with monkeypatch.context() as patched, pytest.raises(Killed):
+        patched.setattr(Log, "_write", cut)
+        begin(lab)
+    assert resume(lab).outcome == "done"
+    assert ending(lab) == ending(other)
+
+
+def test_a_log_that_was_cut_in_a_line_is_read_up_to_it(lab: Path) -> None:
+    def stop(*_: object) -> None:
+        raise Killed
+
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        with pytest.raises(Killed):
+            recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})), Watching(ended=stop))
+    path = logs(lab)[0]
+    path.write_bytes(path.read_bytes()[:-9])
+    assert resume(lab).outcome == "done"
+
+
+def test_a_recipe_that_was_edited_is_not_taken_up(lab: Path) -> None:
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        recipes.begin(recipe, recipes.arguments(recipe, {}))
+    (lab.parent / "scan.yaml").write_text(TEXT.replace("20]", "25]"))
+    with pytest.raises(PicoError, match="was edited since"):
+        resume(lab)
+
+
+def test_it_stops_before_a_step_and_goes_on(lab: Path) -> None:
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        log = recipes.begin(recipe, recipes.arguments(recipe, {}))
+        found = recipes.run(recipe, log, Watching(until="2[2].1"))
+        assert (found.outcome, found.exit_code) == ("interrupted", ExitCode.DONE)
+        assert bench.measurements.read("p1", "angle")["angle"]["value"] == 10
+    assert resume(lab).before == 4
+
+
+def test_parameters_are_read_with_units_and_refused_out_of_range(lab: Path) -> None:
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        assert recipes.arguments(recipe, {"angles": "[1 deg, 100 mrad]"})["angles"] == pytest.approx(
+            [1, 5.7296], abs=1e-3
+        )
+        assert recipes.arguments(recipe, {"angles": "{from: 0, to: 10, step: 5}"})["angles"] == [0, 5, 10]
+        for words, said in (
+            ({"angles": "2 kg"}, "an angle"),
+            ({"angle": "2"}, "no parameter"),
+            ({"angles": "[]"}, "empty"),
+        ):
+            with pytest.raises(PicoError, match=said):
+                recipes.arguments(recipe, words)
+
+
+def test_a_failure_names_its_step_and_what_the_bench_said(lab: Path) -> None:
+    (lab.parent / "scan.yaml").write_text(TEXT.replace("p1.angle: angle}", "p1.angle: angle * 100}"))
+    found = begin(lab)
+    assert (found.outcome, found.at) == ("failed", "2[1].1")
+    assert "goes from 0 to 360 deg, not to 1000" in found.diagnostics[0].summary

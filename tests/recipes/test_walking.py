@@ -1,0 +1,211 @@
+"""What a recipe asks for, step by step, decided by what it is told alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from recipes.conftest import asked, read, right
+
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.recipes.walking import Ask, walk
+
+
+def measured(value: float) -> Mapping[str, Any]:
+    return {"measurements": {"cam.power": {"value": value}}, "": value, "sigma": 1.0}
+
+
+def test_a_product_goes_round_with_the_last_name_fastest() -> None:
+    recipe = right(
+        "steps:\n- foreach: {a: [1, 2], b: {from: 0, to: 10, step: 5}}\n  steps:\n  - set: {p1.angle: a + b}\n"
+    )
+    asks, _ = asked(recipe)
+    assert [given["p1.angle"] for _, given in asks] == [1, 6, 11, 2, 7, 12]
+    assert [path for path, _ in asks][:2] == ["1[1].1", "1[2].1"]
+
+
+def test_what_is_measured_is_known_by_its_address_and_by_name() -> None:
+    recipe = right(
+        "steps:\n- {measure: cam.power, as: p}\n- assert: cam.power == p && p.sigma > 0.5\n- let: {q: p * 2}\n"
+        "returns: {q: q}\n"
+    )
+    assert asked(recipe, lambda _: measured(21.0))[1] == {"q": 42.0}
+
+
+def test_names_of_the_bench_are_asked_for_as_they_are_then() -> None:
+    recipe = right("steps:\n- if: p1.angle > 45\n  then: [{set: {p1.angle: 0}}]\n  else: [{set: {p1.angle: 90}}]\n")
+    asks, _ = asked(recipe, lambda ask: {"p1.angle": 50.0} if ask.names else {})
+    assert asks == [("1?", ("p1.angle",)), ("1.1", {"p1.angle": 0.0})]
+
+
+def test_a_loop_ends_when_its_condition_does_or_fails_at_its_bound() -> None:
+    recipe = right("steps:\n- measure: cam.power\n- while: cam.power < 3\n  most: 5\n  steps: [{measure: cam.power}]\n")
+    readings = iter([0.0, 1.0, 2.0, 3.0])
+    asks, _ = asked(recipe, lambda _: measured(next(readings)))
+    assert len(asks) == 4
+    asks, failed = asked(recipe, lambda _: measured(0.0))
+    assert len(asks) == 6 and isinstance(failed, PicoError) and failed.exit_code == ExitCode.EXPECTATION
+
+
+def test_a_failed_step_brings_the_last_steps_and_its_error_comes_out() -> None:
+    recipe = right("steps:\n- apply: e1\n- apply: main\nfinally:\n- set: {laser.shutter: closed}\n")
+
+    def fail(ask: Ask) -> Mapping[str, Any]:
+        if ask.path == "1":
+            raise PicoError(error("jammed", "it jams"))
+        return {}
+
+    asks, failed = asked(recipe, fail)
+    assert [path for path, _ in asks] == ["1", "finally.1"]
+    assert isinstance(failed, PicoError) and failed.diagnostics[0].code == "jammed"
+
+
+def test_an_assertion_ends_it_with_its_message() -> None:
+    recipe = right("steps:\n- measure: cam.power\n- assert: cam.power > 3\n  message: only ${cam.power}\n")
+    _, failed = asked(recipe, lambda _: measured(2.0))
+    assert isinstance(failed, PicoError) and failed.diagnostics[0].summary == "only 2"
+    assert failed.exit_code == ExitCode.EXPECTATION
+
+
+def test_a_called_recipe_knows_only_what_it_is_told() -> None:
+    other = "parameters: {t: 1}\nsteps: [{let: {mine: t}}]\nreturns: {t: mine}\n"
+    recipe = right(
+        "steps:\n- let: {mine: 7}\n- {call: b, with: {t: mine + 1}, as: c}\nreturns: {a: mine, b: c.t}\n", {"b": other}
+    )
+    assert asked(recipe)[1] == {"a": 7.0, "b": 8.0}
+
+
+def test_loops_that_run_away_stop() -> None:
+    inner = "  steps:\n  - foreach: {b: {from: 1, to: 200, step: 1}}\n    steps: [{let: {x: b}}]\n"
+    recipe = right("steps:\n- foreach: {a: {from: 1, to: 200, step: 1}}\n" + inner)
+    _, failed = asked(recipe)
+    assert isinstance(failed, PicoError) and failed.diagnostics[0].code == "bound"
+
+
+def test_an_expression_that_runs_away_stops() -> None:
+    text = "l.map(a, l.map(b, l.map(c, l.map(d, a + b + c + d)[0])[0])[0])[0]"
+    recipe = right(f"steps:\n- let: {{l: 'range(1, 60, 1)'}}\n- let: {{x: '{text}'}}\n")
+    _, failed = asked(recipe)
+    assert isinstance(failed, PicoError) and "10,000 steps" in failed.diagnostics[0].summary
+
+
+def test_ahead_of_time_what_depends_on_measurements_is_left_out() -> None:
+    recipe = right(
+        "steps:\n- measure: cam.power\n- let: {p: cam.power}\n- if: p > 3\n  then: [{set: {p1.angle: 1}}]\n"
+        "- set: {p1.angle: p}\n- set: {p1.angle: 2}\n"
+    )
+    steps, paths = walk(recipe, {}, ahead=True), []
+    try:
+        ask = next(steps)
+        while True:
+            paths.append(ask.path)
+            ask = steps.send({})
+    except StopIteration:
+        pass
+    assert paths == ["1", "5"]
+
+
+@given(st.lists(st.floats(-50, 50), max_size=12), st.data())
+def test_told_again_what_came_of_each_step_it_goes_the_same_way(readings: list[float], data: st.DataObject) -> None:
+    """A log of any length, told again, leads to the step that was under way."""
+    recipe = right(
+        "steps:\n- measure: cam.power\n- let: {n: 0}\n- while: cam.power < 10 && n < 5\n  most: 9\n  steps:\n"
+        "  - if: cam.power < 0\n    then: [{set: {p1.angle: 'n * 2'}}]\n  - let: {n: n + 1}\n  - measure: cam.power\n"
+        "- foreach: {t: [1, 2]}\n  steps: [{set: {p1.angle: t + n}}]\n"
+    )
+    values = [*readings, *[100.0] * 20]
+
+    def answers() -> Any:
+        left = iter(values)
+        return lambda ask: measured(next(left)) if ask.step and ask.step.kind == "measure" else {}
+
+    first, _ = asked(recipe, answers())
+    log: dict[str, Any] = {}
+    answer = answers()
+    asked(recipe, lambda ask: log.setdefault(ask.path, answer(ask)))
+    cut = data.draw(st.integers(0, len(first)))
+    known = {path: log[path] for path, _ in first[:cut]}
+    left = iter([log[path] for path, _ in first[cut:]])
+    again, _ = asked(recipe, lambda ask: known[ask.path] if ask.path in known else next(left))
+    assert again == first
+
+
+# recipes at random: what passes the check runs without a mistake of kind, name or capability
+
+NUMBERS = st.integers(0, 90).map(str)
+
+
+@st.composite
+def steps(draw: st.DrawFn, names: tuple[str, ...] = (), depth: int = 0, measured: bool = False) -> str:
+    """Return some steps as YAML in flow style; `names` are numbers."""
+    found, known = [], list(names)
+    for _ in range(draw(st.integers(1, 4))):
+        terms = st.one_of(NUMBERS, st.sampled_from([*known, "p2.angle"]))
+        if measured:
+            terms = st.one_of(terms, st.just("cam.power"))
+        number = st.one_of(terms, st.builds("{} {} {}".format, terms, st.sampled_from("+-*"), terms))
+        kind = draw(st.integers(0, 6 if depth < 3 else 3))
+        if kind == 0:
+            found.append(f'{{set: {{p1.angle: "{draw(number)}"}}}}')
+        elif kind == 1:
+            found.append("{measure: cam.power}")
+            measured = True
+        elif kind == 2:
+            name = draw(st.sampled_from(["a", "b", "c"]))
+            found.append(f'{{let: {{{name}: "{draw(number)}"}}}}')
+            known.append(name)
+        elif kind == 3:
+            found.append(draw(st.sampled_from(["{apply: e1}", "{wait: 1 s}", "{move: {p2: home}}"])))
+        elif kind == 4:
+            name = draw(st.sampled_from(["t", "u"]))
+            inner = draw(steps((*known, name), depth + 1, measured))
+            found.append(f"{{foreach: {{{name}: [1, 2]}}, steps: [{inner}]}}")
+        elif kind == 5:
+            condition = f"{draw(number)} < {draw(number)}"
+            then, other = (draw(steps(tuple(known), depth + 1, measured)) for _ in range(2))
+            found.append(f'{{if: "{condition}", then: [{then}], else: [{other}]}}')
+        else:
+            inner = draw(steps(tuple(known), depth + 1, measured))
+            found.append(f'{{while: "{draw(number)} < 5", most: 3, steps: [{inner}]}}')
+    return ", ".join(found)
+
+
+@given(steps(), st.data())
+def test_what_passes_the_check_runs_without_a_mistake(text: str, data: st.DataObject) -> None:
+    recipe, found = read(f"steps: [{text}]\n")
+    assert not found and recipe is not None, found
+
+    def answer(ask: Ask) -> Mapping[str, Any]:
+        if ask.names:
+            return dict.fromkeys(ask.names, 12.0)
+        return measured(data.draw(st.floats(-100, 100))) if ask.step and ask.step.kind == "measure" else {}
+
+    _, ended = asked(recipe, answer)
+    if isinstance(ended, PicoError):
+        assert {d.code for d in ended.diagnostics} == {"bound"}
+
+
+BREAKING = (
+    ("cam.power", "cam.pwoer"), ("p1.angle", "p1.angel"), ("p2.angle", "p9.angle"), ("measure", "mesure"),
+    ("most: 3", "most: x"), ("steps: [{", "steps: [{zzz: 1, "), ("[1, 2]", "nowhere"), ("e1}", "e77}"), ("home", "hme"),
+    ("1 s", "1 kg"), ("let: {", "let: {cam: "),
+)  # fmt: skip
+
+
+@given(steps(), st.data())
+def test_what_was_broken_is_told_with_its_line(text: str, data: st.DataObject) -> None:
+    whole = f"steps: [{text}]\n"
+    able = [pair for pair in BREAKING if pair[0] in whole]
+    if not able:
+        return
+    old, new = data.draw(st.sampled_from(able))
+    _, found = read(whole.replace(old, new, 1))
+    assert found and not any(said.startswith("-:") for said in found)
+
+
+@pytest.mark.parametrize("text", ["[", "- a", "steps: *x\n", "steps: [" * 40, "\x00"])
+def test_what_is_no_yaml_is_told(text: str) -> None:
+    assert read(text)[1]
