@@ -214,7 +214,7 @@ class Plans:
         """Return the plan that brings tunables to values exactly, by address (`p1.angle`), side by side as far as their
         motors can; nothing else is set or moved."""
         if len(values) == 1:
-            (address, value), = values.items()
+            ((address, value),) = values.items()
             component, _, tunable = address.partition(".")
             return self.single(component, "set", {tunable: show_value(value)})
         parts: dict[str, dict[str, Value]] = {}

@@ -72,6 +72,9 @@ class _Run:
         except _Until:
             steps.close()
             return self._outcome("interrupted")
+        except KeyboardInterrupt:  # between two runs on the bench
+            steps.close()
+            return self._outcome("interrupted", at=self.at, exit_code=ExitCode.INTERRUPTED)
         except PicoError as exc:
             found, code, returns = tuple(exc.diagnostics), exc.exit_code or ExitCode.ERROR, {}
         if code == ExitCode.INTERRUPTED:

@@ -45,8 +45,8 @@ class Execution:
         speed: float | None = None,
     ) -> None:
         """`thread`: where the edge lives. `named`: what the goal is called once the run is over. `recording`: gets what
-        a film of it shows. `resumes`: the run that goes on under its id. `run_id`: of the new one. `stop_on_error`, `wait`,
-        `speed`: see `pico.edge.protocol.Job`.
+        a film of it shows. `resumes`: the run that goes on under its id. `run_id`: of the new one.
+        `stop_on_error`, `wait`, `speed`: see `pico.edge.protocol.Job`.
         """
         self.plan, self.id = plan, resumes or run_id or new_run_id()
         self._edge, self._thread, self._recording = edge, thread, recording

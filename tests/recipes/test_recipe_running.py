@@ -73,7 +73,8 @@ def ending(root: Path) -> dict[str, Any]:
         return {
             "values": {n: dict(v) for n, v in bench.observe().known_values.items()},
             "measured": len(taken), "notes": [n.text for n in bench.history.notes("p1")],
-            "branch": history.head().branch, "commits": len(list(history.log())), "tag": bench.history.is_revision("here"),
+            "branch": history.head().branch, "commits": len(list(history.log())),
+            "tag": bench.history.is_revision("here"),
         }  # fmt: skip
 
 
@@ -88,8 +89,11 @@ def test_it_runs_to_its_end_and_the_commit_carries_its_runs(lab: Path) -> None:
         resume(lab)
 
 
+LINES = [11, 23, *(pytest.param(n, marks=pytest.mark.slow) for n in (2, 5, 7, 9, 15, 22, 25, 28, 31))]
+
+
 @pytest.mark.parametrize("after", [False, True])
-@pytest.mark.parametrize("line", [2, 5, 7, 9, 11, 15, 22, 23, 25, 28, 31])
+@pytest.mark.parametrize("line", LINES)
 def test_killed_at_a_line_of_its_log_it_goes_on_and_ends_the_same(
     lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: int, after: bool
 ) -> None:

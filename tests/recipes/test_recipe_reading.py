@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from recipes.conftest import read, right
+from asking import read, right
 
 
 @pytest.mark.parametrize(
@@ -29,9 +29,9 @@ from recipes.conftest import read, right
         ("steps:\n- while: 1 < 2\n  steps: [{apply: e1}]\n", 2, "bound", "needs a bound"),
         ("steps:\n- if: 1 + 2\n  then: [{apply: e1}]\n", 2, "expression", "it is a number"),
         ("steps:\n- foreach: {t: 3}\n  steps: [{apply: e1}]\n", 2, "type", "not a list"),
-        ("steps:\n- foreach: {t: {from: 0, to: 9, step: -1}}\n  steps: [{apply: e1}]\n", 2, "range", "no values"),
+        ("steps:\n- foreach: {t: {from: 0, to: 9, step: -1}}\n  steps: [{wait: 1}]", 2, "range", "no values"),
         ("steps:\n- let: {a: 1}\n- let: {a: 2 > 1}\n", 3, "type", "was number before"),
-        ("steps:\n- foreach: {t: [1, 2]}\n  steps:\n  - let: {inner: t}\n- let: {a: inner}\n", 5, "expression", "inner"),
+        ("steps:\n- foreach: {t: [1, 2]}\n  steps:\n  - let: {one: t}\n- let: {a: one}\n", 5, "expression", "one"),
         ("steps:\n- {apply: e1, as: x}\n", 2, "name", "no result"),
         ("steps:\n- {measure: cam.centroid, retries: 1.5}\n", 2, "type", "whole number"),
         ("steps:\n- optimize: centred\n", 2, "goal", "no goal `centred`"),

@@ -6,12 +6,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from pico.diagnostics import PicoError, error
 from pico.manifest.load import load_folder
 from pico.manifest.text.source import Source
-from pico.model.lab import Setup
 from pico.recipes.reader import Able
 from pico.recipes.reading import read_recipe
 from pico.recipes.recipe import Recipe
@@ -20,12 +17,6 @@ from pico.recipes.walking import Ask, walk
 HEAD = "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: a}\n"
 REVISIONS = ("C3", "e1", "main")
 SHEL = load_folder(Path(__file__).parents[2] / "labs" / "shel").require()[0]
-Read = Callable[..., tuple[Recipe, list[str]]]
-
-
-@pytest.fixture(scope="session")
-def setup() -> Setup:
-    return SHEL
 
 
 def read(text: str, others: Mapping[str, str] | None = None) -> tuple[Recipe | None, list[str]]:

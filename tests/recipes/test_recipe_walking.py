@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import pytest
+from asking import asked, read, right
 from hypothesis import given
 from hypothesis import strategies as st
-from recipes.conftest import asked, read, right
 
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.recipes.walking import Ask, walk

@@ -1,0 +1,121 @@
+"""`pico run`, `pico recipe`, `pico test`: a recipe of the lab checked, run, cut short, taken up and tried."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from commanding import Pico, edit
+
+TEXT = """apiVersion: pico/v1
+kind: Recipe
+metadata: {name: turning, title: The first polarizer turns}
+parameters: {angles: {unit: deg, default: [10, 20]}}
+steps:
+  - foreach: {angle: angles}
+    steps:
+      - set: {p1.angle: angle}
+      - {measure: p1.angle, as: seen}
+      - assert: abs(seen - angle) < 0.5
+returns: {last: p1.angle}
+"""
+
+
+@pytest.fixture
+def turning(shel: Path) -> Path:
+    (shel / "recipes").mkdir()
+    (shel / "recipes" / "turning.yaml").write_text(TEXT)
+    return shel
+
+
+def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
+    assert "turning  The first polarizer turns  angles [deg]" in pico("recipe").out
+    answer = pico("recipe", "check", "turning", "-p", "angles=[5, 6, 7]")
+    assert answer.code == 0 and "6 steps foreseen" in answer.out and "angle = 7  (3/3)" in answer.out
+    answer = pico("run", "turning", "--dry-run")
+    assert answer.code == 0 and pico("get", "p1.angle").out.split()[1] == "0"
+    answer = pico("run", "turning", "-p", "angles=3 deg", "--yes")
+    assert answer.code == 0 and "✓   1[1].1 set p1.angle: angle" in answer.out and "last = 3" in answer.out
+    assert pico("runs", "show", "--json").data["document"]["cause"]["kind"] == "recipe"
+
+
+def test_as_json_each_step_has_a_line_and_the_end_one(turning: Path, pico: Pico) -> None:
+    answer = pico("run", "turning", "--json", "--yes")
+    lines = [json.loads(line) for line in answer.out.splitlines()]
+    assert lines[-1]["schema"] == "pico.recipe_run/v1" and lines[-1]["returns"] == {"last": 20}
+    assert [d["path"] for d in lines if d.get("event") == "done"][:2] == ["1[1].1", "1[1].2"]
+    assert pico("run", "turning", "--json").code == 1  # nobody is asked with --json
+
+
+def test_mistakes_are_told_with_their_lines_and_nothing_is_done(turning: Path, pico: Pico) -> None:
+    edit(turning / "recipes" / "turning.yaml", "p1.angle: angle", "p1.angel: angle")
+    for words in (("run", "turning", "--yes"), ("recipe", "check", "turning")):
+        answer = pico(*words)
+        assert answer.code == 1 and "turning.yaml:8:15" in answer.err and "did you mean `angle`" in answer.err
+    assert "has mistakes" in pico("recipe").out
+    assert "no recipe `turing`" in pico("run", "turing").err and "did you mean `turning`" in pico("run", "turing").err
+
+
+def test_what_can_not_stand_is_told_before_anything_moves(turning: Path, pico: Pico) -> None:
+    text = "metadata: {name: bad}\nsteps:\n- move: {p2: {x: 222, y: 420}}\n"
+    (turning / "recipes" / "bad.yaml").write_text(f"apiVersion: pico/v1\nkind: Recipe\n{text}")
+    answer = pico("run", "bad", "--yes")
+    assert answer.code == 3 and "hwp" in answer.err and "bad.yaml:5" in answer.err
+
+
+def test_an_assertion_that_fails_ends_it_with_six(turning: Path, pico: Pico) -> None:
+    edit(turning / "recipes" / "turning.yaml", "< 0.5", "> 0.5")
+    answer = pico("run", "turning", "--yes")
+    assert answer.code == 6 and "failed at step 1[1].3" in answer.out
+    assert pico("run", "--resume").code == 1  # it has ended
+
+
+def test_a_person_is_asked_only_where_one_is(turning: Path, pico: Pico) -> None:
+    edit(turning / "recipes" / "turning.yaml", "steps:\n  - foreach", "steps:\n  - prompt: Put it in.\n  - foreach")
+    answer = pico("run", "turning", "--yes")
+    assert answer.code == 1 and "nobody is there to be asked: Put it in." in answer.err
+    edit(turning / "recipes" / "turning.yaml", "prompt: Put it in.", "{prompt: Put it in., unattended: skip}")
+    assert pico("run", "turning", "--yes").code == 0
+
+
+@pytest.mark.slow
+def test_a_killed_recipe_goes_on_where_it_was(turning: Path, pico: Pico) -> None:
+    command = [sys.executable, "-c", "from pico_cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"]
+    words = ["run", "turning", "-p", "angles={from: 1, to: 30, step: 1}", "--yes"]
+    running = subprocess.Popen([*command, *words], stdout=subprocess.PIPE, text=True)
+    assert running.stdout is not None
+    for line in running.stdout:
+        if "1[4].1" in line:
+            break
+    os.kill(running.pid, signal.SIGKILL)
+    running.wait()
+    assert "`pico run --resume` goes on" in pico("recipe").out
+    answer = pico("run", "--resume", "--yes")
+    assert answer.code == 0 and re.search(r"turning: done, 60 steps, \d+ of them before", answer.out)
+    running = subprocess.Popen([*command, *words], stdout=subprocess.PIPE, text=True)
+    assert running.stdout is not None
+    for line in running.stdout:
+        if "1[3].1" in line:
+            break
+    running.send_signal(signal.SIGINT)
+    rest = running.stdout.read()
+    assert running.wait(60) == 130 and "Go on with `pico run --resume`" in rest
+    assert pico("run", "--resume", "--yes").code == 0
+
+
+@pytest.mark.slow
+def test_recipes_are_tried_in_clones_and_the_bench_stays(turning: Path, pico: Pico) -> None:
+    bad = TEXT.replace("turning", "bad").replace("< 0.5", "> 0.5")
+    (turning / "recipes" / "bad.yaml").write_text(bad)
+    answer = pico("test", "--junit", "tests.xml")
+    assert answer.code == 1 and "✗ bad  failed at step 1[1].3" in answer.out and "✓ turning" in answer.out
+    suite = ElementTree.parse("tests.xml").getroot()
+    assert (suite.get("tests"), suite.get("failures")) == ("2", "1")
+    assert not (turning / ".pico" / "recipes").exists()
