@@ -228,8 +228,8 @@ def faults(
 ) -> None:
     """Let things go wrong on the simulated bench.
 
-    Drop, slip, jam, camera, timeout, reading, slow, or all. A rate is a share of the operations, from 0 to 1. Without
-    an argument it says what is in force.
+    Drop, slip, jam, camera, timeout, reading, slow, stick (an axis, for good), frame, beam, flood (of light), or all.
+    A rate is a share of the operations, from 0 to 1. Without an argument it says what is in force.
 
     Examples:
       pico sim faults drop=0.05 seed=3

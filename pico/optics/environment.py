@@ -78,7 +78,8 @@ def in_the_world(
         kind = setup.type_of(name)
         if kind.optics.element == "source":
             it = disturbed(environment, seed, name, time)
-            walked = {"walk_left": it.left, "walk_up": it.up, "walk_power": it.power}
+            odd = float(values.get(name, {}).get("walk_power", 0.0))
+            walked = {"walk_left": it.left, "walk_up": it.up, "walk_power": it.power + odd}
             set_to[name] = {**values.get(name, {}), **walked}
         elif kind.optics.element in MIRRORS:
             moved, turned = disturbed(environment, seed, name, time).moved, math.radians(poses[name].yaw)

@@ -211,6 +211,11 @@ def axis_jammed(address: str) -> Diagnostic:
     return error("jammed", f"{address} stopped on the way: nobody knows where it stands", hint=_AGAIN, address=address)
 
 
+def frame_lost() -> Diagnostic:
+    """Return what is said of a measurement that did not come."""
+    return error("frame", "what was measured got lost on the way", hint="measure again")
+
+
 def no_answer(address: str) -> Diagnostic:
     """Return what is said of an axis that did not answer, and was read to be elsewhere."""
     return error("timeout", f"{address} did not answer, and is not where it should be", hint=_AGAIN, address=address)

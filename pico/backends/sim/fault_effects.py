@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from dataclasses import replace
 
 from pico.backends.sim import checks
 from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import MoveFailed, WorldMover
 from pico.backends.sim.world import World, observe
+from pico.model.catalog import Tunable
 from pico.model.lab import Setup
-from pico.model.observation import Presence
+from pico.model.observation import ObservedValue, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
+from pico.model.quantities import Value
 
 Steps = Generator[float, None, None]
 UPRIGHT = 0.7
 """Share of the parts that are dropped and come to stand where there is room."""
 REST = 0.3
 """Seconds until an arm that is told to hold is at rest."""
+DARK = (1.0, 20.0)
+"""For how long a beam is lost, and a detector flooded [s]."""
+FLOOD = (30.0, 3000.0)
+"""By how much there is too much light then."""
 
 
 class Mishaps:
@@ -27,6 +34,7 @@ class Mishaps:
     def __init__(self, setup: Setup, faults: Faults, token: int, mover: WorldMover, world: Callable[[], World]) -> None:
         self._setup, self._faults, self._token, self._mover, self._world = setup, faults, token, mover, world
         self.unseen: set[str] = set()
+        self._odd: tuple[float, float] = (0.0, 1.0)
 
     def of(self, operation: Operation, key: str) -> Fault | None:
         """Return what goes wrong with an operation, by the lease and by what it is, so that a seed repeats itself."""
@@ -80,6 +88,22 @@ class Mishaps:
         self._mover.let_go(name, pose, presence)
         raise MoveFailed(checks.dropped(robot, name))
 
+    def shone(self, world: World, fault: Fault | None) -> World:
+        """Return a table as its light is now: without any, or with too much of it, for a while; raises MoveFailed where
+        what is measured gets lost."""
+        if fault is not None and fault.kind == "frame":
+            raise MoveFailed(checks.frame_lost())
+        if fault is not None and fault.kind in ("beam", "flood"):
+            share = 0.0 if fault.kind == "beam" else fault.draw.uniform(*FLOOD)
+            self._odd = world.clock + fault.draw.uniform(*DARK), share
+        until, share = self._odd
+        if world.clock > until:
+            return world
+        for name in world.components:
+            if name in self._setup.lab.inventory and self._setup.type_of(name).optics.element == "source":
+                world = world.with_value(name, "walk_power", ObservedValue(value=share - 1.0))
+        return world
+
     def _fallen(self, name: str, pose: Pose, fault: Fault) -> Presence:
         room = room_at(self._setup, name, pose, _standing(self._world()))
         if room is None:
@@ -87,21 +111,39 @@ class Mishaps:
         return "seen" if room and fault.draw.random() < UPRIGHT else "toppled"
 
 
-def driven_badly(fault: Fault | None, address: str, seconds: float) -> Steps:
-    """Let what is wrong with an axis take its time; raises MoveFailed where it does not get there."""
+def driven_badly(fault: Fault | None, address: str, seconds: float, stuck: bool = False) -> Steps:
+    """Let what is wrong with an axis take its time; raises MoveFailed where it does not get there. `stuck`: it has been
+    for some time."""
+    if stuck:
+        yield seconds
+        raise MoveFailed(checks.axis_jammed(address))
     if fault is None:
         return
     if fault.kind == "slow":
         yield 3 * seconds
     elif fault.kind == "reading":
         yield LOOK  # the first reading is wrong, so it is read again, and again
-    elif fault.kind == "jam":
+    elif fault.kind in ("jam", "stick"):
         yield seconds * fault.at
         raise MoveFailed(checks.axis_jammed(address))
     elif fault.kind == "timeout":
         yield 2 * seconds
         if fault.draw.random() < 0.5:  # it did nothing; else it did, and only its answer was lost
             raise MoveFailed(checks.no_answer(address))
+
+
+def on_the_way(kind: Tunable, live: ObservedValue, goal: Value, fault: Fault | None) -> ObservedValue:
+    """Return where an axis truly is, which nobody reads, that will stop on its way to `goal`; of others the value with
+    which they began."""
+    unknown = replace(live, status="unknown")
+    if fault is None or fault.kind not in ("jam", "stick") or kind.axis is None:
+        return unknown
+    if not isinstance(live.value, int | float) or not isinstance(goal, int | float):
+        return unknown
+    way = goal - live.value
+    if kind.period:
+        way = (way + kind.period / 2) % kind.period - kind.period / 2
+    return replace(unknown, value=live.value + way * fault.at)
 
 
 def _readings(pose: Pose, fault: Fault) -> list[Pose | None]:

@@ -3,7 +3,9 @@
 `drop`: the part falls out of the hand on the way. `slip`: it turns in the fingers and is put down beside its goal.
 `jam`: an axis, or the arm with the part in its hand, stops on the way. `camera`: nobody sees the part that was put
 down, for some looks or for good. `timeout`: an axis does not answer; it did what it should, or not. `reading`: the
-first reading is wrong. `slow`: an axis takes several times as long.
+first reading is wrong. `slow`: an axis takes several times as long. `stick`: an axis stops on the way for good, until
+faults are switched off. `frame`: what is measured gets lost. `beam`: no laser's light comes for a while. `flood`: for a
+while far too much does.
 """
 
 from __future__ import annotations
@@ -26,10 +28,13 @@ from pico.model.record import as_json, record
 
 _MOVES = tuple(p.name for p in OWN.values() if p.carries)
 _SETS = ("set", "home")
+_LOOKS = ("measure", "auto_range")
 KINDS: Mapping[str, tuple[str, ...]] = {
     "drop": _MOVES, "slip": _MOVES, "jam": (*_MOVES, *_SETS), "camera": _MOVES, "timeout": _SETS,
-    "reading": (*_MOVES, *_SETS), "slow": _SETS,
+    "reading": (*_MOVES, *_SETS), "slow": _SETS, "frame": ("measure",), "beam": _LOOKS, "flood": _LOOKS, "stick": _SETS,
 }  # fmt: skip
+LASTING = ("stick",)
+"""Faults that the bench itself cannot get over: they are none of `all`."""
 LOOKS = 3
 """How often a bench looks at most before it gives up: two looks that agree are believed."""
 LOOK = 0.5
@@ -50,7 +55,7 @@ class Fault:
 
 @record
 class Faults:
-    """How often each kind of fault comes: its share of the operations that it can befall. `all`: any of them."""
+    """How often each kind of fault comes: its share of the operations that it can befall. `all`: any but LASTING."""
 
     rates: Mapping[str, float] = field(default_factory=dict)
     seed: int = 1
@@ -58,13 +63,14 @@ class Faults:
     def of(self, primitive: str, key: str) -> Fault | None:
         """Return what goes wrong with the operation under `key`, the same each time; mostly nothing."""
         draw = random.Random(f"{self.seed}/{key}")
-        able = [kind for kind, primitives in KINDS.items() if primitive in primitives]
+        able = [kind for kind, primitives in KINDS.items() if primitive in primitives and kind not in LASTING]
         for kind in able:
             if draw.random() < self.rates.get(kind, 0.0):
                 return Fault(kind, draw)
         if able and draw.random() < self.rates.get("all", 0.0):
             return Fault(draw.choice(able), draw)
-        return None
+        lasting = (kind for kind in LASTING if primitive in KINDS[kind] and draw.random() < self.rates.get(kind, 0.0))
+        return next((Fault(kind, draw) for kind in lasting), None)
 
 
 def parse(words: Sequence[str], seed: int) -> Faults:

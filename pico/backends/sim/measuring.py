@@ -27,15 +27,16 @@ def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurab
 
 
 def measured(
-    setup: Setup, root: Path, world: World, component: str, name: str, busy: Sequence[str] | None, at: str
-) -> Measurement:
+    setup: Setup, root: Path, world: World, component: str, name: str, busy: Sequence[str] | None, at: str,
+    light: World | None = None,
+) -> Measurement:  # fmt: skip
     """Return what is measured of `component` on the table as it is; an array goes to the content store.
 
-    `busy`: the operations under way beside it; None where it is only peeked at. `at`: now, as ISO 8601. Raises `Failed`
-    where it is not simulated or can't be read now, PicoError where an array can't be kept.
+    `busy`: the operations under way beside it; None where it is only peeked at. `at`: now, as ISO 8601. `light`: the
+    table as its light is, where that is another. Raises `Failed` where it is not simulated or can't be read now, PicoError where an array can't be kept.
     """
     known, measurer = require_simulated(setup, component, name)
-    reading = measurer.read(Table(setup, root, world), component, name)
+    reading = measurer.read(Table(setup, root, light or world), component, name)
     seen = observe(world, "sim", "")
     said: dict[Condition, str] = {**conditions(setup, seen, component, known, busy or ())}
     if reading.saturated is not None:

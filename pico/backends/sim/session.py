@@ -16,8 +16,8 @@ from pico.backends.device import Began
 from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
 from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
-from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly
-from pico.backends.sim.faults import Fault, Faults
+from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly, on_the_way
+from pico.backends.sim.faults import LASTING, Fault, Faults
 from pico.backends.sim.halting import sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.known import BySight, Exactly, Known
@@ -168,19 +168,23 @@ class WorldSession:
         require_simulated(self._setup, operation.component, name)
         yield SETTLING
         busy = sorted(other.split("/")[1] for other in self._time.under_way if other != key)
-        found = measured(self._setup, self._root, self.world(), operation.component, name, busy, self._clock())
+        light = self._mishaps.shone(self.world(), self._mishaps.of(operation, key))
+        found = measured(
+            self._setup, self._root, self.world(), operation.component, name, busy, self._clock(), light=light
+        )
         return {"measurement": as_json(found)}
 
     def _auto_range(self, operation: Operation, key: str) -> InProgress:
         """Take frames, and expose each as the one before tells, until one is neither saturated nor dark."""
         name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
         _, measurer = require_simulated(self._setup, name, "image")
-        limits, frames = kind.range or (0.0, math.inf), list[Taken]()
+        limits, frames, fault = kind.range or (0.0, math.inf), list[Taken](), self._mishaps.of(operation, key)
         while len(frames) < MOST:
             live = self._world.components[name].values[tunable].value
             exposure = live if isinstance(live, int | float) else limits[0]
             yield SETTLING + exposure * 1e-3
-            found = measurer.read(Table(self._setup, self._root, self.world()), name, "image")
+            light = self._mishaps.shone(self.world(), fault if not frames else None)
+            found = measurer.read(Table(self._setup, self._root, light), name, "image")
             assert found.array is not None
             black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
             frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
@@ -315,9 +319,13 @@ class WorldSession:
             seconds = set_seconds(kind, before, goal)
             if before is None and kind.axis and kind.axis.kind == "homed":  # it must be homed first
                 seconds = home_seconds(kind, None) + set_seconds(kind, kind.axis.home, goal)
-        self._world = self._world.with_value(name, tunable, replace(live, status="unknown"))
+        address = f"{name}.{tunable}"
+        stuck = address in self._world.stuck
+        self._world = self._world.with_value(name, tunable, on_the_way(kind, live, goal, None if stuck else fault))
+        if fault is not None and fault.kind in LASTING and kind.axis and not stuck:
+            self._world = replace(self._world, stuck=(*self._world.stuck, address))
         self._keep()
-        yield from driven_badly(fault, f"{name}.{tunable}", seconds)
+        yield from driven_badly(fault, address, seconds, stuck)
         yield seconds
         self._world = self._world.with_value(name, tunable, ObservedValue(value=goal))
         return {"value": goal}

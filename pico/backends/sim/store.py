@@ -95,6 +95,7 @@ def world_from_json(data: Any) -> World:
         cameras={k: _shift(v) for k, v in data.get("cameras", {}).items()},
         stickers={str(k): None if v is None else int(v) for k, v in data.get("stickers", {}).items()},
         person=data.get("person") is True,
+        stuck=tuple(str(one) for one in data.get("stuck", ())),
     )
 
 

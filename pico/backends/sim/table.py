@@ -117,7 +117,10 @@ class SimulatedTable:
         Raises PicoError for a fault that there is not.
         """
         if words:
-            save_faults(self._root, parse(words, self._setup.lab.sim.seed))
+            wanted = parse(words, self._setup.lab.sim.seed)
+            save_faults(self._root, wanted)
+            if not any(wanted.rates.values()) and self._world().stuck:
+                self._change("sim faults", lambda world: replace(world, stuck=()))
         found: dict[str, Any] = as_json(faults_of(self._setup, self._root))
         return found
 

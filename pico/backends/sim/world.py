@@ -77,7 +77,8 @@ class World:
     """The simulated table. `clock`: simulated seconds since it was new. `robots`: joints [rad] and what each holds.
 
     `openings`: how far the pads of grippers are apart [mm], all the way where it is not told. `cameras`: how far those
-    were bumped that are not where they were when the world was new. `person`: somebody is at the table.
+    were bumped that are not where they were when the world was new. `person`: somebody is at the table. `stuck`: axes
+    that no motor moves any more.
     """
 
     schema: str = FORMAT.schema
@@ -92,6 +93,7 @@ class World:
     cameras: Mapping[str, CameraShift] = field(default_factory=dict)
     stickers: Mapping[str, int | None] = field(default_factory=dict)
     person: bool = False
+    stuck: tuple[str, ...] = ()
 
     def with_body(self, name: str, **changes: Any) -> World:
         """Return the world with fields of component `name` replaced."""
