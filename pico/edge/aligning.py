@@ -17,7 +17,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.expressions import ExpressionError, Language
 from pico.model.catalog import Tunable
 from pico.model.event import Event
-from pico.model.lab import Goal, Setup
+from pico.model.lab import EXPOSURE, Goal, Setup
 from pico.model.measurement import Measurement, measurement_from_json, number_of
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
@@ -33,9 +33,16 @@ if TYPE_CHECKING:
 Stopping = Literal["", "safely", "now"]
 OBJECTIVE = "objective"
 """What the value of an expression is called that is to be as low or as high as can be."""
-EXPOSURE = "exposure"
 ACQUIRING = ("spiral", "raster")
 """Algorithms that look for light."""
+ATTEMPTS = 3
+"""How often an axis that does not answer or stops is driven, and how often a measurement that gets lost is taken, at
+most; as often as an operation of a plan is tried."""
+AGAIN = ("timeout", "jammed")
+"""Failures of an axis after which it may be driven again: its target is absolute."""
+FRAME = "frame"
+"""The failure of a measurement that got lost: nothing is known of the light."""
+_UNSAID = error("failed", "the device does not say why")
 _OVER = 2.0
 """How far an axis goes beyond, to come to its place from the side on which it is to be, in backlashes."""
 
@@ -142,26 +149,44 @@ class _Run:
         self, setup: Setup, device: Device, operation: Operation, key: str, goal: Goal, problem: Problem
     ) -> None:
         self.setup, self.device, self.operation, self.key = setup, device, operation, key
-        self.goal, self.problem = goal, problem
+        self.goal, self.problem, self.bounds = goal, problem, goal.tunables
         self.name, self.algorithm = str(operation.arguments["goal"]), str(operation.arguments["algorithm"])
         self.measured = self.steps = 0
         self.now = 0.0
         self.stands = dict(problem.start)
-        self.exposed: dict[str, float | None] = {}
+        self.failed: set[str] = set()
+        self.exposed: set[str] = set()
         self._language = Language(dict.fromkeys(sorted(numbers_in(setup, goal)), "number"))
 
     async def answer(self, ask: Ask) -> Reading:
-        """Set what is asked, one tunable after the other, and measure."""
-        for name, value in ask.point.items():
-            component, _, tunable = name.partition(".")
-            kind = self.setup.type_of(component).tunables[tunable]
-            for goal in ways(kind, self.stands[name], value):
-                arguments = {"tunable": tunable, "from": self.stands[name], "to": goal}
+        """Set what is asked, one tunable after the other, and measure. One that failed once is left alone from then on,
+        and the others are set all the same."""
+        faults = [await self._brought(name, value) for name, value in ask.point.items() if name not in self.failed]
+        if fault := next(filter(None, faults), ""):
+            return Reading(time=self.now, fault=fault)
+        return await self._read() if ask.measure and not self.failed else Reading(time=self.now)
+
+    async def _brought(self, name: str, value: float) -> str:
+        """Bring a tunable to a value from the side of its axis; return why it does not come there, empty where it
+        does."""
+        component, _, tunable = name.partition(".")
+        kind, here = self.setup.type_of(component).tunables[tunable], self.stands[name]
+        wrong: Diagnostic | None = None
+        for _ in range(ATTEMPTS):
+            for goal in ways(kind, here, value, self.bounds[name]):
+                arguments = {"tunable": tunable, "from": here, "to": goal}
                 result = await self._do("set", component, arguments)
-                if result.outcome != "done":
-                    return Reading(time=self.now, fault=_fault(name, self.stands[name], result.error))
-                self.stands[name] = goal
-        return await self._read() if ask.measure else Reading(time=self.now)
+                wrong = None if result.outcome == "done" else result.error or _UNSAID
+                if wrong:
+                    break
+                self.stands[name] = here = goal
+            if wrong is None:
+                return ""
+            if wrong.code not in AGAIN:
+                break
+            here = math.nan  # nobody knows where it stands
+        self.failed.add(name)
+        return _fault(name, kind.unit, self.stands[name], wrong)
 
     async def _read(self) -> Reading:
         self.measured += 1
@@ -185,31 +210,35 @@ class _Run:
         return found
 
     async def _taken(self, component: str, measurable: str) -> Measurement | str:
-        result = await self._do("measure", component, {"measurable": measurable})
+        for _ in range(ATTEMPTS):
+            result = await self._do("measure", component, {"measurable": measurable})
+            if result.error is None or result.error.code != FRAME:
+                break
         if result.outcome != "done" or "measurement" not in result.data:
             return result.error.summary if result.error else f"{component}.{measurable} was not measured"
         return measurement_from_json(result.data["measurement"])
 
     async def _ranged(self, component: str) -> bool:
         """Find an exposure that suits, where a detector can."""
-        kind = self.setup.type_of(component)
-        if "auto_range" not in kind.primitives or EXPOSURE not in kind.tunables:
+        if f"{component}.{EXPOSURE}" not in self.operation.arguments["from"]:
             return False
+        self.exposed.add(component)
         result = await self._do("auto_range", component, {"tunable": EXPOSURE})
-        if result.outcome != "done":
-            return False
-        before = result.data.get("frames", [{}])[0].get("exposure")
-        self.exposed.setdefault(component, before)
-        return True
+        return result.outcome == "done"
 
     async def restore(self) -> None:
         """Set exposures back that were changed on the way."""
-        for component, before in self.exposed.items():
-            if before is not None:
-                await self._do("set", component, {"tunable": EXPOSURE, "from": None, "to": before})
+        for component in sorted(self.exposed):
+            before = self.operation.arguments["from"][f"{component}.{EXPOSURE}"]
+            for _ in range(ATTEMPTS):
+                result = await self._do("set", component, {"tunable": EXPOSURE, "from": None, "to": before})
+                if result.error is None or result.error.code not in AGAIN:
+                    break
 
     def _evaluated(self, taken: Mapping[str, Measurement]) -> Reading:
         """Return the outputs of a goal, with their standard deviations to first order, and its signal."""
+        if full := next((m for m in taken.values() if "not saturated" in m.not_assured), None):
+            return Reading(unknown=f"{full.address} is saturated: {full.not_assured['not saturated']}", glaring=True)
         values, sigmas, unknown = {}, {}, ""
         for name in self._language.names:
             component, _, number = name.partition(".")
@@ -220,8 +249,6 @@ class _Run:
             if found is None or known is None:
                 unknown = unknown or next((m.unknown for m in taken.values() if m.unknown), f"{name} was not measured")
                 continue
-            if "not saturated" in found.not_assured:
-                return Reading(unknown=f"{found.address} is saturated: {found.not_assured['not saturated']}")
             values[name], sigmas[name] = known, _sigma(found, number)
         result: dict[str, float] = {}
         outputs = dict(zip(self.problem.outputs, self.goal.texts, strict=False))
@@ -281,6 +308,7 @@ def _variables(setup: Setup, seen: Observation, goal: Goal) -> Iterator[Variable
         if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
             raise PicoError(error("goal", f"nobody knows {address}, so that nobody could go back to it"))
         start = float(live.value)
+        low, high = searched(kind, (low, high), start)
         yield Variable(address, low, high, start, kind.resolution, kind.period)
 
 
@@ -294,19 +322,32 @@ def numbers_in(setup: Setup, goal: Goal) -> set[str]:
     return {w for w in words if w.partition(".")[2] in numbers_of(setup, w.partition(".")[0])}
 
 
-def ways(kind: Tunable, here: float, goal: float) -> tuple[float, ...]:
+def ways(kind: Tunable, here: float, goal: float, bounds: tuple[float, float]) -> tuple[float, ...]:
     """Return the values that a tunable is set to on its way to a goal: where its axis would come from the wrong side,
-    one beyond the backlash first, within its range."""
-    axis = kind.axis
+    or nobody knows where it is (`here` is NaN), one beyond the backlash first, within bounds."""
+    side, over = side_of(kind)
     if here == goal:
         return ()
-    if axis is None or axis.backlash <= 0 or axis.approach == "either":
-        return (goal,)
-    side = 1.0 if axis.approach == "positive" else -1.0
-    beyond = goal - side * _OVER * axis.backlash
-    if kind.range:
-        beyond = min(kind.range[1], max(kind.range[0], beyond))
+    beyond = min(bounds[1], max(bounds[0], goal - side * over))
     return (goal,) if (goal - here) * side > 0 or beyond == goal else (beyond, goal)
+
+
+def side_of(kind: Tunable) -> tuple[float, float]:
+    """Return from which side the axis of a tunable comes to a value (1 from below, -1 from above), and how far it goes
+    beyond to come from there; 0, 0 where that makes no difference."""
+    axis = kind.axis
+    if axis is None or axis.backlash <= 0 or axis.approach == "either":
+        return 0.0, 0.0
+    return 1.0 if axis.approach == "positive" else -1.0, _OVER * axis.backlash
+
+
+def searched(kind: Tunable, bounds: tuple[float, float], start: float) -> tuple[float, float]:
+    """Return within which bounds a tunable is searched, so that each value can be come to from the side of its axis;
+    where it stands is always within."""
+    (low, high), (side, over) = bounds, side_of(kind)
+    if not low <= start <= high or high - low < 4 * over:
+        return bounds
+    return (min(start, low + over), high) if side > 0 else (low, max(start, high - over)) if side < 0 else bounds
 
 
 def _sigma(found: Measurement, number: str) -> float:
@@ -315,9 +356,9 @@ def _sigma(found: Measurement, number: str) -> float:
     return float(found.sigma or 0.0)
 
 
-def _fault(name: str, last: float, wrong: Diagnostic | None) -> str:
+def _fault(name: str, unit: str, last: float, wrong: Diagnostic | None) -> str:
     said = f": {wrong.summary}" if wrong else ""
-    return f"{name} does not go where it is sent; it last stood at {last:g}{said}"
+    return f"{name} does not go where it is sent; it last stood at {last:g} {unit}".rstrip() + said
 
 
 def _numbers(result: Mapping[str, float] | None) -> dict[str, float] | None:

@@ -120,6 +120,8 @@ class Mount:
     yaw: Angle = 0.0
 
 
+EXPOSURE = "exposure"
+"""The tunable of a detector that `auto_range` finds."""
 PARKED = 0.02
 """How far a joint may be from where it parks [rad]; of a gantry [m]."""
 XARM7_RANGES = ((-360, 360), (-117.97, 120), (-360, 360), (-11, 225), (-360, 360), (-97, 180), (-360, 360))
@@ -532,6 +534,13 @@ class Setup:
         if part.restore:
             kind = with_restore(kind, part.restore)
         return with_parameters(kind, part.parameters) if part.parameters else kind
+
+    def ranges(self, component: str) -> bool:
+        """Return whether `component` finds an exposure of its own."""
+        if component not in self.lab.inventory:
+            return False
+        kind = self.type_of(component)
+        return "auto_range" in kind.primitives and EXPOSURE in kind.tunables
 
     def seating_of(self, component: str) -> SeatingKind:
         """Return how `component` is seated: the part's own word, else its type's."""

@@ -43,7 +43,8 @@ class Operation:
     `from` says `"held": true` and where it then is, seen from above. Of `set`: `tunable`, `from`, `to`. Of `home`:
     `tunable`. Of `measure`: `measurable`; its `component` may be a camera over the bench. Of `park`: none; its
     `component` is the robot's name. Of `optimize`: `goal`, its name, `what` it is (as `pico.model.lab.Goal`), the
-    `algorithm` with its `parameters`, and `from`, where its tunables stand. Of `operator`: `text`, and `to` where a
+    `algorithm` with its `parameters`, and `from`, where its tunables stand, and the exposures that it may change on the
+    way. Of `operator`: `text`, and `to` where a
     component is to be moved. `resources` are
     what it holds while it runs (a robot, `motor/p1.angle`, the component itself): each does one thing at a time.
     `after`: ids of the operations that must be done first. `start`, `seconds`: predicted [s].
@@ -88,7 +89,10 @@ def address_of(component: str, arguments: Mapping[str, Any]) -> str:
 
 def touched_by(component: str, arguments: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """Return the tunables that an operation changes, each with its component; `pose` where it names none."""
-    searched = arguments.get("what", {}).get("tunables", {})
+    searched = {
+        **arguments.get("what", {}).get("tunables", {}),
+        **(arguments.get("from", {}) if "what" in arguments else {}),
+    }
     found = tuple((one, tunable) for one, _, tunable in (address.partition(".") for address in searched))
     return found or ((component, str(arguments.get("tunable", "pose"))),)
 

@@ -45,11 +45,13 @@ class Ask:
 @dataclass(frozen=True)
 class Reading:
     """What came of an ask: outputs with their `<output>_sigma`, none where it is dark or a frame was lost (`unknown`
-    says why); `time` on the bench's clock [s]; `fault`: what does not answer any more, with its last reading."""
+    says why; `glaring`: there is too much light); `time` on the bench's clock [s]; `fault`: what does not answer any more,
+    with its last reading."""
 
     values: Mapping[str, float] = field(default_factory=dict)
     time: float = 0.0
     unknown: str = ""
+    glaring: bool = False
     fault: str = ""
 
 
@@ -98,11 +100,14 @@ class _Walk:
         self.good: Tried | None = None
         self.began: float | None = None
         self.now = self.longest = 0.0
-        self.lost, self.fault, self.unknown = 0, "", ""
+        self.lost, self.fault, self.unknown, self.glaring = 0, "", "", False
 
     def run(self, refine: Making, acquire: Making | None) -> Loop:
         yield from self._ask(self.problem.start)
-        why = self._over()
+        while not (why := self._over()) and self.glaring:
+            if self.lost >= LOST:
+                return (yield from self._end("there is too much light to begin with"))
+            yield from self._ask(self.problem.start)
         if not why and self.good is None and acquire is not None:
             why = yield from self._stage(acquire(self.problem), until_light=True)
             if self.good is None:
@@ -155,7 +160,7 @@ class _Walk:
             self.began = before = reading.time
         self.now = reading.time
         self.longest = max(self.longest, self.now - before)
-        self.unknown = reading.unknown
+        self.unknown, self.glaring = reading.unknown, reading.glaring
         if reading.fault:
             self.fault = self.fault or reading.fault
         tried = Tried({**point, **reading.values}, reading.time, why)
@@ -197,11 +202,13 @@ class _Walk:
         stopped = self.fault
         if self.unknown and not self.fault and (self.good is None or self.lost):
             why = f"{why} ({self.unknown})"
-        if self.good is None and first is not None:
+        if self.fault:  # what it set besides goes back to where it began
+            yield from self._ask(self.problem.start, measure=False, why="start")
+        elif self.good is None and first is not None:
             yield from self._ask(_point(self.problem, first), measure=False, why="start")
         elif self.good is not None and not self._at_best():
             yield from self._ask(_point(self.problem, self.good), why="best")
-        if first is not None and self._worse(first):
+        if first is not None and not self.fault and self._worse(first):
             left = len(self.tried) < self.limits.measurements
             yield from self._ask(_point(self.problem, first), measure=left, why="start")
         last = self.tried[-1] if self.tried else None

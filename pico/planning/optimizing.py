@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Goal, Setup
+from pico.model.lab import EXPOSURE, Goal, Setup
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
@@ -31,7 +31,7 @@ def optimizing(
 
     Raises PicoError where a tunable of the goal is not known, so that nobody could go back to it.
     """
-    begin = _from(setup, seen, name, goal)
+    begin = {**_from(setup, seen, name, goal), **_exposures(setup, seen, goal)}
     given = {**usual_parameters(algorithm, _tuned(setup, goal)), **(goal.parameters or {})}
     out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
     parks = [*map(str, range(len(out)))]
@@ -89,6 +89,17 @@ def _tuned(setup: Setup, goal: Goal) -> list[Tuned]:
         component, _, name = address.partition(".")
         kind = setup.type_of(component)
         found.append(Tuned(kind.optics.element, name, kind.tunables[name].period))
+    return found
+
+
+def _exposures(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, float]:
+    """Return the exposures, by address, that a detector may be given on the way, as they are."""
+    found = {}
+    for component, _ in measured_in(setup, goal.texts):
+        part = seen.components.get(component)
+        live = part.values.get(EXPOSURE) if part and setup.ranges(component) else None
+        if live is not None and live.status != "unknown" and isinstance(live.value, int | float):
+            found[f"{component}.{EXPOSURE}"] = float(live.value)
     return found
 
 

@@ -23,7 +23,7 @@ def axis(approach: str, backlash: float = 0.01) -> Tunable:
 def test_the_last_way_to_a_value_is_from_the_side_of_the_axis(
     here: float, goal: float, approach: str, backlash: float
 ) -> None:
-    found = ways(axis(approach, backlash), here, goal)
+    found = ways(axis(approach, backlash), here, goal, (-1.0, 1.0))
     assert all(-1 <= value <= 1 for value in found) and len(found) <= 2
     if here == goal:
         assert not found
@@ -36,6 +36,6 @@ def test_the_last_way_to_a_value_is_from_the_side_of_the_axis(
 
 
 def test_what_has_no_axis_goes_straight() -> None:
-    assert ways(Tunable(range=(0.0, 5.0)), 1.0, 3.0) == (3.0,)
-    assert ways(axis("positive"), 0.5, 0.2) == pytest.approx((0.18, 0.2))
-    assert ways(axis("positive"), 0.1, 0.2) == (0.2,)
+    assert ways(Tunable(range=(0.0, 5.0)), 1.0, 3.0, (0.0, 5.0)) == (3.0,)
+    assert ways(axis("positive"), 0.5, 0.2, (-1, 1)) == pytest.approx((0.18, 0.2))
+    assert ways(axis("positive"), 0.1, 0.2, (-1, 1)) == (0.2,)

@@ -33,7 +33,8 @@ def measured(
     """Return what is measured of `component` on the table as it is; an array goes to the content store.
 
     `busy`: the operations under way beside it; None where it is only peeked at. `at`: now, as ISO 8601. `light`: the
-    table as its light is, where that is another. Raises `Failed` where it is not simulated or can't be read now, PicoError where an array can't be kept.
+    table as its light is, where that is another. Raises `Failed` where it is not simulated or can't be read now,
+    PicoError where an array can't be kept.
     """
     known, measurer = require_simulated(setup, component, name)
     reading = measurer.read(Table(setup, root, light or world), component, name)
