@@ -14,6 +14,7 @@ from pico.optimize.problem import Algorithm, Point, Problem
 
 STOPPED = "it was stopped"
 """Why it ended where somebody asked for that."""
+LIGHT_LOST = "the light was lost"
 LOST = 6
 """Readings without light, one after the other, after light was seen, at which it gives up."""
 _SURE = 5.0
@@ -45,8 +46,8 @@ class Ask:
 @dataclass(frozen=True)
 class Reading:
     """What came of an ask: outputs with their `<output>_sigma`, none where it is dark or a frame was lost (`unknown`
-    says why; `glaring`: there is too much light); `time` on the bench's clock [s]; `fault`: what does not answer any more,
-    with its last reading."""
+    says why; `glaring`: there is too much light); `time` on the bench's clock [s]; `fault`: what does not answer, with its last
+    reading."""
 
     values: Mapping[str, float] = field(default_factory=dict)
     time: float = 0.0
@@ -148,7 +149,7 @@ class _Walk:
             STOPPED: self.stopping(),
             f"the budget of {limits.measurements} measurements is spent": spends > limits.measurements,
             f"the budget of {limits.seconds:g} s is spent": slow and spent > 0,
-            f"the light was lost {self.lost} times in a row": self.good is not None and self.lost >= LOST,
+            f"{LIGHT_LOST} {self.lost} times in a row": self.good is not None and self.lost >= LOST,
         }
         return next((why for why, so in ends.items() if so), "")
 
@@ -208,6 +209,13 @@ class _Walk:
             yield from self._ask(_point(self.problem, first), measure=False, why="start")
         elif self.good is not None and not self._at_best():
             yield from self._ask(_point(self.problem, self.good), why="best")
+        if first is not None and self._doubtful(first):
+            best = dict(self.here)
+            again = yield from self._ask(_point(self.problem, first), why="check")
+            if self.problem.cost(again.result) < self.problem.cost(first.result) / 2:
+                why, self.good = f"{LIGHT_LOST} on the way: less comes now to where it began", None
+            else:
+                yield from self._ask(best, why="best")
         if first is not None and not self.fault and self._worse(first):
             left = len(self.tried) < self.limits.measurements
             yield from self._ask(_point(self.problem, first), measure=left, why="start")
@@ -221,6 +229,16 @@ class _Walk:
             seen, last.result if believed and last else None, tuple(self.tried), met, why, stopped,
             self.now - (self.began or 0.0),
         )  # fmt: skip
+
+    def _doubtful(self, first: Tried) -> bool:
+        """Whether what looks like a null may be a beam that was lost: where it reads as without light, though it did
+        not where it began, and nothing else is measured that would tell."""
+        if self.problem.aim != "minimize" or self.limits.signal or self.fault or not self._believed(first.result):
+            return False
+        output, last = self.problem.outputs[0], self.tried[-1].result
+        least = {n: _SURE * r.get(f"{output}_sigma", 0.0) for n, r in (("first", first.result), ("last", last))}
+        dark = abs(last.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
+        return dark and len(self.tried) + 2 <= self.limits.measurements
 
     def _worse(self, first: Tried) -> bool:
         """Whether it is worse now than it began, by two standard deviations."""

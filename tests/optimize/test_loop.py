@@ -156,3 +156,25 @@ def test_no_fault_leaves_it_worse_than_it_began(name: str, block: int) -> None:
         first, last = problem.cost(truth(problem.start)), problem.cost(truth(asks[-1].point))
         spread = problem.noise({**truth(asks[-1].point), **{f"{n}_sigma": noise for n in problem.outputs}})
         assert last <= first + 6 * spread, (seed, kind, found.why)
+
+
+def test_a_beam_that_is_lost_is_no_null() -> None:
+    """The voltage of a photodiode behind crossed polarizers, whose laser fails for good after the fifth reading."""
+    problem = Problem((Variable("p.angle", 0.0, 180.0, 40.0),), ("pd.voltage",), "minimize")
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        light = 0.0 if number > 5 else math.cos(math.radians(point["p.angle"])) ** 2
+        return {"pd.voltage": light, "pd.voltage_sigma": 1e-4}
+
+    found, asks = driven(problem, "nelder_mead", read)
+    assert not found.met and "the light was lost on the way" in found.why
+    assert asks[-1].point == problem.start
+
+
+def test_too_much_light_is_not_looked_for_on_a_spiral() -> None:
+    def read(point: Point, number: int) -> Reading:
+        return Reading(unknown="cam.image is saturated", glaring=True, time=float(number))
+
+    found, asks = driven(CENTRE, "centroid_newton", read, acquire="spiral")
+    assert "too much light to begin with (cam.image is saturated)" in found.why
+    assert all(ask.point == CENTRE.start for ask in asks)
