@@ -46,8 +46,8 @@ class Ask:
 @dataclass(frozen=True)
 class Reading:
     """What came of an ask: outputs with their `<output>_sigma`, none where it is dark or a frame was lost (`unknown`
-    says why; `glaring`: there is too much light); `time` on the bench's clock [s]; `fault`: what does not answer, with its last
-    reading."""
+    says why; `glaring`: there is too much light); `time` on the bench's clock [s]; `fault`: what does not answer, with
+    its last reading."""
 
     values: Mapping[str, float] = field(default_factory=dict)
     time: float = 0.0
