@@ -32,6 +32,7 @@ def validate(
     from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
     from pico.optics.audit.state import check_light
+    from pico.optics.nominal.spans import check_spans
     from pico.planning.checks.bolted import check_bolted
     from pico.planning.checks.grips import check_grips, check_reach
 
@@ -43,6 +44,7 @@ def validate(
             *check_reach(read),
             *overlapping(read),
             *check_light(read),
+            *check_spans(read),
             *doubts_in(root, read),
             *waiting(root),
         ],

@@ -6,12 +6,14 @@ x, y and yaw. Pitch, roll and height only light tells.
 
 from __future__ import annotations
 
+import math
 import random
 from dataclasses import dataclass
 
-from pico.model.catalog import SEATINGS, Repeatability, SeatingKind
+from pico.model.catalog import SEATINGS, ComponentType, Repeatability, SeatingKind
 from pico.model.lab import Setup
 from pico.model.pose import Pose, wrap
+from pico.model.quantities import QuantityError, convert
 from pico.model.record import record
 
 
@@ -63,6 +65,27 @@ def scatter(repeats: Repeatability, seating: SeatingKind) -> PlacementError:
     said = (repeats.pitch, repeats.roll, repeats.height)
     pitch, roll, height = (u if own is None else own for own, u in zip(said, usual, strict=True))
     return PlacementError(repeats.position, repeats.position, repeats.yaw, pitch, roll, height)
+
+
+def placed_on(kind: ComponentType, tunable: str, one: PlacementError) -> float | None:
+    """Return how far placing a component scatters along one of its axes, in the unit of that tunable, `one` being one
+    standard deviation: yaw for `tip`, pitch for `tilt`, roll for `angle`; and for stages position and height, with what
+    it leans at the height of its optic. None for what placing it does not move."""
+    height = kind.frames.optical[2]
+    lean = {"stage_x": one.pitch, "stage_y": one.roll}
+    by: tuple[float, str]
+    if tunable in ("tip", "tilt", "angle"):
+        by = {"tip": one.yaw, "tilt": one.pitch, "angle": one.roll}[tunable], "deg"
+    elif tunable in lean:
+        by = math.hypot(one.x, height * math.radians(lean[tunable])), "mm"
+    elif tunable == "stage_z":
+        by = one.height, "mm"
+    else:
+        return None
+    try:
+        return float(convert(f"{by[0]} {by[1]}", kind.tunables[tunable].unit))
+    except QuantityError:
+        return None
 
 
 def drawn(setup: Setup, component: str, seed: int, count: int, times: float = 1.0) -> PlacementError:

@@ -426,6 +426,8 @@ _THRESHOLDS: Mapping[str, Mapping[str, Value]] = {
 """Damage thresholds that the types of the catalog give since beams are audited, by element and type."""
 _DECLARED = ("beam_camera", "photodiode", "power_meter", "shutter")
 """Types of the catalog that are declared to end beams since beams are audited."""
+_TRIMS: Mapping[str, float] = {"mirror_tip_tilt": 2, "mirror_fixed": 5, "mirror_flip": 5}
+"""What trims of mirrors in the catalog were before they had to take in how mirrors are placed, by type; 12 since."""
 _SCALES = {"nW": 1e-6}  # to mW
 _REQUESTS: Mapping[str, tuple[str, ...]] = {"source": ("emission", "shutter", "power"), "shutter": ("shutter",)}
 """Tunables that let light out, by element: what a state says of them is a request, also in types that were written when
@@ -473,9 +475,13 @@ def as_first_written(kind: ComponentType) -> ComponentType:
     usual = SEATINGS[kind.seating]
     if (kind.repeatability.pitch, kind.repeatability.roll, kind.repeatability.height) not in (usual, (None,) * 3):
         repeats = kind.repeatability
+    tunables = dict(kind.tunables)
+    for name, tunable in kind.tunables.items():
+        if kind.name in _TRIMS and tunable.restore == Restore(kind="align", trim=12):
+            tunables[name] = replace(tunable, restore=Restore(kind="align", trim=_TRIMS[kind.name]))
     ends = None if kind.name in _DECLARED and kind.optics.ends_beams else kind.optics.ends_beams
     return replace(
-        kind, parameters=own, measurables=measured, primitives=can, repeatability=repeats,
+        kind, parameters=own, measurables=measured, primitives=can, repeatability=repeats, tunables=tunables,
         optics=replace(kind.optics, properties=written, ends_beams=ends),
     )  # fmt: skip
 

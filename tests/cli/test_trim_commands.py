@@ -67,8 +67,8 @@ def test_a_plan_that_makes_it_stale_sets_the_value_and_ends_where_a_plan_finds_n
     assert stage(pico) == 0 and pico("plan", "--detailed-exitcode").code == 0
 
 
-def test_beyond_the_trim_or_without_one_the_value_counts(aligned: Path, pico: Pico) -> None:
-    own = "ly_150:\n    restore: {stage_y: {kind: align, trim: 0.0001}, stage_z: {kind: setpoint}}\n"
+def test_of_a_set_point_the_value_counts(aligned: Path, pico: Pico) -> None:
+    own = "ly_150:\n    restore: {stage_y: {kind: setpoint}, stage_z: {kind: setpoint}}\n"
     edit(aligned / "lab.yaml", "ly_150:\n", own)
     assert pico("bench", "update", "--yes").code == 0
     assert pico("plan", "--detailed-exitcode").code == 2

@@ -12,6 +12,7 @@ from pico.manifest.checks.kernels import check_kernels
 from pico.manifest.checks.needs import check_needs
 from pico.manifest.checks.parameters import check_parameters
 from pico.manifest.checks.spectra import check_lines
+from pico.manifest.checks.trims import check_trims
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
@@ -44,6 +45,7 @@ def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
     found += check_needs(document, kind)
     found += check_parameters(document, kind)
     found += check_lines(document, kind)
+    found += check_trims(document, kind)
     return found
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
 from pico.manifest.checks.cameras import check_cameras, check_view
+from pico.manifest.checks.trims import check_own_trims
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
@@ -39,6 +40,7 @@ def check_setup(document: Document, setup: Setup) -> list[Diagnostic]:
         if type_name in setup.catalog:
             found += _type(document, setup, setup.catalog[type_name], part_name)
     found += _slots_fit(document, setup)
+    found += check_own_trims(document, setup)
     found += check_view(document, setup)
     return found
 
