@@ -53,6 +53,7 @@ def _head(d: Run, commit: Commit | None) -> list[str]:
         f"{paint('yellow', f'run {shown(d.id)}')}  {where}",
         f"{shown(deed(d))}, {moment(d.started_at)} UTC{by}{resumed}",
         f"{paint(COLORS[d.outcome], d.outcome.capitalize())}: {ended} · {PROVES.get(d.evidence, d.evidence)}",
+        *([paint("yellow", f"Not met: {shown(', '.join(d.unmet))}")] if d.unmet else []),
     ]
 
 
@@ -101,6 +102,8 @@ def _ended(op: OperationRun) -> str:
         said += f", {number(error_mm)} mm, {number(error_deg)}° off"
     if isinstance(op.data.get("measurement"), Mapping):
         said += f": {shown(_measured(op.data['measurement']))}"
+    if isinstance(op.data.get("met"), bool):
+        said += ": met" if op.data["met"] else f": not met, {shown(str(op.data.get('why', '')))}"
     if found := ranged(op.data):
         said += f": {found}"
     if op.settled:

@@ -34,7 +34,7 @@ def _row(d: Run, commit: Commit | None) -> list[str]:
         moment(d.started_at),
         shorten(deed(d), 26),
         d.evidence,
-        paint(COLORS[d.outcome], d.outcome),
+        paint(COLORS[d.outcome], d.outcome) if d.outcome != "done" or not d.unmet else paint("yellow", "not met"),
         seconds(d.seconds),
         commit.label if commit else _without(d),
     ]

@@ -158,8 +158,10 @@ def who(
     touched = [r for r in _touching(records, change) if r.kind in ("done", "failed", "unknown", "resolved")]
     last = touched[-1] if touched else None
     run = last.key.split("/")[0] if last else ""
-    if last and last.kind == "unknown":
-        return "operation", f"run {run}, of which nobody knows how it ended"
+    cut = _cut_short(records, change)
+    if cut or (last and last.kind == "unknown"):
+        how = "whose optimization was cut short" if cut else "of which nobody knows how it ended"
+        return "operation", f"run {cut or run}, {how}"
     if last and _as_left(setup, change, part, _after(last, change)):
         return "operation", f"run {run}, {last.at}"
     since = f"; run {run} left it elsewhere, {last.at}" if last else ""
@@ -169,6 +171,17 @@ def who(
             return "unknown", "at home, where a new bench has it"
         return "person", f"no operation did it{since}"
     return "unknown", f"no operation set it{since}"
+
+
+def _cut_short(records: Sequence[JournalRecord], change: Change) -> str:
+    """Return the run that touched a tunable last, where that was an optimization which came to no end: what it set
+    besides its first component nobody wrote down."""
+    keys = [r.key for r in records if _intends(r, change) and "what" in r.data.get("arguments", {})]
+    last = [r for r in _touching(records, change) if r.kind != "intent"][-1:]
+    if not last or last[0].key not in keys:
+        return ""
+    cut = last[0].kind == "started" or (last[0].kind == "resolved" and last[0].data.get("outcome") != "done")
+    return last[0].key.split("/")[0] if cut else ""
 
 
 def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalRecord]:

@@ -15,6 +15,7 @@ from pico.model.diff import Change, show_value
 from pico.model.drift import drift_of
 from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
+from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Target
 from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
@@ -271,6 +272,17 @@ class Plans:
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         judged, told = self._judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
+
+    def with_goals_again(self, plan: Plan, seen: Observation, sought: Mapping[str, Operation]) -> Plan:
+        """Return a plan after which optimizations that were cut short, by their keys, begin again: from where it brings
+        their tunables, at the best that they had measured; raises PicoError."""
+        if not sought or plan.errored:
+            return plan
+        from pico import planning
+
+        setup = self.opened.setup
+        found = self._judged(planning.again(setup, seen, plan, sought, motion=DeferredMotion(setup)), seen)
+        return replace(found, diagnostics=tuple(dict.fromkeys(found.diagnostics))).sealed()
 
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError

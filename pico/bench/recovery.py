@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from pico.bench.plans import Plans
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, live_state
-from pico.model.operation import touched_by
+from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.primitive import primitive
 from pico.model.state import LabState, state_from_json
@@ -47,14 +47,16 @@ class Recovery:
             raise PicoError(error("nothing-to-resume", text, hint=_goes_on(memory)))
         began = _document(memory, last)
         self._as_before(memory)
-        only = began.target.only or _asked(began)
+        sought = _cut_goals(memory, last.run)
+        only = began.target.only or _asked(began, sought)
         seen = self.opened.observe()
         wanted = state_from_json(began.lab.name, began.target.state)
         target = began.target
         if began.asked and not (target.revision or target.title):
             target = replace(target, title=f"what run {last.run} was to lead to")
         plan = Plans(self.opened).to_state(seen, wanted, target, targets=only or (), exclude=target.exclude or ())
-        left = tuple(_left_out(began, memory, last.run))
+        plan = Plans(self.opened).with_goals_again(plan, seen, sought)
+        left = tuple(_left_out(began, memory, last.run, sought))
         if left and not plan.operations:
             raise PicoError([replace(d, severity="error", code="nothing-to-resume") for d in left])
         plan = replace(plan, diagnostics=(*left, *plan.diagnostics))
@@ -181,20 +183,47 @@ def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, st
     return tuple(sorted({f"{c}.{t}" if c in apart else c for c, t in done}))
 
 
-def _asked(plan: Plan) -> tuple[str, ...]:
-    """What a plan for single operations was about: their components, and what was to be set for them and back."""
+def _cut_goals(memory: Memory, run: str) -> dict[str, Operation]:
+    """Return the optimizations of a run that did not come to their end, by the key under which each was begun last."""
+    from pico.runs.journal import operation_from_json
+
+    records = memory.records(run=run)
+    begun = {r.key for r in records if r.kind == "started"}
+    ended = {r.key for r in records if r.kind == "done"}
+    found: dict[str, tuple[str, Operation]] = {}
+    for record in records:
+        if record.kind == "intent" and record.data.get("primitive") == "optimize" and record.key in begun:
+            operation = operation_from_json(record.data)
+            found[operation.address] = record.key, operation
+    return {key: operation for key, operation in found.values() if key not in ended}
+
+
+def _asked(plan: Plan, sought: Mapping[str, Operation]) -> tuple[str, ...]:
+    """What a plan for single operations was about: their components, and what was to be set for them and back; of
+    optimizations all that they may have changed."""
     if not plan.asked:
         return ()
+    if sought:
+        own = {f"{c}.{t}" for op in sought.values() for c, t in touched_by(op.component, op.arguments)}
+        return tuple(sorted(own | {op.address for op in plan.operations if op.primitive == "set"}))
     own = {op.component for op in plan.operations if op.reason.kind == "asked"}
     along = {f"{op.component}.{op.arguments['tunable']}" for op in plan.operations if op.primitive == "set"}
     return tuple(sorted({*own, *(one for one in along if one.partition(".")[0] not in own)}))
 
 
-def _left_out(began: Plan, memory: Memory, run: str) -> Iterator[Diagnostic]:
+def _left_out(
+    began: Plan, memory: Memory, run: str, sought: Mapping[str, Operation]
+) -> Iterator[Diagnostic]:  # fmt: skip
     """Yield a note for each measurement of a run, or setting that was to be found by one, that it did not come to: no
-    state holds it, so it is not taken up again."""
-    done = {r.key for r in memory.records(run=run) if r.kind == "done"}
+    state holds it, so it is not taken up again; and for each optimization that is, from where it begins."""
+    done = {r.key.rpartition("/")[0] for r in memory.records(run=run) if r.kind == "done"}
+    taken_up = {op.address for op in sought.values()}
+    for name in sorted(taken_up):
+        text = f"`pico optimize {name}` was cut short: what it set goes back to where it stood before, then it begins"
+        yield Diagnostic("note", "taken-up", f"{text} at the best point that it had measured")
     for op in began.operations:
+        if op.primitive == "optimize" and op.address in taken_up:
+            continue
         if op.reason.kind == "asked" and not (op.kind.changes == "pose" or "to" in op.arguments):
             if f"{run}/{op.id}" in done:
                 continue

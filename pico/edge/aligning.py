@@ -14,16 +14,17 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.backends.device import Began, Device
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.edge.points import Points
 from pico.expressions import ExpressionError, Language
 from pico.model.catalog import Tunable
 from pico.model.event import Event
-from pico.model.lab import EXPOSURE, Goal, Setup
+from pico.model.lab import EXPOSURE, Goal, Setup, goal_from_json
 from pico.model.measurement import Measurement, measurement_from_json, number_of
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.record import as_json
 from pico.model.vocabulary import measured_in
-from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, loop
+from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, loop, started
 from pico.optimize.problem import Aim, Problem, Variable
 from pico.optimize.registry import made
 
@@ -62,7 +63,7 @@ class Aligning:
         if operation.primitive != "optimize":
             return await self._device.execute(operation, key, began)
         seen = await self._device.observe()
-        goal = goal_of(operation)
+        goal = goal_from_json(operation.arguments["what"])
         before = seen.components.get(operation.component)
         began(before)
         try:
@@ -89,22 +90,27 @@ class Aligning:
 
         limits = Limits(run.goal.budget.measurements, run.goal.budget.seconds, run.goal.signal or "",
                         run.goal.least or 0.0)  # fmt: skip
+        points, problem = Points(self._root, run.key), run.problem
+        if again := run.operation.arguments.get("again"):
+            problem = started(problem, Points(self._root, str(again)).best(problem, limits) or {})
         few = len(run.problem.variables) <= 2 and run.algorithm not in ACQUIRING
         acquire = (lambda problem: made("spiral", problem)) if few else None
-        steps = loop(
-            run.problem, making(run.algorithm), limits, acquire=acquire, stopping=lambda: bool(self._stopping())
-        )
+        steps = loop(problem, making(run.algorithm), limits, acquire=acquire, stopping=lambda: bool(self._stopping()))
         ask = next(steps)
         while True:
             if self._stopping() == "now":
                 raise PicoError(error("stopped", "stopped by a person: its tunables stand where they were"))
             reading = await run.answer(ask)
             self._progress(run, ask, reading)
+            if ask.measure:
+                points.add({**ask.point, **reading.values})
             try:
                 ask = steps.send(reading)
             except StopIteration as stop:
                 await run.restore()
                 outcome: Outcome = stop.value
+                if not outcome.fault:
+                    points.drop()
                 return outcome
 
     def _progress(self, run: _Run, ask: Ask, reading: Reading) -> None:
@@ -280,14 +286,6 @@ class _Run:
         result = await self.device.execute(operation, f"{run}~/{rest}.{self.steps}", lambda _: None)
         self.now = max(self.now, result.ended)
         return result
-
-
-def goal_of(operation: Operation) -> Goal:
-    """Return the goal of an optimization, as its plan has it."""
-    from pydantic import TypeAdapter
-
-    goal: Goal = TypeAdapter(Goal).validate_python(dict(operation.arguments["what"]))
-    return goal
 
 
 def problem_of(setup: Setup, seen: Observation, goal: Goal) -> Problem:

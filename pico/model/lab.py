@@ -328,6 +328,14 @@ class Goal:
         return self.tolerance or 0.0
 
 
+def goal_from_json(data: Mapping[str, object]) -> Goal:
+    """Return the goal whose `as_json` gave `data`, as the plan of an optimization has it."""
+    from pydantic import TypeAdapter
+
+    goal: Goal = TypeAdapter(Goal).validate_python(dict(data))
+    return goal
+
+
 @record
 class Policy:
     """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Literal
 
 from pico.diagnostics import Diagnostic, warning
@@ -116,6 +116,13 @@ class Observation:
             name: {t: v.value for t, v in part.values.items() if v.status == "known" and v.value is not None}
             for name, part in self.components.items()
         }
+
+
+def with_value(seen: Observation, component: str, tunable: str, value: Value) -> Observation:
+    """Return what would be seen once a tunable is set to a value."""
+    part = seen.components[component]
+    part = replace(part, values={**part.values, tunable: ObservedValue(value=value)})
+    return replace(seen, components={**seen.components, component: part})
 
 
 def doubtful(setup: Setup, name: str, part: ObservedComponent) -> bool:

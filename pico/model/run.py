@@ -99,7 +99,8 @@ class Run:
     `resumed`: how often the run was taken up again until then; a document whose id ends with `-r1` has what came after
     the first time, when a commit had the rest already. `changes`: what the run changed on the bench, `tolerated` where
     by less than the tolerance; `afterwards`: what has changed since then, beyond it, when the commit was made: by hand,
-    or by itself. `files`: those beside this one. `planned` evidence never occurs: a run ran.
+    or by itself. `unmet`: goals that were sought and not met. `files`: those beside this one. `planned` evidence never
+    occurs: a run ran.
 
     `folded`: what this run was put together from when it was committed, in the order in which it ran: of each the
     document, without what all of them have in common (`SHARED`). `pico.runs.folding` gives each back as it was.
@@ -135,6 +136,7 @@ class Run:
     files: Mapping[str, FileRef] = field(default_factory=dict)
     artifacts: tuple[Artifact, ...] = ()
     folded: tuple[Mapping[str, Any], ...] = ()
+    unmet: tuple[str, ...] | None = None
 
     @property
     def order(self) -> tuple[str, int, str]:

@@ -177,12 +177,7 @@ class _Walk:
         return tried
 
     def _believed(self, result: Mapping[str, float]) -> bool:
-        if not self.problem.measured(result):
-            return False
-        if self.limits.signal:
-            return result.get(self.limits.signal, math.nan) >= self.limits.least
-        output = self.problem.outputs[0]  # of a power what stands out of its noise
-        return self.problem.aim != "maximize" or result[output] > _SURE * result.get(f"{output}_sigma", 0.0)
+        return believed(self.problem, self.limits, result)
 
     def _better(self, one: Tried, other: Tried) -> bool:
         return self.problem.cost(one.result) < self.problem.cost(other.result)
@@ -249,6 +244,16 @@ class _Walk:
             return True
         noise = math.hypot(self.problem.noise(last.result), self.problem.noise(first.result))
         return self.problem.cost(last.result) > self.problem.cost(first.result) + 2 * noise
+
+
+def believed(problem: Problem, limits: Limits, result: Mapping[str, float]) -> bool:
+    """Return whether there was light enough for a result to count."""
+    if not problem.measured(result):
+        return False
+    if limits.signal:
+        return result.get(limits.signal, math.nan) >= limits.least
+    output = problem.outputs[0]  # of a power what stands out of its noise
+    return problem.aim != "maximize" or result[output] > _SURE * result.get(f"{output}_sigma", 0.0)
 
 
 def started(problem: Problem, at: Mapping[str, float]) -> Problem:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
-from pico.model.lab import Goal, Setup
-from pico.model.observation import Observation, live_state
+from pico.model.lab import Goal, Setup, goal_from_json
+from pico.model.observation import Observation, live_state, with_value
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
 from pico.model.quantities import Value
-from pico.model.state import ComponentState, LabState
+from pico.model.state import ComponentState, LabState, state_from_json
 from pico.motion.types import Motion
 from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
 from pico.planning.compile import compiled_plan
@@ -144,6 +144,44 @@ def optimize_one(
         _part(setup, seen, component)
     operations = optimizing(setup, seen, name, goal, algorithm, motion)
     return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
+
+
+def again(
+    setup: Setup, seen: Observation, plan: Plan, sought: Mapping[str, Operation], *, motion: Motion | None
+) -> Plan:  # fmt: skip
+    """Return a plan with optimizations after all of its operations, which bring their tunables back to where each had
+    begun; `sought`: those that were cut short, by their keys.
+
+    Raises PicoError for tunables of which nobody knows where they stand then.
+    """
+    place = {op.id: str(n) for n, op in enumerate(plan.operations)}
+    out = [replace(op, id="", after=tuple(place[a] for a in op.after)) for op in plan.operations]
+    after = seen
+    for op in plan.operations:
+        if op.primitive == "set":
+            after = with_value(after, op.component, str(op.arguments["tunable"]), op.arguments["to"])
+    for key, cut in sought.items():
+        goal, first = goal_from_json(cut.arguments["what"]), len(out)
+        waits = tuple(map(str, range(first)))
+        for op in optimizing(setup, after, cut.address, goal, str(cut.arguments["algorithm"]), motion):
+            given = {**op.arguments, "again": key} if op.primitive == "optimize" else op.arguments
+            own = tuple(str(int(a) + first) for a in op.after)
+            out.append(replace(op, arguments=given, after=own or waits))
+    timed, tuned = schedule(out), {address for cut in sought.values() for address in cut.arguments["what"]["tunables"]}
+    wanted = _without(state_from_json(plan.lab.name, plan.target.state), tuned)  # these have their last word by light
+    return replace(
+        plan, operations=timed, makespan=makespan(timed), policy=policy_rules(setup, seen, timed),
+        target=replace(plan.target, state=wanted.as_json()),
+    ).sealed()  # fmt: skip
+
+
+def _without(state: LabState, tuned: Collection[str]) -> LabState:
+    """Return a state that says nothing of some tunables."""
+    parts = {
+        name: replace(part, values={t: v for t, v in part.values.items() if f"{name}.{t}" not in tuned})
+        for name, part in state.components.items()
+    }
+    return replace(state, components=parts)
 
 
 def _sealed(

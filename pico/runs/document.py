@@ -18,7 +18,7 @@ from pico.model.state import LabState, state_from_json
 from pico.runs.journal import JournalRecord, RunRecord
 from pico.runs.memory import Memory
 from pico.runs.states import changes, digest_of, state_left, state_seen, touched
-from pico.runs.trace import artifacts, busy, counted, measured, trace_events
+from pico.runs.trace import artifacts, busy, counted, measured, trace_events, unmet
 
 ASKED = ("asked", "parked", "interlock", "held")
 
@@ -87,6 +87,7 @@ def recorded(setup: Setup, memory: Memory, run: RunRecord, part: int = 0) -> Rec
         expectations=tuple(Expected(**e) for e in seen["expectations"]) if seen else (),
         changes=changes(setup, before, after, touched(own)),
         artifacts=artifacts(trace),
+        unmet=tuple(unmet(trace)) or None,
     )
     taken = measured(trace, seen)
     return RecordedRun(

@@ -95,6 +95,7 @@ def _folded(setup: Setup, runs: Sequence[RecordedRun]) -> RecordedRun:
             started_at=first.document.started_at,
             seconds=sum(d.seconds for d in documents),
             tally={end: sum(d.tally.get(end, 0) for d in documents) for end in last.document.tally},
+            unmet=tuple(dict.fromkeys(goal for d in documents for goal in d.unmet or ())) or None,
             changes=changes(setup, first.before, last.after, among),
             artifacts=tuple(replace(a, seq=None) for d in documents for a in d.artifacts),
             folded=tuple({k: v for k, v in as_json(d).items() if v and k not in SHARED} for d in documents),

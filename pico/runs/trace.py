@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -75,15 +75,25 @@ def measurement_in(event: TraceEvent) -> Mapping[str, Any] | None:
 
 
 def artifacts(trace: Sequence[TraceEvent]) -> tuple[Artifact, ...]:
-    """Return the arrays that were measured in a run, as they lie in the content store."""
-    taken = [(e, m, m["array"]) for e in trace if (m := measurement_in(e)) and m.get("array")]
+    """Return the arrays that were measured in a run, and what its optimizations tried, as they lie in the content
+    store."""
+    taken = [
+        (e, m["component"], m["measurable"], m["array"]) for e in trace if (m := measurement_in(e)) and m.get("array")
+    ]
+    tried = [(e, e.component, "points", points) for e in trace if (points := e.data.get("data", {}).get("points"))]
     return tuple(
         Artifact(
-            name=f"{e.operation}-{m['component']}-{m['measurable']}.npy", sha256=array["sha256"], size=array["size"],
-            component=m["component"], seq=e.seq, shape=tuple(array["shape"]), dtype=array["dtype"],
+            name=f"{e.operation}-{component}-{what}.npy", sha256=array["sha256"], size=array["size"],
+            component=component, seq=e.seq, shape=tuple(array["shape"]), dtype=array["dtype"],
         )
-        for e, m, array in taken
+        for e, component, what, array in sorted([*taken, *tried], key=lambda one: one[0].seq)
     )  # fmt: skip
+
+
+def unmet(trace: Sequence[TraceEvent]) -> Iterator[str]:
+    """Yield the goals that were sought in a run and not met, each once; one that was sought again by how that ended."""
+    ended = {str(found["goal"]): found["met"] for e in trace if "met" in (found := e.data.get("data", {}))}
+    yield from (goal for goal, met in ended.items() if not met)
 
 
 def _spans(records: Sequence[JournalRecord]) -> dict[str, tuple[float, float]]:

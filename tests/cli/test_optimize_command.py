@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import signal
 import subprocess
@@ -171,9 +172,64 @@ def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:
     known = [values[n]["value"] for n in ("stage_y", "stage_z") if values[n]["value"] is not None]
     assert all(-2 <= value <= 2 for value in known)  # that which was on its way is not known
     again = pico("resume", "--yes")
-    assert "`pico optimize centre ly_150 cam` does it anew" in " ".join((again.err + again.out).split())
+    assert "`pico optimize centre ly_150 cam` was cut short" in " ".join((again.err + again.out).split())
+    assert again.code == 0
+    (run, *_) = [r["document"] for r in pico("runs", "list", "--json").data["runs"] if r["document"]["resumed"]]
+    ended = [op["data"] for op in pico("runs", "show", run["id"], "--json").data["operations"] if "met" in op["data"]]
+    assert len(ended) == 1 and math.hypot(*(ended[0]["last"][f"cam.centroid.{a}"] for a in "xy")) < 8
+    assert ended[0]["met"] and run["outcome"] == "done"
+    assert any(a["name"].endswith("points.npy") for a in run["artifacts"])
     assert pico("undo", "--yes").code == 0
     assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
+
+
+def test_what_a_killed_one_exposed_comes_back_and_drift_says_by_whom(placed: Path, pico: Pico) -> None:
+    pico("set", "p2.angle", "70", "--yes")  # the start is saturated
+    assert pico("commit", "-m", "open", "--capture").code == 0
+    process = _started(placed, "null", "p2", "cam", "--algorithm", "nelder_mead")
+    process.kill()
+    process.communicate(timeout=60)
+    drift = " ".join(pico("drift").out.split())
+    assert "cam.exposure" in drift and "whose optimization was cut short" in drift.split("cam.exposure")[1]
+    assert pico("undo", "--yes").code == 0
+    assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == 10
+    assert "cam.exposure" not in pico("drift").out
+
+
+def test_a_goal_that_is_not_met_is_told_in_the_list_of_runs(placed: Path, pico: Pico) -> None:
+    edit(placed / "lab.yaml", "measurements: 20", "measurements: 2")
+    assert pico("bench", "update", "--yes").code == 0
+    assert pico("optimize", "centred", "--yes").code == 6
+    assert "not met" in pico("runs", "list").out
+    document = next(r["document"] for r in pico("runs", "list", "--json").data["runs"] if "unmet" in r["document"])
+    assert document["unmet"] == ["centred"] and document["outcome"] == "done"
+    assert "Not met: centred" in pico("runs", "show", document["id"]).out
+
+
+def test_a_known_key_of_an_optimization_gives_its_result_and_sets_nothing(placed: Path, pico: Pico) -> None:
+    from pico.bench.bench import Bench
+    from pico.model.operation import OperationResult
+    from pico.runs.journal import operation_from_json
+
+    assert pico("optimize", "centred", "--yes").code == 0
+    pico("set", "ly_150.stage_y", "0.5", "--yes")
+    with Bench.open(placed) as bench:
+        opened = bench.goals.opened
+        edge, memory = opened.edge, opened.edge.memory
+        assert memory is not None
+        done = [r for r in memory.records() if r.kind == "done" and "columns" in r.data["data"]][-1]
+        operation = operation_from_json(memory.records(key=done.key)[0].data)
+
+        async def repeated() -> OperationResult:
+            lease = await edge.acquire("test")
+            try:
+                return await edge.execute(operation, done.key, lease)
+            finally:
+                await edge.release(lease)
+
+        result = opened.wait(repeated())
+    assert result.data["measurements"] == done.data["data"]["measurements"]
+    assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == 0.5
 
 
 def test_a_script_optimizes_too(placed: Path) -> None:

@@ -1,0 +1,46 @@
+"""What an optimization has tried so far, beside the journal, a line each: one that was killed is taken up by it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+
+from pico.attachment import bench_folder
+from pico.optimize.loop import Limits, believed
+from pico.optimize.problem import Point, Problem
+
+
+class Points:
+    """The points of the optimization under `key` on the bench in `root`. A line is there when `add` returns, whatever
+    becomes of the process; a disk that takes none costs only the way back to the best of them."""
+
+    def __init__(self, root: Path, key: str) -> None:
+        self._path = bench_folder(root) / "points" / f"{key.replace('/', '-')}.jsonl"
+
+    def add(self, result: Mapping[str, float]) -> None:
+        """Keep a point with what was measured there."""
+        with suppress(OSError):
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({k: v for k, v in result.items() if math.isfinite(v)}) + "\n")
+
+    def drop(self) -> None:
+        """Forget them: the run has them."""
+        with suppress(OSError):
+            self._path.unlink(missing_ok=True)
+
+    def results(self) -> Iterator[Mapping[str, float]]:
+        """Yield them in order; a line that was cut is passed over."""
+        with suppress(OSError, UnicodeError):
+            for line in self._path.read_text(encoding="utf-8").splitlines():
+                with suppress(ValueError, TypeError, AttributeError):
+                    yield {str(k): float(v) for k, v in json.loads(line).items()}
+
+    def best(self, problem: Problem, limits: Limits) -> Point | None:
+        """Return the best of them at which there was light, None for none."""
+        seen = [r for r in self.results() if believed(problem, limits, r) and all(n in r for n in problem.start)]
+        best = min(seen, key=problem.cost, default=None)
+        return None if best is None else problem.within({n: best[n] for n in problem.start})
