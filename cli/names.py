@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "teleop": "moving the arm by hand",
     "laser": "arming a laser",
     "budget": "error budgets",
     "morning": "the check of a morning",

@@ -12,8 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
-    "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "content",
-    "geometry",
+    "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "teleop",
+    "content", "geometry",
     "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
     "backends", "policy", "execution", "runs", "edge", "history", "bench", "recipes",
 )  # fmt: skip

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from pico.bench.plans import Plans
     from pico.bench.recovery import Recovery
     from pico.bench.running.execution import Execution
+    from pico.bench.teleoperation import Teleoperation
     from pico.bench.updating import BenchLab
     from pico.bench.watching import Watch
     from pico.diagnostics import Diagnostic
@@ -137,6 +138,13 @@ class Bench(Opened):
         """Bring light to a goal, `optimize("centred")` or `optimize("centre", "ly_150", "cam")`, and return what became
         of it; see `Goals`. Raises PicoError for what makes no sense, and where it can't be begun."""
         return self.goals.optimize(self.goals.plan(self.goals.chosen(goal, algorithm=algorithm)))[1]
+
+    def teleop(self, component: str, tunable: str | None = None) -> Teleoperation:
+        """Return what steers a component, while it is entered: `with bench.teleop("p2", "pose") as jog:
+        jog.step("x", 0.5)`; see `pico.bench.teleoperation`. Raises PicoError for what nobody can steer."""
+        from pico.bench.teleoperation import Teleoperation
+
+        return Teleoperation(self, self.plans.to_steer(component, tunable))
 
     def status(self) -> Status:
         """Return committed, desired and live side by side."""

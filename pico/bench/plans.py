@@ -284,6 +284,22 @@ class Plans:
         found = self._judged(planning.again(setup, seen, plan, sought, motion=DeferredMotion(setup)), seen)
         return replace(found, diagnostics=tuple(dict.fromkeys(found.diagnostics))).sealed()
 
+    def to_steer(self, component: str, tunable: str | None = None) -> Plan:
+        """Return the plan in which a person steers a component: one tunable of it, `pose`, or what motors set of it.
+
+        Raises PicoError for what there is not, and what nobody can steer.
+        """
+        from pico import planning
+        from pico.execution.checks import require_able
+
+        setup, seen = self.opened.setup, self.opened.observe()
+        found = planning.teleoperate_one(
+            setup, seen, component, tunable, motion=DeferredMotion(setup), **self._start(seen)
+        )
+        require_able(found, self.opened.wait(self.opened.edge.describe()))
+        judged, told = self._judged(found, seen), cut_short(self.opened, seen)
+        return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
+
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError
         where that can't be read."""

@@ -46,6 +46,8 @@ class Recovery:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
             raise PicoError(error("nothing-to-resume", text, hint=_goes_on(memory)))
         began = _document(memory, last)
+        if steered := next((op for op in began.operations if op.primitive == "teleoperate"), None):
+            raise PicoError(_steered(steered.component, steered.robot))
         self._as_before(memory)
         sought = _cut_goals(memory, last.run)
         only = began.target.only or _asked(began, sought)
@@ -140,6 +142,14 @@ class Recovery:
         if memory is None:
             raise PicoError(_no_run())
         return memory
+
+
+def _steered(component: str, robot: str | None) -> Diagnostic:
+    """Return why a teleoperation is not taken up: nobody meant it to lead anywhere else than where it ended."""
+    text = f"{component} was steered by a person, who alone can go on; it is where it was left"
+    empty = f"`pico recover` sets {component} down where {robot} still holds it; " if robot else ""
+    hint = f"{empty}`pico teleop {component}{'.pose' if robot else ''}` goes on, `pico undo` goes back"
+    return error("nothing-to-resume", text, hint=hint, address=component)
 
 
 def _goes_on(memory: Memory) -> str:

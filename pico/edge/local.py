@@ -33,8 +33,10 @@ if TYPE_CHECKING:
     from pico.edge.protocol import Asking
     from pico.edge.recovery import SettledOperation
     from pico.edge.running import Running
+    from pico.edge.teleoperating import Teleoperating
     from pico.model.report import RunReport
     from pico.runs.journal import Journal
+    from pico.teleop.frames import Answer, Frame
     from pico.twin.snapshot import Snapshot
 
 OBEYS = 0.02
@@ -75,6 +77,7 @@ class LocalEdge:
         self._stopping: Stopping = ""
         self._cancelled: set[str] = set()
         self._attempts: Attempts | None = None
+        self._steering: Teleoperating | None = None
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._runs: dict[str, Running] = {}
         self._running: Running | None = None
@@ -84,9 +87,13 @@ class LocalEdge:
 
     async def describe(self) -> Capabilities:
         """Return what the device can do, at the speed of the run that goes on."""
+        from pico.teleop.frames import STEPS
+
         able = await self.device.describe()
         whole = {"set", "measure"} <= able.primitives
         primitives = able.primitives | ({"optimize"} if whole else set())
+        if able.primitives >= STEPS:
+            primitives = primitives - STEPS | {"teleoperate"}
         return replace(able, primitives=primitives, kept=self.device.kept())
 
     def served(self) -> None:
@@ -188,6 +195,7 @@ class LocalEdge:
         from pico.edge.aligning import Aligning
         from pico.edge.attempts import Attempts
         from pico.edge.recovery import open_questions, settle
+        from pico.edge.teleoperating import Teleoperating
 
         self._halted &= self._lease is not None  # what is halted stays so for who has the bench
         own = self._lease is None
@@ -202,7 +210,9 @@ class LocalEdge:
                     raise
             prepare()
             await self.device.take(lease.token, self._heard)
-            doing = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
+            inner = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
+            doing = Teleoperating(self.setup, inner, self.device, lambda: self._stopping, self._heard)
+            self._steering = doing
             self._attempts, self._lease = Attempts(self.journal, doing, lease.token), lease
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
             if asked := open_questions(self.journal.unsettled()):
@@ -226,7 +236,7 @@ class LocalEdge:
         await self.device.leave()
         if self._usual is not None:
             (self.setup, self.device), self._usual = self._usual, None
-        self._lease = self._attempts = self._obeying = None
+        self._lease = self._attempts = self._obeying = self._steering = None
         self._lock.release()
 
     async def _obey(self, lease: Lease, *, idle: bool) -> None:
@@ -398,6 +408,15 @@ class LocalEdge:
         """Return what a film of a run shows; empty where it was not filmed."""
         recording = self._run(run).recording
         return recording.snapshots if recording else []
+
+    async def jog(self, run: str, frame: Frame) -> Answer:
+        """Say what a hand on a key says to the teleoperation in a run; see `pico.edge.protocol.Edge`."""
+        from pico.teleop.frames import over
+
+        self._run(run)
+        if self._steering is None or self._running is None or self._running.id != run:
+            return over(time.monotonic())
+        return self._steering.hear(frame)
 
     async def cancel(self, run: str) -> None:
         """Start nothing more of a run, and bring everything to a safe end."""

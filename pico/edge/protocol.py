@@ -16,6 +16,7 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.plan import Plan
 from pico.model.record import record
+from pico.teleop.frames import Answer, Frame
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
@@ -171,6 +172,12 @@ class Edge(Protocol):
 
     async def film(self, run: str) -> list[Snapshot]:
         """Return what a film of a run shows that was `filmed`."""
+        ...
+
+    async def jog(self, run: str, frame: Frame) -> Answer:
+        """Say what a hand on a key says to the teleoperation in a run: a frame authorizes one step at most, and silence
+        ends all motion within `pico.teleop.frames.SILENCE`. An answer whose phase is `over` says that nothing is
+        steered there, yet or any more. Raises PicoError for a run that was not started here."""
         ...
 
     async def cancel(self, run: str) -> None:

@@ -44,7 +44,9 @@ class Operation:
     `tunable`. Of `measure`: `measurable`; its `component` may be a camera over the bench. Of `park`: none; its
     `component` is the robot's name. Of `optimize`: `goal`, its name, `what` it is (as `pico.model.lab.Goal`), the
     `algorithm` with its `parameters`, and `from`, where its tunables stand, and the exposures that it may change on the
-    way; `again`: the key of the one that it takes up. Of `operator`: `text`, and `to` where a
+    way; `again`: the key of the one that it takes up. Of `teleoperate`: `what`, the `tunables` that a person steers, by
+    address, and `from`, where they stand; with a `robot`, which holds the component, `pose` is steered, and `grasp_yaw`
+    is as of `move`. Of `operator`: `text`, and `to` where a
     component is to be moved. `resources` are
     what it holds while it runs (a robot, `motor/p1.angle`, the component itself): each does one thing at a time.
     `after`: ids of the operations that must be done first. `start`, `seconds`: predicted [s].
@@ -65,6 +67,11 @@ class Operation:
     def kind(self) -> Primitive:
         """What its primitive is."""
         return primitive(self.primitive)
+
+    @property
+    def carries(self) -> bool:
+        """Whether an arm takes its component elsewhere, to a goal or where a person steers it."""
+        return self.kind.carries or (self.primitive == "teleoperate" and self.robot is not None)
 
     @property
     def makes_safe(self) -> bool:

@@ -42,8 +42,8 @@ class Target:
     `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
     is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
-    `heal`; `single`: for one operation that somebody asked for), and `of` which run; `recipe`: of which run
-    of a recipe (`NAME@ID`) it is a `step`.
+    `heal`; `single`: for one operation that somebody asked for; `teleoperation`), and `of` which run; `recipe`: of
+    which run of a recipe (`NAME@ID`) it is a `step`.
     """
 
     revision: str | None = None

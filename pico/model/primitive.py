@@ -79,6 +79,10 @@ OWN: Mapping[str, Primitive] = {
             name="optimize", changes="tunable", repeatable=True, seconds=20.0,
             counted=("optimization", "optimizations"),
         ),
+        Primitive(
+            name="teleoperate", changes="tunable", repeatable=True, seconds=30.0,
+            counted=("teleoperation", "teleoperations"),
+        ),
         Primitive(name="operator", changes="anything", by="person", counted=("step by hand", "steps by hand")),
     )
 }  # fmt: skip

@@ -23,6 +23,7 @@ from pico.motion.travel import Travel
 from pico.motion.types import Blocked, Joints, MovePath, StandingObject
 
 if TYPE_CHECKING:
+    from pico.motion.moves import Move
     from pico.motion.recheck import Recheck, Task
     from pico.motion.scene import Scene
 
@@ -118,6 +119,55 @@ class ArmMotion:
         scene.place_robots(elsewhere)
         path = SetDown(scene, component, geometry, held, goal, jaws, near, joints).find()
         return self._twice(path, Task(component, geometry, held, goal, jaws), near, elsewhere)
+
+    def take(
+        self, robot: str, component: str, start: Pose, grasp_yaw: float, standing: Mapping[str, StandingObject],
+        joints: Joints | None = None, others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """See `Motion.take`."""
+        from pico.motion.setdown import Taking
+
+        now = joints or self.park_joints(robot)
+        return self._steered(Taking, robot, component, start, start, grasp_yaw, standing, now, others)
+
+    def shift(
+        self, robot: str, component: str, held: Pose, goal: Pose, standing: Mapping[str, StandingObject],
+        joints: Joints, others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """See `Motion.shift`."""
+        from pico.motion.setdown import Shifting
+
+        return self._steered(Shifting, robot, component, held, goal, None, standing, joints, others)
+
+    def let_go(
+        self, robot: str, component: str, held: Pose, standing: Mapping[str, StandingObject], joints: Joints,
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """See `Motion.let_go`."""
+        from pico.motion.setdown import LettingGo
+
+        return self._steered(LettingGo, robot, component, held, held, None, standing, joints, others)
+
+    def _steered(
+        self, kind: type[Move], robot: str, component: str, start: Pose, goal: Pose, grasp_yaw: float | None,
+        standing: Mapping[str, StandingObject], joints: Joints, others: Mapping[str, Joints] | None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """What a person steers, checked twice; `grasp_yaw` None: as the hand at `joints` holds the part."""
+        from pico.motion.kinematics import tool_of
+        from pico.motion.recheck import Task
+
+        arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
+        found = self.reach(robot, component, goal, 0.0)
+        if found or arm.model == "gantry":
+            return found or Blocked("reach", f"{robot} is a gantry, which nobody steers by hand yet")
+        jaws = tool_of(arm, joints).yaw - start.yaw if grasp_yaw is None else grasp_yaw
+        near = self._near(robot, standing, geometry)
+        near = {n: t for n, t in near.items() if n != component or grasp_yaw is not None}
+        elsewhere = self._others(robot, others)
+        scene = self._scene(robot, near | {component: StandingObject(goal, geometry)})
+        scene.place_robots(elsewhere)
+        path = kind(scene, component, geometry, start, goal, jaws, near, joints).find()
+        return self._twice(path, Task(component, geometry, start, goal, jaws), near, elsewhere)
 
     def park(
         self,

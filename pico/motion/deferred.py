@@ -63,6 +63,27 @@ class DeferredMotion:
         """See `Motion.park`."""
         return self._arms.park(robot, joints, standing, others)
 
+    def take(
+        self, robot: str, component: str, start: Pose, grasp_yaw: float, standing: Mapping[str, StandingObject],
+        joints: Joints | None = None, others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """See `Motion.take`."""
+        return self._arms.take(robot, component, start, grasp_yaw, standing, joints, others)
+
+    def shift(
+        self, robot: str, component: str, held: Pose, goal: Pose, standing: Mapping[str, StandingObject],
+        joints: Joints, others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """See `Motion.shift`."""
+        return self._arms.shift(robot, component, held, goal, standing, joints, others)
+
+    def let_go(
+        self, robot: str, component: str, held: Pose, standing: Mapping[str, StandingObject], joints: Joints,
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """See `Motion.let_go`."""
+        return self._arms.let_go(robot, component, held, standing, joints, others)
+
     def travel(
         self,
         robot: str,

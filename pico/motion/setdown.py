@@ -1,9 +1,11 @@
-"""The way of an arm that already holds a part: up, over, down, release, up: the rest of a move that was cut short."""
+"""The ways of an arm with a part that it already holds: up, over, down, release, up, the rest of a move that was cut
+short; and those of a part that a person steers: lifted by a hair, shifted in small steps, set down where it is."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 
 from pico.geometry.shape import placed, separation
@@ -13,15 +15,26 @@ from pico.model.lab import Robot
 from pico.model.pose import Pose
 from pico.motion import gantry, timing
 from pico.motion.explain import blocked
-from pico.motion.kinematics import Column, tool_of
-from pico.motion.moves import Move, ascend, legs, turned
-from pico.motion.paths import Stand, distance, postures, stand
+from pico.motion.kinematics import Column, columns, tool_of, tool_pose
+from pico.motion.moves import Move, Postures, ascend, legs, turned
+from pico.motion.paths import Stand, distance, postures, stand, swing
 from pico.motion.reach import grasp_height, opening
-from pico.motion.scene import Hit
+from pico.motion.scene import Hit, Scene
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
+from pico.teleop.frames import STEP_SECONDS
+from pico.teleop.steps import SLOW
 
 SWING = 3.0
 """What is held swings by no more than this between the jaws [mm]."""
+HAIR = 3.0
+"""How far above its place a part is held while it is steered [mm]: what slides between the fingers does not touch."""
+NEAR = 0.5
+"""How far a joint may go in one step [rad]: more is another posture."""
+ROOM = 1.2
+"""A step may take so much longer than STEP_SECONDS, and no more."""
+_AT_REST = 0.02
+"""How long a segment takes in which nothing moves [s]."""
+_SAME = 1e-6  # mm
 
 
 def tool_goal(robot: Robot, joints: Joints, held: Pose, goal: Pose) -> Pose:
@@ -125,3 +138,97 @@ def _segments(
         Segment("release", *release, opened), Segment("retreat", *retreat, opened),
     )  # fmt: skip
     return MovePath(robot, component, segments)
+
+
+def slowly(scene: Scene) -> Scene:
+    """Return a scene whose robot goes no faster than while a person steers it; it shares all else with `scene`."""
+    found = copy(scene)
+    found.robot = replace(scene.robot, tool_speed=min(scene.robot.fastest, SLOW))
+    return found
+
+
+class Taking(Move):
+    """Taking a part in hand where it stands: `start` is `goal`, as all that lets it down there is looked at, too."""
+
+    def _timed(self, rise: list[Joints], approach: list[Joints], transit: list[Joints], choice: Postures) -> MovePath:
+        """The way down to the part, the grip, and up by a hair."""
+        self.scene = slowly(self.scene)
+        whole = super()._timed(rise, approach, transit, choice)
+        lift = timing.vertical(self.scene.robot, choice.pick, self.low, self.low + HAIR)
+        down = [segment for segment in whole.segments if segment.name in ("approach", "descend", "grip")]
+        return replace(whole, segments=(*down, Segment("lift", *timing.steady(lift), self.width)))
+
+
+class Shifting(Move):
+    """One step in the plane with what is held: `start` is where it is meant to be now, `joints` where the arm is."""
+
+    def find(self) -> MovePath | Blocked:
+        """Return the step, rest to rest, straight and at one height; or what keeps it from being made."""
+        self._enter("lower")
+        robot, height = slowly(self.scene).robot, tool_pose(self.scene.robot, self.joints)[2]
+        in_hand = tool_of(robot, self.joints).inverse().compose(self.start)
+        there = nearest(self.scene, self.goal.compose(in_hand.inverse()), height, self.joints)
+        if there is None:
+            return Blocked("reach", f"{self.scene.name} does not reach farther with {self.component} in its hand here")
+        now, hit = self.scene.look(self.joints)[1], swing(self.scene, self.joints, there)
+        if hit is not None and not (now is not None and hit.missing <= now.missing + _SAME):  # away from it is free
+            return _near(self, hit)
+        times, way = timing.straight(robot, self.joints, there)
+        if times[-1] > ROOM * STEP_SECONDS:
+            text = f"a step of that size takes {times[-1]:.2g} s here, and may take {STEP_SECONDS:g} s"
+            return Blocked("reach", text, help="take a smaller step")
+        if len(times) == 1:
+            times, way = (0.0, _AT_REST), (self.joints, self.joints)
+        return MovePath(self.scene.name, self.component, (Segment("transit", times, way, self.width),))
+
+
+class LettingGo(Move):
+    """Setting down what is held where it is: straight down, open, straight up; `start` is `goal`."""
+
+    def find(self) -> MovePath | Blocked:
+        """Return the way down and up, or what is in it."""
+        _, _, height, _ = tool_pose(self.scene.robot, self.joints)
+        joints = nearest(self.scene, tool_of(self.scene.robot, self.joints), height, self.joints)
+        column = stand(self.scene, joints).column if joints else None
+        if joints is None or column is None:
+            return Blocked("reach", f"{self.scene.name} does not hold {self.component} upright")
+        failed = self._vertical("place", column)
+        if failed is not None:
+            return blocked(self.errand, *failed)
+        return self._down(joints, column, height)
+
+    def _down(self, joints: Joints, column: Column, height: float) -> MovePath:
+        robot = slowly(self.scene).robot
+        jaws, ground = timing.grip_seconds(robot, self.geometry), column.at(self.low)
+        assert ground is not None  # `_vertical` went there
+        rest = (0.0, _AT_REST), (self.joints, joints)
+        lower = timing.steady(timing.vertical(robot, column, height, self.low), timing.CORRECTING)
+        segments = (
+            Segment("lift", *rest, self.width),
+            Segment("transit", (0.0, _AT_REST), (joints, joints), self.width),
+            Segment("lower", *lower, self.width),
+            Segment("release", (0.0, jaws), (ground, ground), self.opening),
+            Segment("retreat", *timing.vertical(robot, column, self.low, self.high), self.opening),
+        )
+        return MovePath(self.scene.name, self.component, segments)
+
+
+def nearest(scene: Scene, tool: Pose, height: float, joints: Joints) -> Joints | None:
+    """Return the upright posture over `tool` at a height [mm] that is nearest to `joints`; None where none is near."""
+    found = [
+        (max(abs(a - b) for a, b in zip(q, joints, strict=True)), q)
+        for column in columns(scene.robot, tool.x, tool.y, tool.yaw)
+        if (q := column.at(height)) is not None
+    ]
+    best = min(found, default=None)
+    return best[1] if best is not None and best[0] <= NEAR else None
+
+
+def _near(step: Shifting, hit: Hit) -> Blocked:
+    """What stops a step, as a line says it that a person reads while steering."""
+    why = blocked(step.errand, "transit", hit)
+    obstacle = "the table" if hit.kind == "table" else hit.obstacle
+    kept = hit.gap + hit.missing
+    who = step.component if hit.part == "held" else "a finger" if hit.part == "finger" else "the arm"
+    text = f"{who} is {max(0.0, hit.gap):.1f} mm before {obstacle}" + (f", of which {kept:.3g} mm stay" if kept else "")
+    return replace(why, text=text)

@@ -144,6 +144,28 @@ class Motion(Protocol):
         """Return the path from `joints` to the robot's park pose; `others` as for `move`."""
         ...
 
+    def take(
+        self, robot: str, component: str, start: Pose, grasp_yaw: float, standing: Mapping[str, StandingObject],
+        joints: Joints | None = None, others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """Return the path that grips `component` where it stands and lifts it by a hair, to be steered by a person."""
+        ...
+
+    def shift(
+        self, robot: str, component: str, held: Pose, goal: Pose, standing: Mapping[str, StandingObject],
+        joints: Joints, others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """Return one small step of `component`, which `robot` holds at `held` with its arm at `joints`, to `goal` at
+        the same height; blocked where it would come too near to anything, and where it is no small step."""
+        ...
+
+    def let_go(
+        self, robot: str, component: str, held: Pose, standing: Mapping[str, StandingObject], joints: Joints,
+        others: Mapping[str, Joints] | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        """Return the path that sets `component`, which `robot` holds at `held`, down where it is, and the hand up."""
+        ...
+
     def travel(
         self,
         robot: str,

@@ -22,6 +22,7 @@ from pico.planning.measuring import measuring
 from pico.planning.optimizing import optimizing
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
+from pico.planning.teleoperating import kept_dark, steered, teleoperating
 from pico.planning.values import home_operation, value_operations
 
 ASKED = Reason(kind="asked")
@@ -184,16 +185,33 @@ def _without(state: LabState, tuned: Collection[str]) -> LabState:
     return replace(state, components=parts)
 
 
+def teleoperate_one(
+    setup: Setup, seen: Observation, component: str, tunable: str | None, *, motion: Motion, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan in which a person steers a component: one of its tunables, `pose`, or for None what motors and
+    electronics set of it.
+
+    Raises PicoError for what there is not, what nobody can steer, and what nobody knows where it stands.
+    """
+    _part(setup, seen, component)
+    operations = teleoperating(setup, seen, component, steered(setup, component, tunable), motion)
+    return _sealed(
+        setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), (), cause="teleoperation"
+    )
+
+
 def _sealed(
     setup: Setup, seen: Observation, operations: list[Operation], notes: list[Diagnostic], backend: str, fidelity: str,
-    base: Base | None, wanted: LabState, changes: tuple[Change, ...],
+    base: Base | None, wanted: LabState, changes: tuple[Change, ...], cause: str = "single",
 ) -> Plan:  # fmt: skip
-    timed = schedule(with_interlocks(setup, seen, operations))
-    notes = [*notes, *unguarded(setup, seen, timed)]
+    guarded, told = kept_dark(setup, with_interlocks(setup, seen, operations))
+    timed = schedule(guarded)
+    notes = [*notes, *told, *unguarded(setup, seen, timed)]
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
         base=base or Base(state=live_state(setup, seen).as_json()),
-        target=Target(state=wanted.as_json(), cause="single"), changes=changes, operations=timed,
+        target=Target(state=wanted.as_json(), cause=cause), changes=changes, operations=timed,
         makespan=makespan(timed), policy=policy_rules(setup, seen, timed), diagnostics=tuple(notes),
     ).sealed()  # fmt: skip
 

@@ -19,6 +19,8 @@ from pico.optics.audit.limits import above_class_2
 from pico.optics.axis import Values, axis_of
 from pico.policy.beams import open_beams
 
+SEARCHING = ("optimize", "teleoperate")
+"""Primitives that may set their tunables to anything within bounds."""
 SCANNED = 5
 """At so many values of what a raster search scans is its light judged; mirrors over all of their range anyway."""
 
@@ -67,7 +69,7 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
             if lets or (op.component, tunable) not in lifted:  # what is open at some time counts as open
                 own[str(tunable)] = max(own.get(str(tunable), 0.0), to) if lets and _number(to) else to
             opened |= {op.component} if lets else set()
-        scanned |= op.primitive in ("scan", "optimize")
+        scanned |= op.primitive in ("scan", *SEARCHING)
     lasers = lasers_of(setup, poses, values)
     apart = any(setup.type_of(name).optics.element != "source" for name in opened)
     return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned),
@@ -158,10 +160,11 @@ def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[Lit]:
 def _searched(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float, float]]]:
     """Yield the tunables that a plan scans or searches, by component and name, with the range that it does so over."""
     for op in plan.operations:
-        if op.primitive == "optimize":
-            for address, (low, high) in op.arguments["what"]["tunables"].items():
+        if op.primitive in SEARCHING:
+            for address, bounds in op.arguments["what"]["tunables"].items():
                 component, _, tunable = address.partition(".")
-                yield component, tunable, (low, high)
+                if bounds is not None:
+                    yield component, tunable, bounds
             continue
         tunable = str(op.arguments.get("tunable"))
         kind = setup.type_of(op.component).tunables.get(tunable) if op.component in setup.lab.inventory else None
@@ -172,7 +175,7 @@ def _searched(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float,
 def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[Finding]:
     """Yield a finding for each part that an arm carries while a laser above class 2 may be open: on its way a part may
     reflect a beam anywhere, and nobody can trace that."""
-    carrying = [op for op in plan.operations if op.kind.carries]
+    carrying = [op for op in plan.operations if op.carries]
     sources = [n for n in setup.lab.inventory if setup.type_of(n).optics.element == "source"]
     lasers = sorted({*lit.lasers, *_shining(setup, seen, sources)})
     if not carrying or not lasers:

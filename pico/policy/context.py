@@ -23,7 +23,7 @@ def policy_values(setup: Setup, plan: Plan, seen: Observation) -> dict[str, Any]
     """
     lasers = [n for n in sorted(setup.lab.inventory) if setup.type_of(n).optics.element == "source"]
     opened = open_beams(setup, plan.operations, seen, lasers)
-    moving = {op.component for op in plan.operations if op.kind.carries or op.kind.by_hand}
+    moving = {op.component for op in plan.operations if op.carries or op.kind.by_hand}
     lab = as_json(setup.lab)
     return {
         "plan": {k: v for k, v in as_json(plan).items() if k not in ("policy", "digest")},
@@ -38,7 +38,7 @@ def policy_values(setup: Setup, plan: Plan, seen: Observation) -> dict[str, Any]
 
 
 def _operation(setup: Setup, op: Operation, opened: list[str]) -> dict[str, Any]:
-    moved = (op.kind.carries or op.kind.by_hand) and op.component in setup.lab.inventory
+    moved = (op.carries or op.kind.by_hand) and op.component in setup.lab.inventory
     mass = setup.type_of(op.component).geometry.mass if moved else 0.0
     own = {"robot": op.robot or "", "by_hand": op.kind.by_hand, "mass": mass, "open_beams": opened}
     return {**as_json(op), **own}

@@ -15,11 +15,12 @@ from datetime import datetime
 from pico.model.diff import deviation, diff_observed, value_deviation
 from pico.model.drift import drift_of
 from pico.model.lab import Setup
-from pico.model.observation import Observation, ObservedComponent
-from pico.model.operation import Operation
+from pico.model.observation import Observation
+from pico.model.operation import Operation, touched_by
 from pico.model.run import STRENGTH
 from pico.model.state import LabState, place_of
 from pico.runs.document import weakest
+from pico.runs.journal import Success
 from pico.runs.memory import Memory
 
 Tunables = Collection[tuple[str, str]]
@@ -111,11 +112,10 @@ def _last_said(
     """Return of tunables on which operations succeeded whether the last one is no reason to doubt a state."""
     found: dict[tuple[str, str], bool] = {}
     for success in memory.successes({component for component, _ in tunables}):
-        one = (success.operation.component, _tunable(success.operation))
-        if one in tunables and one not in found:
+        for one in _changed(success.operation) & (set(tunables) - found.keys()):
             causes = {about.get("cause", {}).get("kind") for about in memory.about(success.run)[0]}
             before = stood is not None and datetime.fromisoformat(success.at).replace(microsecond=0) <= stood
-            found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success.after)
+            found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success)
     return found
 
 
@@ -131,26 +131,25 @@ def _brought(
     found: dict[tuple[str, str], str | None] = {}
     wanted = set(tunables)
     for success in memory.successes({component for component, _ in wanted}) if memory else ():
-        one = (success.operation.component, _tunable(success.operation))
-        if memory and one in wanted - found.keys():
-            found[one] = _of_run(memory, success.run) if _there(setup, state, one, success.after) else None
+        for one in _changed(success.operation) & (wanted - found.keys()):
+            found[one] = _of_run(memory, success.run) if memory and _there(setup, state, one, success) else None
         if len(found) == len(wanted):
             break
     return found
 
 
-def _tunable(operation: Operation) -> str:
-    """Return which tunable an operation changes; empty for none."""
+def _changed(operation: Operation) -> set[tuple[str, str]]:
+    """Return which tunables an operation changes, by component and name."""
     if operation.kind.carries:
-        return "pose"
-    return str(operation.arguments.get("tunable", "")) if operation.kind.drives else ""
+        return {(operation.component, "pose")}
+    return set(touched_by(operation.component, operation.arguments)) if operation.kind.drives else set()
 
 
-def _there(setup: Setup, state: LabState, one: tuple[str, str], part: ObservedComponent | None) -> bool:
-    """Whether a state has a tunable where its component was observed."""
+def _there(setup: Setup, state: LabState, one: tuple[str, str], success: Success) -> bool:
+    """Whether a state has a tunable where its component was observed after an operation."""
     component, tunable = one
-    kind = setup.type_of(component)
-    if part is None:
+    kind, part = setup.type_of(component), success.after
+    if part is None or success.operation.component != component:
         return False
     if tunable == "pose":
         place = place_of(setup, state, component)

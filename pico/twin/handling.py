@@ -110,6 +110,16 @@ class Handling:
         yield from self._follow(self._shifted(legs["retreat"], column, None))
         return {"correction_mm": correction[0], "correction_deg": correction[1]}
 
+    def carry(self) -> Generator[float, None, dict[str, Any]]:
+        """Do a path that ends with the part in the hand: it is picked where the path grips, else held already."""
+        legs = {segment.name: segment for segment in self.path.segments}
+        self.twin.handles[self.path.robot] = self.component
+        yield from self._pick(legs)
+        for name in ("lift", "transit"):
+            if name in legs:
+                yield from self._follow(legs[name])
+        return {}
+
     def _pick(self, legs: dict[SegmentName, Segment]) -> Steps:
         robot = self.path.robot
         if "grip" not in legs:  # the hand holds it already, since a move that was cut short

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 from pico.backends.device import Began, Capabilities
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.readings import simulated
+from pico.backends.sim.steering.pace import Pace
 from pico.backends.sim.store import load_world, world_path
 from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, PicoError
@@ -21,6 +23,7 @@ from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
+from pico.teleop.frames import STEPS
 
 if TYPE_CHECKING:
     from pico.backends.last_seen import LastSeen
@@ -53,6 +56,8 @@ class SimDevice:
         self.setup, self.root, self.fidelity = setup, root, fidelity
         self.diagnostics: tuple[Diagnostic, ...] = ()
         self._clock, self._motion = clock, motion or DeferredMotion(setup)
+        self.pace = Pace()
+        """With which time passes in this world while a person steers."""
         self._session: WorldSession | None = None
         self._look: Callable[[Snapshot], None] | None = None
         self._looked: tuple[tuple[World, str | None], Look] | None = None
@@ -71,7 +76,7 @@ class SimDevice:
             fidelity=self.fidelity,
             evidence=self.fidelity,
             lab_digest=self.setup.digest(),
-            primitives=PRIMITIVES | plugged_in().keys(),
+            primitives=PRIMITIVES | STEPS | plugged_in().keys(),
             robots=tuple(sorted(self.setup.lab.robots)),
             measurables=frozenset(simulated(self.setup)),
             simulated=True,
@@ -135,8 +140,9 @@ class SimDevice:
         from pico.backends.attempt import Failed
         from pico.backends.sim.measuring import measured
 
-        try:
-            return measured(self.setup, self.root, self._world(), component, measurable, None, self._clock())
+        world, now = self._world(), self._clock()
+        try:  # in a thread of its own: who steers is heard meanwhile
+            return await asyncio.to_thread(measured, self.setup, self.root, world, component, measurable, None, now)
         except Failed as exc:
             raise PicoError(exc.diagnostic) from exc
 
@@ -151,7 +157,7 @@ class SimDevice:
         self._session = WorldSession(
             self.setup, self.root, world, fidelity=self.fidelity, token=token, motion=self._motion, tell=tell,
             clock=self._clock, faults=faults_of(self.setup, self.root),
-            look=self._by_sight if self.setup.lab.sim.runs_by_sight(self.fidelity) else None,
+            look=self._by_sight if self.setup.lab.sim.runs_by_sight(self.fidelity) else None, pace=self.pace,
         )  # fmt: skip
         if self._look is not None:
             self._session.watch(self._look)
@@ -160,7 +166,7 @@ class SimDevice:
         """Execute one operation in simulated time and return when it has ended and is stored."""
         assert self._session is not None  # only who has taken the device executes
         result = await self._session.execute(operation, key, began)
-        if result.outcome == "done" and operation.kind.carries:
+        if result.outcome == "done" and (operation.kind.carries or operation.primitive == "let_go"):
             self._note_placed(operation, result)
         return result
 

@@ -99,7 +99,9 @@ class PhysicsWorld:
         assert grasp is not None  # else it has no path
         handling = Handling(self.twin, robot, name, grasp, path, goal, self._sight, stands, self._seat)
         self._left.pop(name, None)
-        found: dict[str, Any] = yield from self._guarded(path.robot, handling.run())
+        lets_go = any(segment.name == "release" for segment in path.segments)
+        work = handling.run() if lets_go else handling.carry()
+        found: dict[str, Any] = yield from self._guarded(path.robot, work)
         self._left[name] = handling.left
         return found
 

@@ -25,6 +25,8 @@ from pico.backends.sim.measuring import measured, require_simulated
 from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.readings import Table
+from pico.backends.sim.steering.axis import driven
+from pico.backends.sim.steering.pace import STEP, Pace
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World
@@ -39,6 +41,7 @@ from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
 from pico.motion.zones import enters, shared_zones
+from pico.teleop.frames import STEPS
 from pico.twin.snapshot import Snapshot
 from pico.vision.calibration import known_arms
 
@@ -75,8 +78,11 @@ class WorldSession:
         clock: Callable[[], str],
         faults: Faults | None = None,
         look: Callable[[], Look] | None = None,
+        pace: Pace | None = None,
     ) -> None:
+        """`pace`: with which time passes while a person steers."""
         self._setup, self._root, self._world = setup, root, world
+        self._pace = pace or Pace()
         self._motion, self._tell_all, self._clock = motion, tell, clock
         self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
@@ -110,10 +116,21 @@ class WorldSession:
             data = {"primitive": operation.primitive, "seconds": operation.seconds}
             self._tell("operation_started", operation, key, data)
 
+        if operation.primitive in STEPS:
+            self._keep_pace()
         try:
             return await asyncio.shield(self._time.start(key, attempt(self, operation, key, begins)))
         except MoveFailed as exc:
             raise PicoError(exc.diagnostic, ExitCode.INTERRUPTED) from exc
+
+    def _keep_pace(self) -> None:
+        """Let the world keep pace with the wall from now on, where a person steers: seen often enough to be stopped."""
+        if isinstance(self._mover, KinematicWorld):
+            self._mover.step = STEP
+        if self._time.pace is not None and not self._time.under_way:  # time passed while nothing moved
+            self._time.now = self._pace.moment(self._time.now)
+        self._pace.begin(self._time.now)
+        self._time.pace = self._pace
 
     async def idle(self) -> None:
         """Wait until nothing is under way."""
@@ -159,7 +176,8 @@ class WorldSession:
 
     def act(self, operation: Operation, key: str) -> InProgress:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
-               "measure": self._measure, "auto_range": self._auto_range}  # fmt: skip
+               "measure": self._measure, "auto_range": self._auto_range,
+               "take": self._take, "jog": self._jog, "let_go": self._let_go}  # fmt: skip
         return (yield from own.get(operation.primitive, self._plugged_in)(operation, key))
 
     def _measure(self, operation: Operation, key: str) -> InProgress:
@@ -270,6 +288,74 @@ class WorldSession:
             self._elsewhere(robot),
         )  # fmt: skip
         return start, path
+
+    def _take(self, operation: Operation, key: str) -> InProgress:
+        """Take a part in hand where it stands, a hair above its place."""
+        name, robot = operation.component, operation.robot or ""
+        seen = self._known.seen()
+        start = checks.require_ready(self._setup, seen, operation, checks.places(operation)[0])
+        stands, yaw = self._known.survey(name), float(operation.arguments.get("grasp_yaw", 0.0))
+        path = self._motion.take(
+            robot, name, start, yaw, checks.standing(self._setup, seen), seen.robots[robot].joints,
+            self._elsewhere(robot),
+        )  # fmt: skip
+        return (yield from self._steered(operation, key, path, start, stands))
+
+    def _jog(self, operation: Operation, key: str) -> InProgress:
+        """Make one step: of a part in a hand to a pose, of a tunable to a value."""
+        if operation.robot is None:
+            return (yield from self._driven(operation))
+        held, goal = self._held(operation), checks.places(operation)[1]
+        seen, robot = self._known.seen(), operation.robot
+        path = self._motion.shift(
+            robot, operation.component, held, goal, checks.standing(self._setup, seen), seen.robots[robot].joints,
+            self._elsewhere(robot),
+        )  # fmt: skip
+        return (yield from self._steered(operation, key, path, goal))
+
+    def _let_go(self, operation: Operation, key: str) -> InProgress:
+        """Set a part down that a hand holds, where it is."""
+        name, robot, held = operation.component, operation.robot or "", self._held(operation)
+        seen = self._known.seen()
+        path = self._motion.let_go(
+            robot, name, held, checks.standing(self._setup, seen), seen.robots[robot].joints, self._elsewhere(robot)
+        )
+        data = yield from self._steered(operation, key, path, held)
+        part = self._known.confirm(name, held)
+        if part.presence != "seen" or part.pose is None:
+            raise checks.not_standing(name, part.presence)
+        return {**data, "pose": as_json(part.pose)}
+
+    def _held(self, operation: Operation) -> Pose:
+        """Return where a part is in the hand of the robot of an operation, as far as anybody knows."""
+        return checks.require_held(self._setup, self._known.seen(), operation)
+
+    def _steered(
+        self, operation: Operation, key: str, path: MovePath | Blocked, goal: Pose, stands: Pose | None = None
+    ) -> InProgress:
+        """Walk a way that a person steers; the beam is shut, and no other arm is there."""
+        if isinstance(path, Blocked):
+            raise MoveFailed(error("blocked", path.text, hint=path.help, address=operation.component))
+        checks.require_dark(self._setup, self._known.seen(), operation)
+        ends = {"from": {"pose": as_json(goal)}, "to": {"pose": as_json(goal)}}
+        if any(segment.name == "grip" for segment in path.segments):
+            self._known.takes(operation.component, path)
+        meant = replace(operation, arguments={**operation.arguments, **ends})
+        with self._in_zones(operation, path):
+            return (yield from self._reported(meant, key, path, self._mover.move(meant, path, stands)))
+
+    def _driven(self, operation: Operation) -> InProgress:
+        """Drive an axis by one step, read back on the way: where it is stopped, it is known where it stands."""
+        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
+        checks.standing_pose(self._known.seen(), name)
+        live = self._world.components[name].values[tunable]
+        goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
+        if not isinstance(live.value, int | float) or live.status == "unknown" or not isinstance(goal, int | float):
+            raise MoveFailed(error("unknown", f"nobody knows where {name}.{tunable} stands", address=name))
+        for seconds, value in driven(f"{name}.{tunable}", kind, float(live.value), float(goal)):
+            yield seconds
+            self._world = self._world.with_value(name, tunable, replace(live, value=value))
+        return {"value": goal}
 
     def _park(self, operation: Operation, key: str) -> InProgress:
         robot = operation.robot or operation.component

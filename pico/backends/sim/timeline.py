@@ -7,6 +7,8 @@ import re
 from collections.abc import Callable, Collection, Generator
 from typing import Any, Generic, TypeVar
 
+from pico.backends.sim.steering.pace import TICK, Pace
+
 T = TypeVar("T")
 
 REACTION_TURNS = 16
@@ -29,6 +31,7 @@ class Timeline(Generic[T]):
         self._task: asyncio.Task[None] | None = None
         self._news = False
         self.look: Callable[[], None] | None = None  # called whenever time has passed
+        self.pace: Pace | None = None  # with which it passes; None: as fast as the machine can
 
     @property
     def under_way(self) -> Collection[str]:
@@ -61,6 +64,10 @@ class Timeline(Generic[T]):
                 for _ in range(REACTION_TURNS):
                     await asyncio.sleep(0)
             if self._works:
+                left = self.pace.left(min(self._due.values())) if self.pace else 0.0
+                if left > 0:
+                    await asyncio.sleep(min(left, TICK))
+                    continue
                 self._step()
             await asyncio.sleep(0)
 

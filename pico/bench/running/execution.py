@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from pico.bench.running.loop import HEED, LoopThread
@@ -73,9 +74,7 @@ class Execution:
         """Return the next event; raises PicoError, before anything moves, where the plan must not be run."""
         if self.over:
             raise StopIteration
-        if not self._asked:
-            self._asked = True
-            self._thread.submit(self._pump())
+        self.begin()
         item = self._next()
         if isinstance(item, Event):
             return item
@@ -84,6 +83,19 @@ class Execution:
             raise item
         self._report = replace(item, goal=self._named()) if item.goal == self.plan.target.name else item
         raise StopIteration
+
+    def begin(self) -> None:
+        """Start it, and return at once; what it has to say is in `news`."""
+        if not self._asked:
+            self._asked = True
+            self._thread.submit(self._pump())
+
+    def news(self) -> list[Event]:
+        """Return the events since the last time, without waiting; raises PicoError as iterating does."""
+        found: list[Event] = []
+        while not self.over and not self._queue.empty():
+            found += [*islice(self, 1)]
+        return found
 
     def _next(self) -> Event | RunReport | BaseException:
         while True:

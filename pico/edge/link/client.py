@@ -20,6 +20,7 @@ from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.pose import Pose
 from pico.model.report import RunReport
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
+from pico.teleop.frames import Answer, Frame
 from pico.vision.calibration import calibration_from_json
 
 if TYPE_CHECKING:
@@ -311,6 +312,11 @@ class RemoteEdge:
     async def film(self, run: str) -> list[Snapshot]:
         """Return what a film of a run shows that was `filmed`."""
         found: list[Snapshot] = await self._call("film", run)
+        return found
+
+    async def jog(self, run: str, frame: Frame) -> Answer:
+        """Say what a hand on a key says to the teleoperation in a run."""
+        found: Answer = await self._call("jog", run, frame)
         return found
 
     async def cancel(self, run: str) -> None:

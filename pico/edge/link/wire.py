@@ -21,6 +21,7 @@ from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.report import RunReport
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
+from pico.teleop.frames import Answer, Frame
 from pico.twin.placement import Placement
 from pico.twin.snapshot import Snapshot
 from pico.vision.arm import ArmOffsets
@@ -43,6 +44,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "events": ((str, int), Event),
     "report": ((str,), RunReport),
     "film": ((str,), list[Snapshot]),
+    "jog": ((str, Frame), Answer),
     "cancel": ((str,), None),
     "halt": ((), None),
     "stop": ((), None),
