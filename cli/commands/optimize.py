@@ -45,9 +45,9 @@ def optimize(
     session = Session.of(context)
     bench = session.bench(fidelity, None, writing=bool(goal) and not dry_run)
     if not goal:
-        from pico.bench.goals import READY
+        from pico.bench.ready.registry import takes
 
-        session.show(goals_view, bench.goals.named, bench.goals.alignments(), READY)
+        session.show(goals_view, bench.goals.named, bench.goals.alignments(), takes())
         return 0
     return _optimize(session, bench, bench.goals.chosen(goal, algorithm=algorithm), plot, dry_run, auto_approve)
 

@@ -23,7 +23,7 @@ def text(goals: Mapping[str, Goal], standing: Sequence[Alignment], ready: Mappin
         goal = goals[one.goal]
         said = paint(_STYLES[one.status], one.status) if one.status in _STYLES else one.status
         when = f", {ago(one.at)}" if one.at else ""
-        aim = ", ".join(goal.reach or ()) or goal.texts[0]
+        aim = ", ".join(goal.reach or ()) or goal.expressions[0]
         rows.append([one.goal, f"{said}{when}", goal.description or f"{goal.aim} {aim}", ", ".join(goal.tunables)])
         rows += [["", f"  {one.why}", "", ""]] if one.why else []
     own = columns(rows) if goals else ["The lab has no goals of its own: `goals:` in lab.yaml."]

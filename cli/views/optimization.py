@@ -19,6 +19,9 @@ def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: st
     spent = f"{count(found.measurements, 'measurement')}, {seconds(found.seconds)} on the bench"
     said = paint("green", "met") if found.met else paint("yellow", "not met")
     lines = wrap(f"{chosen.name}: {said} in {spent} ({chosen.algorithm}: {chosen.why})", "  ")
+    for one in found.stages:
+        stood = "found" if one.get("last") else "not found"
+        lines += wrap(f"{one['goal']} first: {stood} after {count(one['measurements'], 'measurement')}", "  ")
     if not found.met:
         lines += wrap(f"It ended because {found.why}.", "  ")
     lines += _table(found, chosen, setup)
@@ -37,7 +40,7 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
     for name in [
         c for c in found.columns if c != "time" and c not in chosen.goal.tunables and not c.endswith("_sigma")
     ]:
-        texts = chosen.goal.texts[0] if name == "objective" else name
+        texts = chosen.goal.expressions[0] if name == "objective" else name
         cells = [value(of[name], "", of.get(f"{name}_sigma")) if name in of else "dark" for of in (first, last)]
         near = found.tolerance.get(name)
         goal = f"to {(chosen.goal.reach or {})[name]:g} within {near:g}" if near and chosen.goal.reach else ""
@@ -47,6 +50,7 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
 
 def data(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: str = "") -> dict[str, Any]:
     """Return schema `pico.optimization/v1`: `goal`, `algorithm`, `met`, `why`, `measurements`, `seconds`, `first`,
-    `last`, `points` (an array in the content store, its `columns`), `run`."""
+    `last`, `points` (an array in the content store, its `columns`), `run`; `stages`: the same of the goals that were
+    sought first, `measurements` counted from the first on."""
     return {"schema": "pico.optimization/v1", **as_json(found), "goal": chosen.name, "algorithm": chosen.algorithm,
             "chosen": chosen.why, "run": run}  # fmt: skip

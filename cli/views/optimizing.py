@@ -21,8 +21,9 @@ def line(event: Event, chosen: Chosen, setup: Setup) -> str:
     values = {n: v for n, v in event.data["values"].items() if not n.endswith("_sigma")}
     seen = ", ".join(f"{n} {number(v, 4)}" for n, v in values.items()) or event.data.get("unknown", "dark")
     point = ", ".join(f"{n} {number(v, 4)}" for n, v in event.data["point"].items())
-    most = chosen.goal.budget.measurements
-    return shorten(f"{chosen.name}  {event.data['measured']} of {most}  {seen}  ({point})", wide())
+    most = sum(one.goal.budget.measurements for one in (*chosen.first, chosen.one))
+    name = event.data.get("goal", chosen.name)
+    return shorten(f"{name}  {event.data['measured']} of {most}  {seen}  ({point})", wide())
 
 
 def data(event: Event) -> dict[str, Any]:

@@ -12,13 +12,14 @@ from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.lab import Goal, Setup
 from pico.model.observation import Aligned, Observation
-from pico.model.operation import Operation, touched_by
+from pico.model.operation import Operation, searched_by, touched_by
 from pico.model.primitive import primitive
 from pico.model.quantities import convert
 from pico.model.record import as_json
 from pico.model.vocabulary import measured_in
 from pico.optics.axis import beams
-from pico.planning.optimizing import algorithm_for, seconds
+from pico.planning.optimizing import seconds
+from pico.planning.sought import algorithm_for
 
 if TYPE_CHECKING:
     from pico.edge.protocol import Edge
@@ -144,7 +145,7 @@ def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[O
         one
         for op in operations
         if op.reason.kind not in _ALONG and op.kind.mutating
-        for one in touched_by(op.component, op.arguments)
+        for one in _left_changed(op.component, op.arguments)
     }
     own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == name]
     return "" if own else _upset(setup, seen, (setup.lab.goals or {})[name], touched)
@@ -200,8 +201,16 @@ def _touched_since(records: Sequence[JournalRecord], end: JournalRecord) -> set[
         for r in records
         if r.kind == "intent" and r.key in begun and primitive(str(r.data.get("primitive"))).mutating
         if (r.data.get("reason") or {}).get("kind") not in _ALONG
-        for one in touched_by(r.component, r.data.get("arguments", {}))
+        for one in _left_changed(r.component, r.data.get("arguments", {}))
     }
+
+
+def _left_changed(component: str, arguments: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Yield what an operation leaves changed: of an optimization what it searched, as it sets all else back."""
+    if searched := searched_by(arguments):
+        yield from ((one, tunable) for one, _, tunable in (address.partition(".") for address in searched))
+    else:
+        yield from touched_by(component, arguments)
 
 
 def _upset(setup: Setup, seen: Observation, goal: Goal, touched: Collection[tuple[str, str]]) -> str:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
+from pico.bench.ready.asked import Ready
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.model.lab import Goal, Setup
-from pico.model.vocabulary import numbers_of
+from pico.model.lab import Goal
 from pico.optimize.problem import Problem, Variable
 
 if TYPE_CHECKING:
@@ -19,30 +19,33 @@ if TYPE_CHECKING:
     from pico.model.event import Event
     from pico.model.plan import Plan
     from pico.model.report import RunReport
-
-READY: Mapping[str, str] = {
-    "centre": "PART... CAMERA: its spot in the middle of the camera, to 5 um",
-    "focus": "PART... CAMERA: the smallest spot on the camera",
-    "peak": "PART... DETECTOR: as much light as can be",
-    "null": "PART... DETECTOR: as little light as can be",
-}
-"""Goals that need no entry in `lab.yaml`, and what they are told."""
-CENTRED = 5.0
-"""How near the middle of a camera is near enough [um]."""
-_ACROSS = ("stage_y", "stage_z", "tip", "tilt", "pinhole_y", "pinhole_z")
-_TURNED = ("angle",)
-_ALONG = ("stage_x", "piezo")
+    from pico.planning.sought import Sought
 
 
 @dataclass(frozen=True)
 class Chosen:
-    """A goal by name with the algorithm that is to reach it, and why that one; `seconds` that it is likely to take."""
+    """A goal with the algorithm that is to reach it, what is sought `first` where it is dark, and the seconds that it
+    is likely to take."""
 
-    name: str
-    goal: Goal
-    algorithm: str
-    why: str
+    one: Sought
+    first: tuple[Sought, ...]
     seconds: float
+
+    @property
+    def name(self) -> str:
+        return self.one.name
+
+    @property
+    def goal(self) -> Goal:
+        return self.one.goal
+
+    @property
+    def algorithm(self) -> str:
+        return self.one.algorithm
+
+    @property
+    def why(self) -> str:
+        return self.one.why
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,7 @@ class Optimized:
     columns: tuple[str, ...] = ()
     tolerance: Mapping[str, float] = field(default_factory=dict)
     points: Mapping[str, Any] | None = None
+    stages: tuple[Mapping[str, Any], ...] = ()
 
 
 def optimized(events: Sequence[Event]) -> Optimized:
@@ -67,7 +71,8 @@ def optimized(events: Sequence[Event]) -> Optimized:
     for event in events:
         if event.kind == "operation_done" and "algorithm" in event.data and "columns" in event.data:
             known = {k: v for k, v in event.data.items() if k in Optimized.__dataclass_fields__}
-            return Optimized(**{**known, "columns": tuple(event.data["columns"])})
+            stages = tuple(event.data.get("stages") or ())
+            return Optimized(**{**known, "columns": tuple(event.data["columns"]), "stages": stages})
         if event.kind in ("operation_failed", "operation_unknown"):
             return Optimized(why=str(event.data["diagnostic"].get("summary", "")))
     return Optimized()
@@ -95,34 +100,35 @@ class Goals:
         and the algorithm, `algorithm` where that is said. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
         from pico.optimize.registry import made
-        from pico.planning.optimizing import algorithm_for, seconds
+        from pico.planning.optimizing import seconds
+        from pico.planning.sought import before, sought
 
-        setup = self.opened.setup
-        if not isinstance(words, Goal):
-            name, goal = self._of(list(words))
-        else:
-            goal = words
-        goal = replace(goal, algorithm=algorithm or goal.algorithm)
-        require_goal(setup, name, goal)
-        found, why = (goal.algorithm, "as the goal says") if goal.algorithm else algorithm_for(setup, goal)
-        made(found, as_problem(goal), goal.parameters)  # raises for what it cannot, or does not have
-        return Chosen(name, goal, found, why, seconds(setup, goal, found))
+        setup, seen = self.opened.setup, self.opened.observe()
+        found = Ready(name, words) if isinstance(words, Goal) else self._of(list(words))
+        for label, goal in (*found.first, (found.name, found.goal)):
+            require_goal(setup, label, goal)
+        first = tuple(sought(setup, seen, label, goal) for label, goal in found.first)
+        first = first or before(setup, seen, found.goal)
+        one = sought(setup, seen, found.name, found.goal, [stage.goal for stage in first], algorithm)
+        made(one.algorithm, as_problem(one), one.goal.parameters)  # raises for what it cannot, or does not have
+        took = sum(seconds(setup, stage.goal, stage.algorithm) for stage in (*first, one))
+        return Chosen(one, first, took)
 
-    def _of(self, words: list[str]) -> tuple[str, Goal]:
-        setup, first = self.opened.setup, words[0]
-        if first in self.named and len(words) == 1:
-            return first, self.named[first]
-        if first not in READY:
-            known = (*self.named, *READY)
-            hint = did_you_mean(first[:40], known) or f"known: {', '.join(known)}"
-            raise PicoError(error("goal", f"{setup.lab.name} has no goal `{first[:40]}`", hint=hint))
-        if len(words) < 3:
-            raise PicoError(error("goal", f"`{first}` takes what to tune and what to see it by", hint=READY[first]))
-        return f"{first} {' '.join(words[1:])}", ready(setup, first, words[1:-1], words[-1])
+    def _of(self, words: list[str]) -> Ready:
+        from pico.bench.ready.registry import known, made_ready
+
+        what = words[0]
+        if what in self.named and len(words) == 1:
+            return Ready(what, self.named[what])
+        if what not in known():
+            names = (*self.named, *known())
+            hint = did_you_mean(what[:40], names) or f"known: {', '.join(names)}"
+            raise PicoError(error("goal", f"{self.opened.setup.lab.name} has no goal `{what[:40]}`", hint=hint))
+        return made_ready(self.opened.setup, self.opened.observe(), words)
 
     def plan(self, chosen: Chosen) -> Plan:
         """Return the plan that brings light to a goal; raises PicoError."""
-        return Plans(self.opened).to_goal(chosen.name, chosen.goal, chosen.algorithm)
+        return Plans(self.opened).to_goal(chosen.one, chosen.first)
 
     def optimize(
         self, plan: Plan, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None
@@ -165,63 +171,7 @@ class Goals:
         return None if output not in found.tolerance else (goal.reach or {}).get(output, 0.0) if goal else 0.0
 
 
-def as_problem(goal: Goal) -> Problem:
+def as_problem(one: Sought) -> Problem:
     """Return what an algorithm is asked, but for where the tunables stand."""
-    variables = tuple(Variable(name, low, high, low) for name, (low, high) in goal.tunables.items())
-    return Problem(variables, tuple(goal.reach or ("objective",)), goal.aim)
-
-
-def ready(setup: Setup, what: str, parts: Sequence[str], detector: str) -> Goal:
-    """Return a ready-made goal; raises PicoError for parts that it cannot be made of."""
-    tunables: dict[str, tuple[float, float]] = {}
-    for part in parts:
-        tunables |= _tunables(setup, what, part)
-    if detector not in setup.lab.inventory:
-        raise _no_part(setup, detector)
-    numbers = numbers_of(setup, detector)
-    if what == "centre":
-        wanted = [f"{detector}.centroid.{axis}" for axis in ("x", "y")]
-        if "centroid.x" not in numbers:
-            raise PicoError(error("goal", f"{detector} does not measure a centroid", hint="a camera does"))
-        return Goal(tunables=tunables, reach=dict.fromkeys(wanted, 0.0), tolerance=CENTRED)
-    if what == "focus":
-        if "width.major" not in numbers:
-            raise PicoError(error("goal", f"{detector} does not measure a width", hint="a camera does"))
-        return Goal(tunables=tunables, minimize=f"{detector}.width.major")
-    light = next((n for n in ("power", "voltage") if n in numbers), None)
-    if light is None:
-        raise PicoError(error("goal", f"{detector} measures no power", hint="a power meter, a photodiode, a camera"))
-    wanted_of = f"{detector}.{light}"
-    if what == "peak":
-        return Goal(tunables=tunables, maximize=wanted_of)
-    return Goal(tunables=tunables, minimize=wanted_of)
-
-
-def _tunables(setup: Setup, what: str, part: str) -> dict[str, tuple[float, float]]:
-    """Return what of a part a ready-made goal tunes, with its whole range as bounds."""
-    component, _, one = part.partition(".")
-    if component not in setup.lab.inventory:
-        raise _no_part(setup, component)
-    kinds = setup.type_of(component).tunables
-    usual = _ALONG if what == "focus" else _TURNED if what == "null" and "angle" in kinds else _ACROSS
-    wanted = (one,) if one else usual
-    found = [n for n in wanted if n in kinds] or [n for n in (*_TURNED, *_ALONG) if n in kinds and not one]
-    if not found:
-        hint = f"it has: {', '.join(kinds) or 'none'}"
-        raise PicoError(error("goal", f"{part} has nothing to tune for `{what}`", hint=hint))
-    return {f"{component}.{name}": _bounds(component, name, setup) for name in found}
-
-
-def _no_part(setup: Setup, name: str) -> PicoError:
-    hint = did_you_mean(name, setup.lab.inventory) or "`pico catalog parts` lists them"
-    return PicoError(error("goal", f"there is no component `{name}`", hint=hint))
-
-
-def _bounds(component: str, name: str, setup: Setup) -> tuple[float, float]:
-    kind = setup.type_of(component).tunables[name]
-    if kind.range is not None:
-        return kind.range
-    if kind.period is not None:
-        return -kind.period / 2, kind.period / 2
-    text = f"{component}.{name} has no range, within which it could be searched"
-    raise PicoError(error("goal", text, hint="a goal in `lab.yaml` says its own bounds"))
+    variables = tuple(Variable(name, low, high, low) for name, (low, high) in one.goal.tunables.items())
+    return Problem(variables, tuple(one.goal.reach or ("objective",)), one.goal.aim, nominal=one.known)

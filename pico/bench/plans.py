@@ -13,7 +13,6 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 from pico.model.diff import Change, show_value
 from pico.model.drift import drift_of
-from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Target
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from pico.manifest.load import Manifests
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
+    from pico.planning.sought import Sought
 
 
 class Plans:
@@ -260,15 +260,14 @@ class Plans:
         told = cut_short(self.opened, seen)
         return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
 
-    def to_goal(self, name: str, goal: Goal, algorithm: str) -> Plan:
-        """Return the plan that brings light to a goal by an algorithm, see `pico.bench.goals`; raises PicoError."""
+    def to_goal(self, one: Sought, first: Sequence[Sought] = ()) -> Plan:
+        """Return the plan that brings light to a goal, by those that are sought `first` where it is dark; see
+        `pico.bench.goals`; raises PicoError."""
         from pico import planning
         from pico.execution.checks import require_able
 
         setup, seen = self.opened.setup, self.opened.observe()
-        found = planning.optimize_one(
-            setup, seen, name, goal, algorithm, motion=DeferredMotion(setup), **self._start(seen)
-        )
+        found = planning.optimize_one(setup, seen, one, first=first, motion=DeferredMotion(setup), **self._start(seen))
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         judged, told = self._judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged

@@ -7,7 +7,7 @@ in the content store.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -22,10 +22,11 @@ from pico.model.lab import EXPOSURE, Goal, Setup, goal_from_json
 from pico.model.measurement import Measurement, measurement_from_json, number_of
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
+from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.vocabulary import measured_in
-from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, loop, started
-from pico.optimize.problem import Aim, Problem, Variable
+from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, believed, loop, started
+from pico.optimize.problem import Aim, Nominal, Problem, Variable, nominal_from_json
 from pico.optimize.registry import made
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 Stopping = Literal["", "safely", "now"]
 OBJECTIVE = "objective"
 """What the value of an expression is called that is to be as low or as high as can be."""
-ACQUIRING = ("spiral", "raster")
+ACQUIRING = ("likely", "spiral", "raster")
 """Algorithms that look for light."""
 ATTEMPTS = 3
 """How often an axis that does not answer or stops is driven, and how often a measurement that gets lost is taken, at
@@ -63,23 +64,53 @@ class Aligning:
         if operation.primitive != "optimize":
             return await self._device.execute(operation, key, began)
         seen = await self._device.observe()
-        goal = goal_from_json(operation.arguments["what"])
         before = seen.components.get(operation.component)
         began(before)
         try:
-            run = _Run(self._setup, self._device, operation, key, goal, problem_of(self._setup, seen, goal))
-            outcome = await self._walk(run)
+            run, outcome, former = await self._sought(operation, key, seen)
         except PicoError as exc:
             seen = await self._device.observe()
             return OperationResult(key=key, outcome="failed", error=exc.diagnostics[0], before=before, ended=seen.time)
         seen = await self._device.observe()
         result = OperationResult(
             key=key, outcome="done", before=before, after=seen.components.get(operation.component),
-            seconds=outcome.seconds, ended=seen.time, data=self._data(run, outcome),
+            seconds=outcome.seconds, ended=seen.time, data=self._data(run, outcome, former),
         )  # fmt: skip
         if outcome.fault:
             return replace(result, outcome="failed", error=error("axis", outcome.fault, address=operation.component))
         return result
+
+    async def _sought(
+        self, operation: Operation, key: str, seen: Observation
+    ) -> tuple[_Run, Outcome, list[dict[str, Any]]]:
+        """Seek a goal, and where it is dark to begin with those that come before it first, each as far as it comes;
+        return the run, its outcome, and what the journal holds of those before."""
+        run, former = self._run(operation, key, seen), list[dict[str, Any]]()
+        stages = operation.arguments.get("first") or ()
+        if not stages or self._taken_up(run) != run.problem or await run.bright():
+            return run, await self._walk(run), former
+        for number, arguments in enumerate(stages):
+            whole = {**arguments, "from": operation.arguments["from"]}
+            one = self._run(replace(operation, arguments=whole), f"{key}+{number}", await self._device.observe(), run)
+            run, outcome = one, await self._walk(one)
+            former.append(self._data(one, outcome))
+            if outcome.fault or outcome.last is None or self._stopping():
+                why = f"{one.name} was not found: {outcome.why}" if outcome.last is None else outcome.why
+                last = self._run(operation, key, await self._device.observe(), run)
+                return last, replace(outcome, first=None, last=None, tried=(), met=False, why=why), former
+        run = self._run(operation, key, await self._device.observe(), run)
+        outcome = await self._walk(run)
+        return run, replace(outcome, first=None, seconds=run.now - seen.time), former
+
+    def _run(self, operation: Operation, key: str, seen: Observation, before: _Run | None = None) -> _Run:
+        goal, problem = goal_from_json(operation.arguments["what"]), problem_of(self._setup, seen, operation)
+        return _Run(self._setup, self._device, operation, key, goal, problem, before)
+
+    def _taken_up(self, run: _Run) -> Problem:
+        """Return the problem of a run, from the best point of the one that it takes up."""
+        again = run.operation.arguments.get("again")
+        best = Points(self._root, str(again)).best(run.problem, run.limits) if again else None
+        return started(run.problem, best or {})
 
     async def _walk(self, run: _Run) -> Outcome:
         """Drive the loop to its end, or leave all as it is where somebody asked to stop now."""
@@ -88,14 +119,11 @@ class Aligning:
         def making(name: str) -> Callable[[Problem], Algorithm]:
             return lambda problem: made(name, problem, given)
 
-        limits = Limits(run.goal.budget.measurements, run.goal.budget.seconds, run.goal.signal or "",
-                        run.goal.least or 0.0)  # fmt: skip
-        points, problem = Points(self._root, run.key), run.problem
-        if again := run.operation.arguments.get("again"):
-            problem = started(problem, Points(self._root, str(again)).best(problem, limits) or {})
-        few = len(run.problem.variables) <= 2 and run.algorithm not in ACQUIRING
-        acquire = (lambda problem: made("spiral", problem)) if few else None
-        steps = loop(problem, making(run.algorithm), limits, acquire=acquire, stopping=lambda: bool(self._stopping()))
+        points, problem = Points(self._root, run.key), self._taken_up(run)
+        steps = loop(
+            problem, making(run.algorithm), run.limits, acquire=acquiring(problem, run.algorithm),
+            stopping=lambda: bool(self._stopping()),
+        )  # fmt: skip
         ask = next(steps)
         while True:
             if self._stopping() == "now":
@@ -115,8 +143,8 @@ class Aligning:
 
     def _progress(self, run: _Run, ask: Ask, reading: Reading) -> None:
         data: dict[str, Any] = {
-            "phase": ask.why, "fraction": min(1.0, run.measured / run.goal.budget.measurements),
-            "measured": run.measured, "point": dict(ask.point),
+            "phase": ask.why, "fraction": min(1.0, run.measured / run.most),
+            "goal": run.name, "measured": run.measured, "point": dict(ask.point),
             "values": {n: v for n, v in reading.values.items() if math.isfinite(v)},
         }  # fmt: skip
         data |= {"unknown": reading.unknown} if reading.unknown else {}
@@ -125,15 +153,17 @@ class Aligning:
             operation=run.operation.id, component=run.operation.component, data=data,
         ))  # fmt: skip
 
-    def _data(self, run: _Run, outcome: Outcome) -> dict[str, Any]:
-        """Return what the journal holds of an optimization."""
+    def _data(self, run: _Run, outcome: Outcome, former: Sequence[dict[str, Any]] = ()) -> dict[str, Any]:
+        """Return what the journal holds of an optimization; `former`: of the goals that came before it."""
         names = [v.name for v in run.problem.variables]
         columns = ["time", *names, *(n for o in run.problem.outputs for n in (o, f"{o}_sigma"))]
         found: dict[str, Any] = {
             "goal": run.name, "algorithm": run.algorithm, "met": outcome.met, "why": outcome.why,
-            "measurements": len(outcome.tried), "first": _numbers(outcome.first), "last": _numbers(outcome.last),
+            "measurements": run.measured, "first": _numbers(outcome.first), "last": _numbers(outcome.last),
             "columns": columns, "tolerance": {n: t for n, t in run.problem.tolerance.items() if t},
         }  # fmt: skip
+        if former:
+            found["stages"] = list(former)
         if outcome.tried:
             found["points"] = as_json(self._kept(columns, outcome.tried))
         return {k: v for k, v in found.items() if v is not None}
@@ -152,17 +182,34 @@ class _Run:
     """One optimization under way on a device."""
 
     def __init__(
-        self, setup: Setup, device: Device, operation: Operation, key: str, goal: Goal, problem: Problem
-    ) -> None:
+        self, setup: Setup, device: Device, operation: Operation, key: str, goal: Goal, problem: Problem,
+        before: _Run | None = None,
+    ) -> None:  # fmt: skip
         self.setup, self.device, self.operation, self.key = setup, device, operation, key
         self.goal, self.problem, self.bounds = goal, problem, goal.tunables
         self.name, self.algorithm = str(operation.arguments["goal"]), str(operation.arguments["algorithm"])
         self.measured = self.steps = 0
         self.now = 0.0
+        if before is not None:
+            self.measured, self.steps, self.now = before.measured, before.steps, before.now
+        self.most = self.measured + goal.budget.measurements
         self.stands = dict(problem.start)
+        self.looked: dict[str, Value] = {}
         self.failed: set[str] = set()
         self.exposed: set[str] = set()
         self._language = Language(dict.fromkeys(sorted(numbers_in(setup, goal)), "number"))
+
+    async def bright(self) -> bool:
+        """Whether the goal has light where its tunables stand."""
+        reading = await self.answer(Ask(self.problem.start))
+        await self.restore()
+        return believed(self.problem, self.limits, reading.values)
+
+    @property
+    def limits(self) -> Limits:
+        """What may be spent, a reading in all looks as one."""
+        goal, each = self.goal, max(1, len(self.goal.looks or ()))
+        return Limits(goal.budget.measurements // each, goal.budget.seconds, goal.signal or "", goal.least or 0.0)
 
     async def answer(self, ask: Ask) -> Reading:
         """Set what is asked, one tunable after the other, and measure. One that failed once is left alone from then on,
@@ -195,14 +242,36 @@ class _Run:
         return _fault(name, kind.unit, self.stands[name], wrong)
 
     async def _read(self) -> Reading:
-        self.measured += 1
+        """Measure what the goal speaks of, in each of its looks."""
         taken: dict[str, Measurement] = {}
-        for component, measurable in measured_in(self.setup, self.goal.texts):
-            found = await self._measured(component, measurable)
-            if isinstance(found, str):
-                return Reading(time=self.now, unknown=found)
-            taken[found.address] = found
+        for look in self.goal.looks or ("",):
+            self.measured += 1
+            if fault := await self._look(look):
+                return Reading(time=self.now, fault=fault)
+            for component, measurable in measured_in(self.setup, self.goal.seen_in(look)):
+                found = await self._measured(component, measurable)
+                if isinstance(found, str):
+                    return Reading(time=self.now, unknown=found)
+                taken[f"{look}.{found.address}" if look else found.address] = found
         return replace(self._evaluated(taken), time=self.now)
+
+    async def _look(self, look: str) -> str:
+        """Set what a look wants; return what is wrong with that, empty for nothing."""
+        for address, value in (self.goal.looks or {}).get(look, {}).items():
+            here = self.looked.setdefault(address, self.operation.arguments["from"][address])
+            if here != value and (wrong := await self._set_to(address, value, here)):
+                return f"{address} does not go to {value}: {wrong.summary}"
+            self.looked[address] = value
+        return ""
+
+    async def _set_to(self, address: str, value: Value, here: Value | None = None) -> Diagnostic | None:
+        """Set a tunable only to measure by it; return why it does not go there."""
+        component, _, tunable = address.partition(".")
+        for _ in range(ATTEMPTS):
+            result = await self._do("set", component, {"tunable": tunable, "from": here, "to": value})
+            if result.error is None or result.error.code not in AGAIN:
+                break
+        return None if result.outcome == "done" else result.error or _UNSAID
 
     async def _measured(self, component: str, measurable: str) -> Measurement | str:
         """Measure, with another exposure where there is too much light for that, or was and now is too little; return
@@ -233,13 +302,11 @@ class _Run:
         return result.outcome == "done"
 
     async def restore(self) -> None:
-        """Set exposures back that were changed on the way."""
-        for component in sorted(self.exposed):
-            before = self.operation.arguments["from"][f"{component}.{EXPOSURE}"]
-            for _ in range(ATTEMPTS):
-                result = await self._do("set", component, {"tunable": EXPOSURE, "from": None, "to": before})
-                if result.error is None or result.error.code not in AGAIN:
-                    break
+        """Set back what was changed on the way only to be measured by: looks and exposures."""
+        before = self.operation.arguments["from"]
+        for address in (*self.looked, *(f"{component}.{EXPOSURE}" for component in sorted(self.exposed))):
+            if self.looked.get(address) != before[address]:
+                await self._set_to(address, before[address])
 
     def _evaluated(self, taken: Mapping[str, Measurement]) -> Reading:
         """Return the outputs of a goal, with their standard deviations to first order, and its signal."""
@@ -247,17 +314,19 @@ class _Run:
             return Reading(unknown=f"{full.address} is saturated: {full.not_assured['not saturated']}", glaring=True)
         values, sigmas, unknown = {}, {}, ""
         for name in self._language.names:
-            component, _, number = name.partition(".")
-            found = next(
-                (m for m in taken.values() if m.component == component and number_of(m, number) is not None), None
+            address = next(
+                (name.removeprefix(f"{x}.") for x in self.goal.looks or () if name.startswith(f"{x}.")), name
             )
+            component, _, number = address.partition(".")
+            mine = (m for a, m in taken.items() if f"{a}.".startswith(name.removesuffix(number)))
+            found = next((m for m in mine if m.component == component and number_of(m, number) is not None), None)
             known = number_of(found, number) if found else None
             if found is None or known is None:
                 unknown = unknown or next((m.unknown for m in taken.values() if m.unknown), f"{name} was not measured")
                 continue
             values[name], sigmas[name] = known, _sigma(found, number)
         result: dict[str, float] = {}
-        outputs = dict(zip(self.problem.outputs, self.goal.texts, strict=False))
+        outputs = dict(zip(self.problem.outputs, self.goal.expressions, strict=False))
         for output, text in (*outputs.items(), *(((self.goal.signal, self.goal.signal),) if self.goal.signal else ())):
             try:
                 value, sigma = self._told(text, values, sigmas)
@@ -288,17 +357,29 @@ class _Run:
         return result
 
 
-def problem_of(setup: Setup, seen: Observation, goal: Goal) -> Problem:
+def acquiring(problem: Problem, algorithm: str) -> Callable[[Problem], Algorithm] | None:
+    """Return what looks for light before an algorithm where it is dark: in the order in which it is likely to be where
+    that is known, else on a spiral over one or two tunables; None where nothing can, or the algorithm does itself."""
+    if algorithm in ACQUIRING:
+        return None
+    if problem.nominal is not None:
+        return lambda one: made("likely", one)
+    return (lambda one: made("spiral", one)) if len(problem.variables) <= 2 else None
+
+
+def problem_of(setup: Setup, seen: Observation, operation: Operation) -> Problem:
     """Return a goal as an algorithm sees it, from where its tunables stand; raises PicoError where they cannot be."""
-    variables = tuple(_variables(setup, seen, goal))
+    goal = goal_from_json(operation.arguments["what"])
+    known = nominal_from_json(operation.arguments.get("nominal"))
+    variables = tuple(_variables(setup, seen, goal, known))
     outputs = tuple(goal.reach) if goal.reach is not None else (OBJECTIVE,)
     aim: Aim = goal.aim
     tolerance = {name: goal.near(name) for name in outputs}
-    return Problem(variables, outputs, aim, dict(goal.reach or {}), tolerance)
+    return Problem(variables, outputs, aim, dict(goal.reach or {}), tolerance, known)
 
 
-def _variables(setup: Setup, seen: Observation, goal: Goal) -> Iterator[Variable]:
-    for address, (low, high) in goal.tunables.items():
+def _variables(setup: Setup, seen: Observation, goal: Goal, known: Nominal | None) -> Iterator[Variable]:
+    for n, (address, (low, high)) in enumerate(goal.tunables.items()):
         component, _, tunable = address.partition(".")
         kind = setup.type_of(component).tunables[tunable]
         part = seen.components.get(component)
@@ -306,18 +387,21 @@ def _variables(setup: Setup, seen: Observation, goal: Goal) -> Iterator[Variable
         if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
             raise PicoError(error("goal", f"nobody knows {address}, so that nobody could go back to it"))
         start = float(live.value)
+        reach = known.reach(n) if known else None
         low, high = searched(kind, (low, high), start)
-        yield Variable(address, low, high, start, kind.resolution, kind.period)
+        yield Variable(address, low, high, start, kind.resolution, kind.period, reach)
 
 
 def numbers_in(setup: Setup, goal: Goal) -> set[str]:
-    """Return the numbers that a goal's expressions speak of, by address."""
-    import re
-
+    """Return the numbers that a goal's expressions speak of, by address, with their looks."""
     from pico.model.vocabulary import numbers_of
 
-    words = {w for text in goal.texts for w in re.findall(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+", text)}
-    return {w for w in words if w.partition(".")[2] in numbers_of(setup, w.partition(".")[0])}
+    known = set()
+    for look in goal.looks or ("",):
+        words = (w.partition(".") for w in goal.seen_in(look))
+        before = f"{look}." if look else ""
+        known |= {f"{before}{name}.{of}" for name, _, of in words if of in numbers_of(setup, name)}
+    return known
 
 
 def ways(kind: Tunable, here: float, goal: float, bounds: tuple[float, float]) -> tuple[float, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
@@ -287,6 +288,10 @@ class Goal:
     number for all, or by name). `minimize`, `maximize`: an expression over such numbers. `signal`: a number that is
     measured too, below whose `least` nothing is believed. `algorithm`: one by name, with its `parameters`; without, one
     is chosen. `valid_for`: how long it counts as aligned once it was met (`12 h`).
+
+    `looks`: what is set while it is measured, and set back at the end: settings by name, each with its tunables. What
+    is measured is then spoken of with the name of its look: `near.meter.power`. `after`: goals of the Lab that are
+    sought first, in this order, where this one is dark to begin with; each is begun when the one before has light.
     """
 
     tunables: Mapping[str, tuple[float, float]]
@@ -301,6 +306,8 @@ class Goal:
     budget: Budget = Budget()
     valid_for: str | None = None
     description: str = ""
+    looks: Mapping[str, Mapping[str, Value]] | None = None
+    after: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         if sum(one is not None for one in (self.reach, self.minimize, self.maximize)) != 1:
@@ -316,10 +323,31 @@ class Goal:
         return "reach" if self.reach is not None else "minimize" if self.minimize is not None else "maximize"
 
     @property
-    def texts(self) -> tuple[str, ...]:
-        """The expressions over what is measured, those of `reach` numbers by name."""
+    def expressions(self) -> tuple[str, ...]:
+        """The expressions over what is measured, those of `reach` numbers by name, that of `signal` last."""
         own = tuple(self.reach or ()) or (self.minimize or self.maximize or "",)
         return (*own, *((self.signal,) if self.signal else ()))
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """The expressions without the names of looks: what is measured, whatever is set for it."""
+        return tuple(self.plain(text) for text in self.expressions)
+
+    def plain(self, text: str) -> str:
+        """Return an expression without the names of looks."""
+        return self._looked.sub("", text)
+
+    def seen_in(self, look: str) -> tuple[str, ...]:
+        """Return the numbers that expressions speak of in a look, without its name; in none where it is empty."""
+        words = (w for text in self.expressions for w in re.findall(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+", text))
+        if not look:
+            return tuple(dict.fromkeys(w for w in words if not self._looked.match(w)))
+        return tuple(dict.fromkeys(w.removeprefix(f"{look}.") for w in words if w.startswith(f"{look}.")))
+
+    @property
+    def _looked(self) -> re.Pattern[str]:
+        names = "|".join(map(re.escape, self.looks or ())) or r"(?!)"
+        return re.compile(rf"(?<![\w.])(?:{names})\.(?=[A-Za-z_]\w*\.)")
 
     def near(self, output: str) -> float:
         """Return the tolerance of a number that is to be reached, 0 where none is said."""

@@ -96,12 +96,20 @@ def address_of(component: str, arguments: Mapping[str, Any]) -> str:
 
 def touched_by(component: str, arguments: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """Return the tunables that an operation changes, each with its component; `pose` where it names none."""
-    searched = {
-        **arguments.get("what", {}).get("tunables", {}),
-        **(arguments.get("from", {}) if "what" in arguments else {}),
-    }
+    searched = {**searched_by(arguments), **(arguments.get("from", {}) if "what" in arguments else {})}
     found = tuple((one, tunable) for one, _, tunable in (address.partition(".") for address in searched))
     return found or ((component, str(arguments.get("tunable", "pose"))),)
+
+
+def searched_by(arguments: Mapping[str, Any]) -> Mapping[str, tuple[float, float] | None]:
+    """Return the tunables that an optimization searches, or a person steers, with the bounds (None for none), by
+    address: of its goal, and of the goals that may be sought before it; none of another operation."""
+    found: dict[str, tuple[float, float] | None] = {}
+    for one in (*(arguments.get("first") or ()), arguments):
+        for address, bounds in one.get("what", {}).get("tunables", {}).items():
+            wide = found.get(address) or bounds
+            found[address] = (min(bounds[0], wide[0]), max(bounds[1], wide[1])) if bounds and wide else None
+    return found
 
 
 @record

@@ -21,9 +21,9 @@ class Tuned:
     period: float | None = None
 
 
-def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim) -> tuple[str, str]:
+def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim, *, known: bool = False) -> tuple[str, str]:
     """Return the algorithm for an aim, and why. `kernels`: what makes the number of each output, empty for an
-    instrument's own."""
+    instrument's own; `known`: nominal geometry tells how the tunables move the light."""
     first = tuned[0]
     if len(tuned) == 1 and first.name == "angle" and first.element in CYCLES and aim != "reach":
         return "malus", f"{aim} over the angle of a {first.element}: the law of Malus"
@@ -31,11 +31,12 @@ def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim) -> tuple[st
         return "waist_parabola", "a radius along one way: its square is a parabola"
     if aim == "reach" and len(kernels) >= len(tuned):
         return "centroid_newton", f"{len(kernels)} readings for {len(tuned)} tunables: Newton's method"
-    if aim == "maximize" and len(tuned) <= 4:
-        return "peak", "as much of something as can be: a parabola through its logarithm, axis by axis"
-    if len(tuned) <= 4:
-        return "nelder_mead", "no model fits: a simplex"
-    return "rcds", f"{len(tuned)} tunables: conjugate directions"
+    if aim == "maximize" and (known or len(tuned) <= 4):
+        walk = "how its tunables move the light is known from where parts stand: only its middle is fitted"
+        climb = "as much of something as can be: a parabola through its logarithm, axis by axis"
+        return ("beam_walk", walk) if known else ("peak", climb)
+    many = f"{len(tuned)} tunables: conjugate directions"
+    return ("nelder_mead", "no model fits: a simplex") if len(tuned) <= 4 else ("rcds", many)
 
 
 def usual_parameters(algorithm: str, tuned: Sequence[Tuned]) -> Mapping[str, float]:

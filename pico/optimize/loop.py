@@ -247,7 +247,8 @@ class _Walk:
 
 
 def believed(problem: Problem, limits: Limits, result: Mapping[str, float]) -> bool:
-    """Return whether there was light enough for a result to count."""
+    """Return whether there is light in a result: all was measured, its signal is strong enough, and a power stands out
+    of its noise."""
     if not problem.measured(result):
         return False
     if limits.signal:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 from pico.diagnostics import PicoError, error
 
@@ -54,12 +54,43 @@ class Variable:
 
 
 @dataclass(frozen=True)
+class Nominal:
+    """What is known of a goal before anything is measured, from where parts stand and how well they are put down; rows
+    and columns are tunables, in their units.
+
+    `shape` H: how the logarithm of a power falls around its best, ln P = c - u' H u, u from there. `spread`: the
+    covariance of where the best is, around where the tunables stand. `depth`: by how much ln P may fall until it is
+    dark; of a goal to be reached what is searched is all that its detector sees, and that is 1. `shift`: how far from
+    where the tunables stand the middle of the spread is, none where that is empty.
+    """
+
+    shape: tuple[tuple[float, ...], ...]
+    spread: tuple[tuple[float, ...], ...]
+    depth: float
+    shift: tuple[float, ...] = ()
+
+    def reach(self, number: int) -> float:
+        """Return how far from where it stands the best value of a tunable is likely to be, three standard
+        deviations."""
+        return 3 * math.sqrt(max(self.spread[number][number], 0.0)) + (abs(self.shift[number]) if self.shift else 0.0)
+
+
+def nominal_from_json(data: Mapping[str, Any] | None) -> Nominal | None:
+    """Return what a plan has of it; None for nothing."""
+    if data is None:
+        return None
+    shape, spread = (tuple(tuple(map(float, row)) for row in data[name]) for name in ("shape", "spread"))
+    return Nominal(shape, spread, float(data["depth"]), tuple(map(float, data.get("shift") or ())))
+
+
+@dataclass(frozen=True)
 class Problem:
     """Which tunables may be changed, what is measured (`outputs`), and what is wanted of it.
 
     `reach`: every output at its `target`, within its `tolerance`; `minimize`, `maximize`: the first output as low or as
     high as can be, `tolerance` (of that output, 0 for none) being how near to the best is near enough. `floor`: the
     least that a maximized or minimized output of a beam may be worth, below which nothing is believed (dark).
+    `nominal`: what is known before anything is measured, None for nothing.
     """
 
     variables: tuple[Variable, ...]
@@ -67,6 +98,7 @@ class Problem:
     aim: Aim = "reach"
     target: Mapping[str, float] = field(default_factory=dict)
     tolerance: Mapping[str, float] = field(default_factory=dict)
+    nominal: Nominal | None = None
 
     @property
     def start(self) -> Point:

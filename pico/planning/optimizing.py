@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from pico.diagnostics import PicoError, error
 from pico.model.lab import EXPOSURE, Goal, Setup
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason
-from pico.model.record import as_json
+from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
-from pico.optimize.choosing import Tuned, choose, usual_parameters
 from pico.optimize.registry import algorithm_file
 from pico.planning.measuring import needed, setting
 from pico.planning.parts.setdown import park_operation
+from pico.planning.sought import Sought, arguments_of
 
 TAKES = 0.6
 """What a measurement takes, with the table at rest [s]."""
@@ -23,34 +23,38 @@ ASKED = Reason(kind="asked")
 
 
 def optimizing(
-    setup: Setup, seen: Observation, name: str, goal: Goal, algorithm: str, motion: Motion | None,
+    setup: Setup, seen: Observation, one: Sought, motion: Motion | None, first: Sequence[Sought] = (),
     reason: Reason = ASKED,
 ) -> list[Operation]:  # fmt: skip
     """Return the operations that bring light to a goal: arms that stand out park, what is measured gets what it needs,
-    the optimization, and all is set back. `after` holds indices as text.
+    the optimization, and all is set back. `after` holds indices as text. `first`: goals that are sought before it where
+    it is dark, in the same operation.
 
-    Raises PicoError where a tunable of the goal is not known, so that nobody could go back to it.
+    Raises PicoError where a tunable of a goal is not known, so that nobody could go back to it.
     """
-    begin = {**_from(setup, seen, name, goal), **_exposures(setup, seen, goal)}
-    given = {**usual_parameters(algorithm, _tuned(setup, goal)), **(goal.parameters or {})}
+    name, stages = one.name, (*first, one)
+    begin = {a: v for stage in stages for a, v in _from(setup, seen, stage.name, stage.goal).items()}
+    only = {a: v for stage in stages for a, v in _to_measure(setup, seen, stage.goal).items() if a not in begin}
     out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
     parks = [*map(str, range(len(out)))]
+    measured = dict.fromkeys(m for stage in stages for m in measured_in(setup, stage.goal.texts))
     wants = {
         need.address: need
-        for component, measurable in measured_in(setup, goal.texts)
+        for component, measurable in measured
         for need in needed(setup, seen, component, setup.measurables_of(component)[measurable])
         if need.live != need.value or (parks and need.opens)
     }
     for need in wants.values():
         waits = parks if need.opens else []
         out.append(setting(setup, need, need.live, need.value, waits, f"to measure for {name}"))
-    parts = sorted({address.partition(".")[0] for address in goal.tunables})
-    detectors = sorted({component for component, _ in measured_in(setup, goal.texts)})
+    parts = sorted({address.partition(".")[0] for address in begin})
+    looked = {a for stage in stages for settings in (stage.goal.looks or {}).values() for a in settings}
+    detectors = sorted({component for component, _ in measured} | {a.partition(".")[0] for a in looked})
     out.append(Operation(
         id="", primitive="optimize", component=parts[0], reason=reason, after=tuple(map(str, range(len(out)))),
-        arguments={"goal": name, "from": begin, "algorithm": algorithm, "parameters": given, **as_json({"what": goal})},
-        resources=tuple(dict.fromkeys((*goal.tunables, *parts, *detectors, *sorted(setup.lab.robots)))),
-        seconds=seconds(setup, goal, algorithm),
+        arguments={"from": {**begin, **only}, **arguments_of(setup, one, first)},
+        resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
+        seconds=sum(seconds(setup, stage.goal, stage.algorithm) for stage in stages),
     ))  # fmt: skip
     done = str(len(out) - 1)
     for need in wants.values():
@@ -69,37 +73,25 @@ def seconds(setup: Setup, goal: Goal, algorithm: str) -> float:
         kind = setup.type_of(component).tunables[tunable]
         steps.append(set_seconds(kind, low, low + (high - low) / 8))
     usual = algorithm_file(algorithm).DECLARATION.usual
-    many = len(measured_in(setup, goal.texts))
+    many = max(1, len(goal.looks or ())) * len(measured_in(setup, goal.texts))
     return min(goal.budget.seconds, min(usual, goal.budget.measurements) * (max(steps) + many * TAKES))
 
 
-def algorithm_for(setup: Setup, goal: Goal) -> tuple[str, str]:
-    """Return the algorithm that suits a goal, and why."""
-    kernels = []
-    for text in goal.reach or (goal.texts[0],):
-        of = measured_in(setup, [text])
-        kernel = setup.measurables_of(of[0][0])[of[0][1]].kernel if of else None
-        kernels.append((kernel or "").rpartition("|")[2].strip().partition("(")[0])
-    return choose(_tuned(setup, goal), kernels, goal.aim)
-
-
-def _tuned(setup: Setup, goal: Goal) -> list[Tuned]:
-    found = []
-    for address in goal.tunables:
-        component, _, name = address.partition(".")
-        kind = setup.type_of(component)
-        found.append(Tuned(kind.optics.element, name, kind.tunables[name].period))
-    return found
-
-
-def _exposures(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, float]:
-    """Return the exposures, by address, that a detector may be given on the way, as they are."""
-    found = {}
-    for component, _ in measured_in(setup, goal.texts):
+def _to_measure(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, Value]:
+    """Return what may be set on the way only to be measured by, as it is, by address: the exposures of detectors, and
+    what looks set."""
+    looked = {address for settings in (goal.looks or {}).values() for address in settings}
+    exposed = {f"{c}.{EXPOSURE}" for c, _ in measured_in(setup, goal.texts) if setup.ranges(c)}
+    found = dict[str, Value]()
+    for address in sorted(looked | exposed):
+        component, _, tunable = address.partition(".")
         part = seen.components.get(component)
-        live = part.values.get(EXPOSURE) if part and setup.ranges(component) else None
-        if live is not None and live.status != "unknown" and isinstance(live.value, int | float):
-            found[f"{component}.{EXPOSURE}"] = float(live.value)
+        live = part.values.get(tunable) if part else None
+        if live is not None and live.status != "unknown" and live.value is not None:
+            found[address] = live.value
+        elif address in looked:
+            text = f"nobody knows {address}, so that nobody could set it back"
+            raise PicoError(error("goal", text, hint=f"`pico set {address} VALUE` first", address=address))
     return found
 
 

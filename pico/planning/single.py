@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
-from pico.model.lab import Goal, Setup, goal_from_json
+from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state, with_value
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, searched_by
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
@@ -22,6 +22,7 @@ from pico.planning.measuring import measuring
 from pico.planning.optimizing import optimizing
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
+from pico.planning.sought import Sought, sought_by, tunables_of
 from pico.planning.teleoperating import kept_dark, steered, teleoperating
 from pico.planning.values import home_operation, value_operations
 
@@ -134,16 +135,17 @@ def measure(
 
 
 def optimize_one(
-    setup: Setup, seen: Observation, name: str, goal: Goal, algorithm: str, *, motion: Motion | None,
+    setup: Setup, seen: Observation, one: Sought, *, motion: Motion | None, first: Sequence[Sought] = (),
     backend: str = "sim", fidelity: str = "kinematic", base: Base | None = None,
 ) -> Plan:  # fmt: skip
-    """Return the plan that brings light to a goal of a name by an algorithm, and leaves all else as it is.
+    """Return the plan that brings light to a goal, by those that are sought `first` where it is dark, and leaves all
+    else as it is.
 
     Raises PicoError for a component that is not seen, and for tunables of which nobody knows where they stand.
     """
-    for component in {address.partition(".")[0] for address in goal.tunables}:
+    for component in {address.partition(".")[0] for address in tunables_of(one, first)}:
         _part(setup, seen, component)
-    operations = optimizing(setup, seen, name, goal, algorithm, motion)
+    operations = optimizing(setup, seen, one, motion, first)
     return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
 
 
@@ -162,13 +164,14 @@ def again(
         if op.primitive == "set":
             after = with_value(after, op.component, str(op.arguments["tunable"]), op.arguments["to"])
     for key, cut in sought.items():
-        goal, first = goal_from_json(cut.arguments["what"]), len(out)
-        waits = tuple(map(str, range(first)))
-        for op in optimizing(setup, after, cut.address, goal, str(cut.arguments["algorithm"]), motion):
+        one, stages = sought_by(cut.arguments)
+        begun = len(out)
+        waits = tuple(map(str, range(begun)))
+        for op in optimizing(setup, after, one, motion, stages):
             given = {**op.arguments, "again": key} if op.primitive == "optimize" else op.arguments
-            own = tuple(str(int(a) + first) for a in op.after)
+            own = tuple(str(int(a) + begun) for a in op.after)
             out.append(replace(op, arguments=given, after=own or waits))
-    timed, tuned = schedule(out), {address for cut in sought.values() for address in cut.arguments["what"]["tunables"]}
+    timed, tuned = schedule(out), {address for cut in sought.values() for address in searched_by(cut.arguments)}
     wanted = _without(state_from_json(plan.lab.name, plan.target.state), tuned)  # these have their last word by light
     return replace(
         plan, operations=timed, makespan=makespan(timed), policy=policy_rules(setup, seen, timed),

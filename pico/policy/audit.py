@@ -9,7 +9,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.model.lab import Setup
 from pico.model.observation import Observation
-from pico.model.operation import Operation
+from pico.model.operation import Operation, searched_by
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
 from pico.model.state import LabState, place_of, state_from_json
@@ -161,7 +161,7 @@ def _searched(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float,
     """Yield the tunables that a plan scans or searches, by component and name, with the range that it does so over."""
     for op in plan.operations:
         if op.primitive in SEARCHING:
-            for address, bounds in op.arguments["what"]["tunables"].items():
+            for address, bounds in searched_by(op.arguments).items():
                 component, _, tunable = address.partition(".")
                 if bounds is not None:
                     yield component, tunable, bounds

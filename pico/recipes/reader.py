@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
+from pico.diagnostics import Diagnostic, did_you_mean, error, slot_meant
 from pico.expressions import ExpressionError, Kind
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
@@ -269,21 +269,16 @@ class Reader:
 
     def goal(self, node: Node, words: Sequence[str]) -> None:
         """Say what is wrong with a goal: one of the lab by its name, or a ready-made one with its parts."""
-        from pico.bench.goals import READY, ready
-        from pico.manifest.checks.goals import goal_errors
+        from pico.bench.ready.registry import known, wrong_words
 
         goals = self.setup.lab.goals or {}
         if len(words) == 1 and words[0] in goals:
             return
-        if words[0] not in READY or len(words) < 3:
-            hint = READY.get(words[0]) or did_you_mean(words[0][:40], [*goals, *READY])
+        if words[0] not in known():
+            hint = did_you_mean(words[0][:40], [*goals, *known()])
             self.wrong(node, "goal", f"{self.setup.lab.name} has no goal `{' '.join(words)[:60]}`", hint)
             return
-        try:
-            made = ready(self.setup, words[0], words[1:-1], words[-1])
-            wrong = [d for _, d in goal_errors(self.setup, {words[0]: made})]
-        except PicoError as exc:
-            wrong = list(exc.diagnostics)
+        wrong = wrong_words(self.setup, words)
         self.found.extend(replace(d, source=self.at(node)) for d in wrong)
 
     def revision(self, scope: Scope, node: Node) -> Term:

@@ -101,8 +101,8 @@ def test_without_a_goal_they_are_listed_and_a_dry_run_moves_nothing(placed: Path
     [
         (("centre", "ly_15", "cam"), "did you mean `ly_150`"),
         (("centered",), "did you mean `centred`"),
-        (("centre", "ly_150"), "takes what to tune and what to see it by"),
-        (("focus", "ly_150", "cam"), "nothing to tune for `focus`"),
+        (("centre", "ly_150"), "centre PART... CAMERA"),
+        (("focus", "ly_150", "cam"), "`focus`: ly_150 has nothing to tune"),
         (("centre", "ly_150", "p1"), "p1 does not measure a centroid"),
         (("centred", "--algorithm", "malus"), "malus takes 1 tunables, not 2"),
         (("centred", "--algorithm", "newton"), "there is no algorithm `newton`"),

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
 from pico.optimize.choosing import Tuned, choose
-from pico.optimize.problem import Algorithm, Point, Problem, Variable
+from pico.optimize.problem import Algorithm, Nominal, Point, Problem, Variable
 from pico.optimize.registry import algorithm_file, known, made
 
 VARIABLES = tuple(Variable(f"m{n}.tip", -2.0, 3.0, 0.5) for n in range(4))
@@ -25,7 +25,14 @@ def problem_for(name: str, aim: str | None = None) -> Problem:
     count, wanted = max(declared.variables[0], min(2, declared.variables[1])), aim or declared.aims[0]
     outputs = OUTPUTS[: max(1, min(2, declared.outputs[1])) if wanted == "reach" else 1]
     tolerance = dict.fromkeys(outputs, 0.01)
-    return Problem(VARIABLES[:count], outputs, wanted, dict.fromkeys(outputs, 0.0), tolerance)  # type: ignore[arg-type]
+    told = nominal(count) if name in ("likely", "beam_walk") else None
+    return Problem(VARIABLES[:count], outputs, wanted, dict.fromkeys(outputs, 0.0), tolerance, told)  # type: ignore[arg-type]
+
+
+def nominal(count: int, width: float = 0.2, far: float = 0.6, depth: float = 6.0) -> Nominal:
+    """Round, around where it is: the power falls over `width`, the best is `far` away."""
+    one = np.eye(count)
+    return Nominal(*(tuple(map(tuple, (x * one).tolist())) for x in (width**-2, far**2)), depth)
 
 
 def driven(algorithm: Algorithm, read: Callable[[Point], Mapping[str, float]], most: int = 400) -> list[Point]:
@@ -113,6 +120,7 @@ def test_newton_needs_five_readings_of_what_is_linear(x: float, y: float, gain: 
     assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= 5
 
 
+@settings(deadline=None)
 @given(st.floats(-80, 80), st.floats(0.1, 10), st.floats(1e-6, 1e-2), st.sampled_from(["minimize", "maximize"]))
 def test_malus_is_solved_by_few_readings(null: float, size: float, floor: float, aim: str) -> None:
     problem = Problem((Variable("p1.angle", -90.0, 90.0, 0.0, period=180.0),), ("cam.x",), aim)  # type: ignore[arg-type]
@@ -203,3 +211,36 @@ def test_readings_that_do_not_follow_the_law_of_malus_are_not_taken_for_it() -> 
     assert read(tried[-1])["cam.x"] > 0.9995 and right.finished == "the place of the extremum is known"
     driven(wrong, read)
     assert wrong.finished == "the readings do not follow the law of Malus well enough"
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(1, 3), st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3), st.floats(2.0, 9.0))
+def test_a_best_within_two_standard_deviations_is_seen_on_the_likely_places(
+    count: int, away: list[float], depth: float
+) -> None:
+    told, best = nominal(count, 0.2, 0.3, depth), np.array(away[:count]) * 0.3
+    if np.linalg.norm(best) > 0.6:
+        best *= 0.6 / np.linalg.norm(best)
+    variables = tuple(Variable(f"m{n}.tip", -3.0, 3.0, 0.0) for n in range(count))
+    problem = Problem(variables, ("power",), "maximize", nominal=told)
+
+    def read(point: Point) -> dict[str, float]:
+        off = np.array([point[v.name] for v in variables]) - best
+        return {"power": math.exp(-float(off @ off) / 0.2**2), "power_sigma": math.exp(-depth) / 5}
+
+    algorithm = made("likely", problem)
+    tried = driven(algorithm, read)
+    assert algorithm.finished == "there is light" and 5 * read(tried[-1])["power_sigma"] < read(tried[-1])["power"]
+
+
+def test_likely_places_come_in_the_order_of_their_likelihood_and_without_knowledge_there_are_none() -> None:
+    spread = ((0.04, 0.0), (0.0, 1.0))
+    told = Nominal(((25.0, 0.0), (0.0, 25.0)), spread, 4.0)
+    variables = tuple(Variable(f"m{n}.tip", -5.0, 5.0, 0.0) for n in range(2))
+    tried = driven(made("likely", Problem(variables, ("power",), "maximize", nominal=told)), lambda p: {"power": 0.0})
+    far = [math.hypot(p["m0.tip"] / 0.2, p["m1.tip"]) for p in tried]
+    assert far[0] == 0 and far == sorted(far) and len(tried) > 8
+    with pytest.raises(PicoError, match="nobody can say where light is likely"):
+        made("likely", Problem(variables, ("power",), "maximize"))
+    with pytest.raises(PicoError, match="how the tunables move the beam"):
+        made("beam_walk", Problem(variables, ("power",), "maximize"))

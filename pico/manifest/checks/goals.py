@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Collection, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.expressions import ExpressionError, Language
 from pico.model.lab import Goal, Setup
-from pico.model.quantities import QuantityError, convert
+from pico.model.quantities import QuantityError, Value, convert
 from pico.model.vocabulary import cameras_of, functions_of, measured_in, names_of
 from pico.optimize.registry import known
 
@@ -18,7 +19,9 @@ def goal_errors(setup: Setup, goals: Mapping[str, Goal]) -> Iterator[tuple[tuple
         for tunable, bounds in goal.tunables.items():
             if wrong := _tunable(setup, tunable, bounds):
                 yield (name, "tunables", tunable), wrong
-        for key, wrong in _outputs(setup, goal):
+        if wrong := _after(goals, setup, name):
+            yield (name, "after"), wrong
+        for key, wrong in (*_looks(setup, goal), *_outputs(setup, goal)):
             yield (name, *key), wrong
         if goal.algorithm is not None and goal.algorithm not in known():
             hint = did_you_mean(goal.algorithm[:40], known()) or f"known: {', '.join(known())}"
@@ -38,13 +41,11 @@ def require_goal(setup: Setup, name: str, goal: Goal) -> None:
 def _tunable(setup: Setup, address: str, bounds: tuple[float, float]) -> Diagnostic | None:
     component, _, tunable = address.partition(".")
     if component not in setup.lab.inventory:
-        hint = did_you_mean(component[:40], setup.lab.inventory) or "COMPONENT.TUNABLE: `ly_150.stage_y`"
-        return error("unknown-component", f"there is no component `{component[:40]}` to be set", hint=hint)
+        return _no_component(setup, component)
     kinds = setup.type_of(component).tunables
     kind = kinds.get(tunable)
     if kind is None:
-        hint = did_you_mean(tunable[:40], kinds) or f"it has: {', '.join(kinds) or 'none'}"
-        return error("unknown-tunable", f"{component} has no tunable `{tunable[:40]}`", hint=hint)
+        return _no_such_tunable(kinds, component, tunable)
     if kind.datatype != "float" or kind.mover not in ("motor", "electronics"):
         text = f"{address} can't be searched: it is " + (
             f"set by {'an arm' if kind.mover == 'arm' else 'a person'}" if kind.datatype == "float" else "no number"
@@ -58,10 +59,71 @@ def _tunable(setup: Setup, address: str, bounds: tuple[float, float]) -> Diagnos
     return None
 
 
+def _after(goals: Mapping[str, Goal], setup: Setup, name: str) -> Diagnostic | None:
+    """Return what is wrong with the goals that one comes after."""
+    known = {**(setup.lab.goals or {}), **goals}
+    seen, left = set[str](), list(goals[name].after or ())
+    while left:
+        one = left.pop()
+        if one not in known:
+            hint = did_you_mean(one[:40], known) or f"goals of the lab: {', '.join(known)}"
+            return error("goal", f"{name} comes after `{one[:40]}`, which is no goal of the lab", hint=hint)
+        if one == name:
+            return error("goal", f"{name} comes after itself", hint="the first of them comes after none")
+        left += [] if one in seen else known[one].after or ()
+        seen.add(one)
+    return None
+
+
+def _no_component(setup: Setup, component: str) -> Diagnostic:
+    hint = did_you_mean(component[:40], setup.lab.inventory) or "COMPONENT.TUNABLE: `ly_150.stage_y`"
+    return error("unknown-component", f"there is no component `{component[:40]}` to be set", hint=hint)
+
+
+def _no_such_tunable(kinds: Collection[str], component: str, tunable: str) -> Diagnostic:
+    hint = did_you_mean(tunable[:40], kinds) or f"it has: {', '.join(kinds) or 'none'}"
+    return error("unknown-tunable", f"{component} has no tunable `{tunable[:40]}`", hint=hint)
+
+
+def _looks(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagnostic]]:
+    for look, settings in (goal.looks or {}).items():
+        if look in setup.lab.inventory or look in setup.lab.cameras or not look.isidentifier():
+            text = f"a look can't be called `{look[:40]}`"
+            hint = "a word of its own, which no component has: `near`, `far`"
+            yield ("looks", look), error("name", text, hint=hint)
+        for address, value in settings.items():
+            if wrong := _setting(setup, goal, address, value):
+                yield ("looks", look, address), wrong
+
+
+def _setting(setup: Setup, goal: Goal, address: str, value: Value) -> Diagnostic | None:
+    """Return what is wrong with what a look sets."""
+    component, _, tunable = address.partition(".")
+    if component not in setup.lab.inventory:
+        return _no_component(setup, component)
+    kinds = setup.type_of(component).tunables
+    if (kind := kinds.get(tunable)) is None:
+        return _no_such_tunable(kinds, component, tunable)
+    if address in goal.tunables:
+        return error("goal", f"{address} is sought, and can't be set to look", hint="one of the two")
+    if kind.mover not in ("motor", "electronics") or setup.type_of(component).optics.element == "source":
+        text = f"a look can't set {address}"
+        return error("goal", text, hint="a motor or electronics set it; lasers and their shutters stay as they are")
+    low, high = kind.range or (-math.inf, math.inf)
+    fits = {
+        "float": isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high,
+        "bool": isinstance(value, bool), "choice": value in (kind.choices or ()),
+    }  # fmt: skip
+    if not fits[kind.datatype]:
+        known = f"from {low:g} to {high:g} {kind.unit}".rstrip() if kind.range else ", ".join(kind.choices or ())
+        return error("value", f"{address} can't be {value}", hint=known or kind.datatype)
+    return None
+
+
 def _outputs(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagnostic]]:
-    language = _language(setup)
+    language = _language(setup, goal)
     keyed: list[tuple[tuple[str, ...], str]] = [(("reach", text), text) for text in goal.reach or ()]
-    keyed += [((goal.aim,), goal.texts[0])] if goal.reach is None else []
+    keyed += [((goal.aim,), goal.expressions[0])] if goal.reach is None else []
     keyed += [(("signal",), goal.signal)] if goal.signal else []
     for key, text in keyed:
         try:
@@ -69,7 +131,10 @@ def _outputs(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagno
         except ExpressionError as exc:
             yield key, error("expression", f"`{text[:60]}` can't be measured: {exc}", hint=_SPEAK)
             continue
-        if not measured_in(setup, [text]):
+        if goal.looks and goal.seen_in(""):
+            text = f"in which look is {goal.seen_in('')[0]} measured?"
+            yield key, error("goal", text, hint=f"`{next(iter(goal.looks))}.{goal.seen_in('')[0]}`")
+        elif not measured_in(setup, [goal.plain(text)]):
             yield key, error("expression", f"nothing is measured for `{text[:60]}`", hint=_SPEAK)
     for output in goal.reach or ():
         if goal.near(output) <= 0:
@@ -84,8 +149,10 @@ def _duration(text: str) -> Diagnostic | None:
         return error("value", f"valid_for: {exc}", hint="`12 h`, `30 min`")
 
 
-def _language(setup: Setup) -> Language:
-    return Language(names_of(setup, [*setup.lab.inventory, *cameras_of(setup)]), functions_of(setup))
+def _language(setup: Setup, goal: Goal) -> Language:
+    names = names_of(setup, [*setup.lab.inventory, *cameras_of(setup)])
+    looked = {f"{look}.{name}": kind for look in goal.looks or () for name, kind in names.items() if "." in name}
+    return Language({**names, **looked}, functions_of(setup))
 
 
 _SPEAK = "numbers that are measured, by address: `cam.centroid.x`, `pd.voltage`; `pico catalog show TYPE` lists them"

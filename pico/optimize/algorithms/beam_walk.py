@@ -1,8 +1,8 @@
-"""Two mirrors that bring a beam through two places at once, by the power behind them.
+"""Mirrors that bring a beam through places at once, by the power behind them.
 
 The logarithm of the power is a parabola, log P = c - (X / w)^2 - (Y / w)^2 - (U / v)^2 - (V / v)^2, in the offsets X, Y
-at a near place (or of a fibre) and U, V at a far one (or the angles). How far each mirror moves the beam there is known
-nominally, so that only the middle and c are left to be fitted: five numbers, by Gauss and Newton.
+at a near place (or of a fibre) and U, V at a far one (or the angles). How far each tunable moves the beam is known
+nominally, so that only the middle and c are left to be fitted, by Gauss and Newton: five numbers for two mirrors.
 """
 
 from __future__ import annotations
@@ -13,18 +13,20 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from pico.diagnostics import PicoError, error
 from pico.optimize.problem import Declaration, Problem
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
     what="Gauss-Newton on the logarithm of the power, with the nominal arms between mirrors and targets",
-    aims=("maximize",), variables=(4, 4),
+    aims=("maximize",), variables=(1, 6),
     parameters={
         "near_1": 1.2, "near_2": 0.6, "far_1": 0.002, "far_2": 0.002, "near_width": 0.5, "far_width": 0.0004,
         "probe": 0.45, "left": 0.012,
     }, usual=9,
 )  # fmt: skip
-"""The tunables are tip and tilt of the first mirror, tip and tilt of the second. `near_1`: by how much one unit of the
+"""Where the nominal beam tells how the power falls, that counts; else arms and widths do, and the tunables are tip and
+tilt of the first mirror, tip and tilt of the second. `near_1`: by how much one unit of the
 first mirror moves the beam at the near place [mm], and so on; `far`: at the far place [mm], or turns it [rad]. Widths:
 offsets [same] at which the power has fallen to 1/e. `probe`: first steps, in the length at which the power falls to
 1/e; `left`: it stops where no more than that share of the power is to be gained."""
@@ -34,12 +36,17 @@ Array = NDArray[np.float64]
 
 
 def make(problem: Problem, parameters: Mapping[str, float], seed: int) -> Stepwise:
-    """Return the algorithm for a problem."""
+    """Return the algorithm for a problem; raises PicoError where nobody says how its tunables move the beam."""
+    if problem.nominal is None and len(problem.variables) != 4:
+        text = "beam_walk can't tell how the tunables move the beam: none comes nominally to where it is measured"
+        raise PicoError(error("algorithm", text, hint="`peak` needs to know nothing; two mirrors can have their arms"))
     return Stepwise(problem, _steps(problem, parameters))
 
 
-def _shape(parameters: Mapping[str, float]) -> Array:
-    """Return H (4, 4) of log P = c - u' H u."""
+def _shape(problem: Problem, parameters: Mapping[str, float]) -> Array:
+    """Return H (n, n) of log P = c - u' H u."""
+    if problem.nominal is not None:
+        return np.array(problem.nominal.shape)
     near = np.array([parameters["near_1"], parameters["near_2"]]) / parameters["near_width"]
     far = np.array([parameters["far_1"], parameters["far_2"]]) / parameters["far_width"]
     plane = np.outer(near, near) + np.outer(far, far)
@@ -52,7 +59,7 @@ def _shape(parameters: Mapping[str, float]) -> Array:
 
 def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
     names, output = [v.name for v in problem.variables], problem.outputs[0]
-    shape = _shape(parameters)
+    shape = _shape(problem, parameters)
     first = yield problem.start
     if not _bright(first, output):
         return "it is dark where it began"
@@ -79,7 +86,11 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
         step = goal - at
         drop = float(step @ shape @ step)
         noise = best.get(f"{output}_sigma", 0.0) / best[output]
-        if len(seen) > 5 and drop <= parameters["left"] + noise and peak - math.log(best[output]) <= 0.03 + 2 * noise:
+        if (
+            len(seen) > len(names) + 1
+            and drop <= parameters["left"] + noise
+            and peak - math.log(best[output]) <= 0.03 + 2 * noise
+        ):
             return "there is no more power to be gained"
         reach = min(1.0, math.sqrt(_FAR / drop)) if drop > 0 else 1.0
         result = yield dict(zip(names, (at + reach * step).tolist(), strict=True))

@@ -1,0 +1,98 @@
+"""Ready-made goals by name: a file each of `pico.bench.ready.goals`, which says what it `TAKES` and makes it of what is
+`Asked`; a plug-in brings more by the entry point `pico.goals`, a module of the same kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Protocol, cast
+
+from pico.bench.ready.asked import STEERS, Asked, Ready
+from pico.diagnostics import Diagnostic, PicoError
+from pico.manifest.checks.goals import goal_errors
+from pico.model.lab import Goal, Setup
+from pico.model.observation import Observation
+
+FOLDER = "pico.bench.ready.goals"
+GROUP = "pico.goals"
+_ROOM = 2.0
+"""How far a mirror is searched, as a multiple of three standard deviations of what is likely to be wrong."""
+_LEAST = 1.0
+"""How far it is searched at least [mrad]."""
+
+
+class GoalFile(Protocol):
+    """A file of FOLDER. `TAKES`: the words behind its name, and what it does; `LEAST`: how many words those are. One
+    that can be made wherever parts stand says so by `ANYWHERE = True`."""
+
+    TAKES: str
+    LEAST: int
+    make: Callable[[Asked], Ready]
+
+
+@cache
+def known() -> tuple[str, ...]:
+    """Return the names of all ready-made goals, PICO's own first; imports none of them."""
+    own = sorted(found.name for found in iter_modules(import_module(FOLDER).__path__))
+    return (*own, *sorted(_plugged_in().keys() - set(own)))
+
+
+@cache
+def _plugged_in() -> Mapping[str, str]:
+    from importlib.metadata import entry_points
+
+    return {entry.name: entry.value for entry in entry_points(group=GROUP)}
+
+
+def goal_file(name: str) -> GoalFile:
+    """Return the file of a ready-made goal that is known."""
+    return cast(GoalFile, import_module(_plugged_in().get(name) or f"{FOLDER}.{name}"))
+
+
+def takes() -> dict[str, str]:
+    """Return what each ready-made goal takes."""
+    return {name: goal_file(name).TAKES for name in known()}
+
+
+def made_ready(setup: Setup, seen: Observation, words: Sequence[str]) -> Ready:
+    """Return a goal of a user's words, that a file is there for; raises PicoError where it can't be made of them."""
+    file, asked = goal_file(words[0]), Asked(setup, seen, words[0], tuple(words[1:]))
+    if len(asked.words) < file.LEAST:
+        raise asked.refused("more must be said", f"{words[0]} {file.TAKES}")
+    made = file.make(asked)
+    former = tuple((label, _near(asked, goal)) for label, goal in made.first)
+    return replace(made, goal=_near(asked, made.goal, [goal for _, goal in former]), first=former)
+
+
+def wrong_words(setup: Setup, words: Sequence[str]) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the words of a ready-made goal wherever parts stand when it is sought."""
+    file, asked = goal_file(words[0]), Asked(setup, Observation(backend=""), words[0], tuple(words[1:]))
+    try:
+        if getattr(file, "ANYWHERE", False) or len(asked.words) < file.LEAST:
+            made = made_ready(setup, asked.seen, words)
+            yield from (wrong for _, wrong in goal_errors(setup, {made.name: made.goal}))
+        for word in asked.words:
+            asked.part(word.partition(".")[0])
+    except PicoError as exc:
+        yield from exc.diagnostics
+
+
+def _near(asked: Asked, goal: Goal, former: Sequence[Goal] = ()) -> Goal:
+    """Return a goal whose mirrors are searched no further than is likely to be wrong: whole ranges send beams to where
+    nothing ends them."""
+    from pico.planning.nominal import nominal
+
+    steered = [a for a in goal.tunables if a.rpartition(".")[2] in STEERS]
+    if not steered or (told := nominal(asked.setup, asked.seen, goal, former)) is None:
+        return goal
+    bounds = dict(goal.tunables)
+    for n, address in enumerate(goal.tunables):
+        component, _, tunable = address.partition(".")
+        here = asked.seen.known_values.get(component, {}).get(tunable)
+        if address in steered and isinstance(here, int | float):
+            room, (low, high) = max(_ROOM * told.reach(n), _LEAST), bounds[address]
+            bounds[address] = max(low, round(here - room, 3)), min(high, round(here + room, 3))
+    return replace(goal, tunables=bounds)

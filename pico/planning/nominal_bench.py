@@ -1,0 +1,177 @@
+"""The bench as it nominally is, moved in thought: where its light passes the places that it is to come to, and how that
+changes with tunables and with how parts are put down."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pico.geometry.seat import PlacementError, scatter_of
+from pico.model.lab import Goal, Setup
+from pico.model.observation import Observation
+from pico.model.pose import Pose
+from pico.model.vocabulary import measured_in
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pico.optics.light import Light
+    from pico.optics.offsets import Falling, Place
+    from pico.optics.unseen import Unseen
+
+    Array = NDArray[np.float64]
+
+Values = Mapping[str, Mapping[str, Any]]
+T = TypeVar("T")
+_STOPPED_DOWN = 0.6
+"""The share of its widest below which an iris is closed to be aimed at."""
+_STEP = 1e-3
+"""Of its bounds, by which a tunable is moved to see what light does; of a standard deviation, by which a part is."""
+_ALONG = 0.05
+"""Of its bounds, by which a tunable along the light is moved to see how much light that costs."""
+
+
+class Astray(Exception):
+    """The nominal beam does not come to where it is wanted, or is not moved there by what is tuned."""
+
+
+def places(setup: Setup, seen: Observation, goal: Goal) -> tuple[Place, ...]:
+    """Return where light is wanted: a spatial filter that is tuned, else irises that are stopped down meanwhile, else
+    a pinhole on the way, else where it is measured."""
+    from pico.optics.offsets import Place
+
+    by = frozenset(address.partition(".")[0] for address in goal.tunables)
+    if filters := sorted(n for n in by if setup.type_of(n).optics.element == "spatial_filter"):
+        return tuple(Place(name) for name in filters)
+    irises = {}
+    for address, value in ((a, v) for settings in (goal.looks or {}).values() for a, v in settings.items()):
+        component, _, tunable = address.partition(".")
+        kind = setup.type_of(component)
+        if kind.optics.element == "iris" and tunable == "opening" and isinstance(value, int | float):
+            widest = (kind.tunables["opening"].range or (0.0, math.inf))[1]
+            if value < _STOPPED_DOWN * widest:
+                irises[component] = Place(component, float(value), by)
+    measured = sorted({c for c, _ in measured_in(setup, goal.texts)})
+    return tuple(irises.values()) or _holes(setup, seen, by, measured) or tuple(Place(n, None, by) for n in measured)
+
+
+def _holes(setup: Setup, seen: Observation, by: frozenset[str], measured: Sequence[str]) -> tuple[Place, ...]:
+    """Return the pinholes between what is tuned and where it is measured."""
+    from pico.optics.axis import beams
+    from pico.optics.offsets import Place
+
+    found = dict[str, Place]()
+    for axis in beams(setup, _standing(setup, seen), {n: _open(own) for n, own in seen.known_values.items()}):
+        for way in (w for n in measured for w in axis.ways(n)):
+            names = [m.component for m in way]
+            start = max((names.index(n) for n in by if n in names), default=len(names))
+            for name in names[start:-1]:
+                kind = setup.type_of(name) if name else None
+                if kind and kind.optics.element == "iris" and "opening" not in kind.tunables:
+                    found[name] = Place(name, None, by)
+    return tuple(found.values())
+
+
+def _standing(setup: Setup, seen: Observation) -> dict[str, Pose]:
+    return {n: p.pose for n, p in seen.components.items()
+            if p.presence == "seen" and p.pose is not None and n in setup.lab.inventory}  # fmt: skip
+
+
+class NominalBench:
+    """A bench as seen, whose parts can be moved in thought: with all light on, and irises and shutters open. `offsets`:
+    of its light at all places, one after the other. Raises Astray where light does not come to one of them."""
+
+    def __init__(self, setup: Setup, seen: Observation, ends: Sequence[Place]) -> None:
+        self.setup, self.places = setup, ends
+        self.poses = _standing(setup, seen)
+        self.values = {name: _open(own) for name, own in seen.known_values.items()}
+        self._light = self._lit(self.poses, self.values)
+        self.offsets = self._offsets(self._light)
+
+    def _lit(self, poses: Mapping[str, Pose], values: Values, leaning: Mapping[str, Unseen] | None = None) -> Light:
+        from pico.optics.light import light_of
+
+        return light_of(self.setup, poses, values, lit=lambda _: True, unseen=leaning)
+
+    def _offsets(self, light: Light) -> Array:
+        import numpy as np
+
+        from pico.optics.offsets import offset
+
+        return np.concatenate([_there(offset(light, place)) for place in self.places])
+
+    def falling(self, values: Values | None = None) -> list[Falling]:
+        """Return how the power falls with the offsets at each place, with tunables as they are or as given."""
+        from pico.optics.offsets import falling
+
+        light = self._light if values is None else self._lit(self.poses, values)
+        return [_there(falling(light, place)) for place in self.places]
+
+    def moved_by(self, address: str, bounds: tuple[float, float]) -> Array:
+        """Return by how much the offsets change with a unit of a tunable."""
+        here = self._value(address)
+        step = _STEP * (bounds[1] - bounds[0]) * (1 if here + _STEP * (bounds[1] - bounds[0]) <= bounds[1] else -1)
+        return (self._offsets(self._lit(self.poses, self._with(address, here + step))) - self.offsets) / step
+
+    def along(self, address: str, bounds: tuple[float, float], many: int) -> tuple[float, float, float]:
+        """Return how the logarithm of the power at its best, at the first `many` places, falls with a tunable along the
+        light, how far its top is, and the variance of that by how parts scatter along it; raises Astray where it has no
+        top."""
+        (low, high), here = bounds, self._value(address)
+        step = _ALONG * (high - low)
+        before, middle, after = (
+            sum(math.log(f.power) for f in self.falling(self._with(address, value))[:many])
+            for value in (here - step, here, here + step)
+        )
+        bend = (2 * middle - before - after) / (2 * step**2)
+        if bend <= 0:
+            raise Astray
+        shift = min(high, max(low, here + (after - before) / (4 * step * bend))) - here
+        scatter = [scatter_of(self.setup, n).x for n in (_part(address), *(p.component for p in self.places[:many]))]
+        return bend, shift, sum(x**2 for x in scatter)
+
+    def scattered(self) -> Array:
+        """Return by how much the offsets change with one standard deviation of each placement, one a column; of parts
+        that an arm puts down, others stand as they did."""
+        import numpy as np
+
+        columns = [np.zeros(len(self.offsets))]
+        for name in sorted({c.component for c in self._light.crossings} & self.poses.keys()):
+            for poses, leaning in self._put_down(name):
+                columns.append((self._offsets(self._lit(poses, self.values, leaning)) - self.offsets) / _STEP)
+        return np.stack(columns, axis=1)
+
+    def _put_down(self, name: str) -> Iterator[tuple[dict[str, Pose], dict[str, Unseen]]]:
+        """Yield poses, and how parts lean, with one part put down otherwise by a small share of how it scatters."""
+        if not self.setup.movable(name):
+            return
+        from pico.optics.unseen import SEEN
+
+        one, pose = scatter_of(self.setup, name), self.poses[name]
+        for way in ("x", "y", "yaw", "pitch", "roll", "height"):
+            error = PlacementError(**{way: _STEP * getattr(one, way)})
+            leans = SEEN.sitting(error.seat(1), self.setup.type_of(name).frames.optical)
+            yield {**self.poses, name: error.of(pose)}, {name: leans}
+
+    def _value(self, address: str) -> float:
+        return float(self.values.get(_part(address), {}).get(address.partition(".")[2], 0.0))
+
+    def _with(self, address: str, value: float) -> Values:
+        component, _, tunable = address.partition(".")
+        return {**self.values, component: {**self.values.get(component, {}), tunable: value}}
+
+
+def _part(address: str) -> str:
+    return address.partition(".")[0]
+
+
+def _there(found: T | None) -> T:
+    if found is None:
+        raise Astray
+    return found
+
+
+def _open(own: Mapping[str, Any]) -> dict[str, Any]:
+    return {k: v for k, v in own.items() if k not in ("opening", "shutter", "emission", "exposure")}
