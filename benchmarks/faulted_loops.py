@@ -28,7 +28,7 @@ from random import Random
 QUICK = Path("/dev/shm")
 """Where files are kept in memory: nothing here asks what becomes of them without power."""
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
+sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks"), str(ROOT / "tests" / "edge"), str(ROOT / "tests" / "execution")]
 
 from faulted_benches import OFTEN, SOUGHT, Sought, drawn, made  # noqa: E402
 
@@ -171,10 +171,104 @@ def unnamed(sought: Sought, named: re.Match[str], first: dict[str, float], after
             yield f"{axis} failed, and {address} is left at {value:g}, not at {first[address]:g}"
 
 
+def killed(folder: Path, pid: int, draw: Random, sought: Sought) -> bool:
+    """Kill a process (an optimization, or who serves it) a while after the optimization began; return whether it was
+    killed before that ended."""
+    until, mark = time.monotonic() + 60.0, folder / ".pico" / "run"
+    while not mark.exists() and time.monotonic() < until:
+        time.sleep(0.002)
+    time.sleep(draw.uniform(0.0, 1.5))
+    going = mark.exists()
+    os.kill(pid, signal.SIGKILL)
+    return going
+
+
+class Kills:
+    """Commands of PICO, or the process that serves their bench, killed by SIGKILL while they optimize."""
+
+    def __init__(self, place: Path, seed: int) -> None:
+        self.place, self.draw, self.count = place, Random(seed), Counter[str]()
+        self.labs: dict[str, tuple[Path, Setup, World]] = {}
+
+    def lab(self, lab: str) -> tuple[Path, Setup, World]:
+        """Return the folder of a lab, its setup, and its world as it was placed."""
+        if lab not in self.labs:
+            folder = made(lab, self.place)
+            with Bench.open(folder, fidelity="kinematic") as bench:
+                self.labs[lab] = folder, bench.setup, load_world(bench.setup, folder)[0]
+        return self.labs[lab]
+
+    def one(self, name: str, served: bool) -> Iterator[str]:
+        """Kill one, and go on from there; yield what is wrong."""
+        from kills import command, forked
+        from serving import served as serving
+
+        sought = SOUGHT[name]
+        folder, setup, placed = self.lab(sought.lab)
+        before = drawn(setup, placed, sought, self.draw)
+        save_world(folder, before, durable=False)
+        save_faults(folder, Faults())
+        (folder / ".pico" / "run").unlink(missing_ok=True)  # of one that was killed before it had set anything
+        words = ("optimize", name, "--yes", "--algorithm", self.draw.choice(sought.algorithms))
+        if served:
+            try:
+                with serving(folder) as server:
+                    client = forked(folder, *words)
+                    going = killed(folder, server, self.draw, sought)
+                    os.waitpid(client, 0)
+            except ProcessLookupError:
+                pass  # it is what was killed
+        else:
+            client = forked(folder, *words)
+            going = killed(folder, client, self.draw, sought)
+            os.waitpid(client, 0)
+        if not going:
+            self.count["ended first"] += 1
+            return
+        self.count["server killed" if served else "command killed"] += 1
+        left, _ = load_world(setup, folder)
+        yield from outside(left, sought)
+        way = self.draw.choice(("resume", "undo"))
+        code = command(folder, way, "--yes")
+        after, _ = load_world(setup, folder)
+        yield from outside(after, sought)
+        wanted, found = others(before, sought), others(after, sought)
+        if changed := {k: (v, found[k]) for k, v in wanted.items() if found[k] != v}:
+            yield f"{way} ({code}) left otherwise: {changed}; {(folder / 'out.txt').read_text()[-300:]}"
+        first, last = (truth(setup, folder, w, sought) for w in (before, after))
+        self.count[f"{way} {code}"] += 1
+        if way == "undo":
+            away = {n: v for n, v in stands(after, sought).items() if abs(v - stands(before, sought)[n]) > 1e-6}
+            if away or code != 0:
+                yield f"undo ({code}) left {away}; {(folder / 'out.txt').read_text()[-300:]}"
+        elif code not in (0, 6) or last > first * (1.02 if first > 0 else 0.98) + 1e-3:
+            yield f"resume ({code}): {first:.6g}, now {last:.6g}; {(folder / 'out.txt').read_text()[-300:]}"
+
+
+def kill(place: Path, kills: int, seed: int) -> int:
+    """Kill optimizations so often; return how many times something was wrong."""
+    from kills import preload
+
+    preload()
+    wrong, began, bench = 0, time.monotonic(), Kills(place, seed)
+    names = [name for name in SOUGHT if SOUGHT[name].lab in ("camera", "fibre", "crossed")]
+    number = 0
+    while bench.count["command killed"] + bench.count["server killed"] < kills:
+        name = names[number % len(names)]
+        for text in bench.one(name, number % 2 == 1):
+            wrong += 1
+            print(f"kill {number}, {name}: {text}", flush=True)
+        number += 1
+    told = ", ".join(f"{n} {what}" for what, n in sorted(bench.count.items()))
+    print(f"kills in {time.monotonic() - began:.0f} s: {told}; {wrong} wrong")
+    return wrong
+
+
 def main() -> int:
     """Run loops, then kill."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--loops", type=int, default=1000)
+    parser.add_argument("--kills", type=int, default=150)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--goals", nargs="*", default=list(SOUGHT), help="only these of the goals")
     parser.add_argument("--kinds", nargs="*", default=[*FAULTS, *SIGNALS], help="only these faults and signals")
@@ -183,6 +277,9 @@ def main() -> int:
     names = [name for name in given.goals for _ in range(OFTEN[name])]
     Random(given.seed).shuffle(names)
     with tempfile.TemporaryDirectory(dir=QUICK if QUICK.is_dir() else None) as temporary:
+        if given.kills:
+            wrong += kill(Path(temporary) / "killed", given.kills, given.seed)
+            began = time.monotonic()
         loops = Loops(Path(temporary), given.seed)
         for number in range(given.loops):
             name = names[number % len(names)]

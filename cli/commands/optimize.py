@@ -14,10 +14,12 @@ from ..views import goals as goals_view
 from ..views import optimization as view
 from ..views import optimizing as live
 from ..views import optimizing_ahead as ahead_view
+from ..views import placed as placed_view
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.bench.goals import Chosen
+    from pico.bench.placing import Try
     from pico.model.event import Event
 
 
@@ -26,6 +28,7 @@ def optimize(
     goal: Annotated[list[str] | None, typer.Argument(metavar="GOAL", help="A goal of `lab.yaml`, or as below.")] = None,
     algorithm: Annotated[str | None, typer.Option("--algorithm", metavar="NAME", help="Instead of the chosen.")] = None,
     plot: Annotated[Path | None, typer.Option("--plot", metavar="PNG", help="Draw how it went.")] = None,
+    by_arm: Annotated[bool, typer.Option("--by-arm", help="`centre`: the arm puts the part down anew.")] = False,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
@@ -41,6 +44,7 @@ def optimize(
       pico optimize centre ly_150 cam
       pico optimize null p2 cam --plot null.png
       pico optimize centred --dry-run
+      pico optimize centre lens camera --by-arm
     """
     session = Session.of(context)
     bench = session.bench(fidelity, None, writing=bool(goal) and not dry_run)
@@ -49,7 +53,35 @@ def optimize(
 
         session.show(goals_view, bench.goals.named, bench.goals.alignments(), takes())
         return 0
+    if by_arm:
+        return _by_arm(session, bench, goal, dry_run, auto_approve)
     return _optimize(session, bench, bench.goals.chosen(goal, algorithm=algorithm), plot, dry_run, auto_approve)
+
+
+def _by_arm(session: Session, bench: Bench, goal: list[str], dry_run: bool, auto_approve: bool) -> int:
+    from pico.diagnostics import ExitCode, PicoError, error
+
+    from ..runs.approving import declined, show
+    from ..runs.running import say
+
+    if len(goal) != 3 or goal[0] != "centre":
+        raise PicoError(error("usage", "--by-arm goes with `centre PART CAMERA`"))
+    placing = bench.placing
+    plan = placing.plan(goal[1])  # what each try is like
+    if code := show(session, bench, plan, auto_approve or dry_run, single=True):
+        return int(code)
+    if dry_run:
+        return 0
+    if code := declined(session, bench, plan, auto_approve):
+        return int(code)
+
+    def tell(one: Try) -> None:
+        if not session.json:
+            session.say(placed_view.line(one))
+
+    found = placing.centre(goal[1], goal[2], say=say, tell=tell)
+    session.show(placed_view, found)
+    return int(ExitCode.DONE if found.met else ExitCode.EXPECTATION)
 
 
 def _optimize(

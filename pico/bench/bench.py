@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pico.bench.measurements import Measurements
     from pico.bench.moves import Moves
     from pico.bench.pictures import Pictures
+    from pico.bench.placing import Placing
     from pico.bench.plans import Plans
     from pico.bench.recovery import Recovery
     from pico.bench.running.execution import Execution
@@ -72,6 +73,13 @@ class Bench(Opened):
         from pico.bench.goals import Goals
 
         return Goals(self)
+
+    @cached_property
+    def placing(self) -> Placing:
+        """Parts that the arm brings to the light."""
+        from pico.bench.placing import Placing
+
+        return Placing(self)
 
     @cached_property
     def pictures(self) -> Pictures:
