@@ -32,6 +32,7 @@ SMALLEST = {
     "kills": "--kills 50 --applies 1 --git 9",
     "beam_audit": "--repeat 1",
     "alignment": "--seeds 1",
+    "faulted_loops": "--loops 12 --kills 2 --goals tip null",
     "lens_by_light": "--seeds 1 --fidelity kinematic",
     "light": "--repeat 1",
     "links": "--kills 1",
