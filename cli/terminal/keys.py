@@ -33,6 +33,8 @@ _CODES = {27: "esc", 9: "tab", 13: "enter"}
 _BYTES = {b"\x1b": "esc", b"\x03": "ctrl-c", b"\t": "tab", b"\r": "enter", b"\n": "enter", b"\x04": "ctrl-d"}
 _SEQUENCE = re.compile(rb"\x1b\[([<=>?]?)([0-9:;]*)([A-Za-z~])|\x1bO([A-D])")
 _CTRL, _RELEASE, _REPEAT = 4, 3, 2
+_LONGEST = 64
+"""Bytes of the longest sequence that is waited for."""
 _MODIFIERS = frozenset(range(57441, 57455))
 """Keys that are reported, too, and do nothing alone: shift, control and their like."""
 
@@ -101,7 +103,9 @@ class Keys:
         """Return what happened, waiting at most so long for anything."""
         if not self._arrived(seconds):
             return [Key("lost")]
-        return [*self._decoded()]
+        stale = time.monotonic() - self._since > ALONE
+        found, self._data = decoded(self._data, stale)
+        return found
 
     def _write(self, data: bytes) -> None:
         with suppress(OSError):  # reading says so
@@ -130,21 +134,22 @@ class Keys:
         self._data = re.sub(rb"\x1b\[\?[0-9;]*[uc]", b"", self._data)
         return found
 
-    def _decoded(self) -> Iterator[Key]:
-        while self._data:
-            found = _SEQUENCE.match(self._data)
-            if found:
-                self._data = self._data[found.end() :]
-                yield from _sequence(found)
-            elif self._data[0] == 0x1B and not self._whole():
-                return
-            else:
-                first, self._data = self._data[:1], self._data[1:]
-                yield from _plain(first)
 
-    def _whole(self) -> bool:
-        """Whether an escape is the key itself, or of what nobody here knows: no more of it will come."""
-        return time.monotonic() - self._since > ALONE or len(self._data) > 64
+def decoded(data: bytes, stale: bool) -> tuple[list[Key], bytes]:
+    """Return what happened, as a terminal writes it, and what is left: the beginning of a sequence, of which more will
+    come unless it is `stale`. What nobody here knows is left out."""
+    found: list[Key] = []
+    while data:
+        sequence = _SEQUENCE.match(data)
+        if sequence:
+            data = data[sequence.end() :]
+            found += _sequence(sequence)
+        elif data[0] == 0x1B and not stale and len(data) < _LONGEST:
+            break
+        else:
+            found += _plain(data[:1])
+            data = data[1:]
+    return found, data
 
 
 def _plain(byte: bytes) -> Iterator[Key]:

@@ -10,7 +10,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import deviation, value_distance
 from pico.model.lab import Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, Outcome
 from pico.model.pose import Pose
 from pico.model.record import record
@@ -53,11 +53,20 @@ def verdict(setup: Setup, operation: Operation, seen: Observation) -> Outcome:
     if part is None or part.presence == "missing":
         return "unknown"
     if operation.primitive == "teleoperate":  # it has no goal: it ended where it stands
-        return "done" if part.presence == "seen" else "failed"
+        return "done" if part.presence == "seen" and _left(operation, part) else "failed"
     if operation.kind.carries:
         there = part.presence == "seen" and part.pose is not None and arrived(setup, operation, part.pose)
         return "done" if there else "failed"
     return "done" if _has_value(setup, operation, seen) else "failed"
+
+
+def _left(operation: Operation, part: ObservedComponent) -> bool:
+    """Return whether what a person steered is not where that began any more."""
+    begun = operation.arguments["from"]
+    if "pose" in begun:
+        return part.pose != Pose(**begun["pose"])
+    live = {f"{operation.component}.{name}": known.value for name, known in part.values.items()}
+    return any(live.get(address) != value for address, value in begun.items())
 
 
 def repeatable(operation: Operation) -> bool:

@@ -138,7 +138,12 @@ class _Steered:
 
     async def run(self) -> Diagnostic | None:
         """Steer until the person is done or gone, or somebody asks to stop; return what went wrong."""
-        if self.robot:
+        if not self.robot:  # a step of nothing: it answers, and what the device keeps is there from now on
+            name, value = next(iter(self.values.items()))
+            wrong = (await self._do("jog", {"tunable": name, "from": value, "to": value})).error
+            if wrong:
+                return wrong
+        else:
             where = {"pose": as_json(self.pose)}
             yaw = {"grasp_yaw": self.operation.arguments.get("grasp_yaw", 0.0)}
             wrong = await self._watched("take", {"from": where, "to": where, **yaw})
@@ -157,7 +162,7 @@ class _Steered:
         while not self.ended and self.edge.stopped() != "safely":
             now = self.edge.clock()
             if self.edge.stopped() == "now":
-                return error("stopped", f"stopped by a person{self._in_hand()}", address=self.address)
+                return self._was_stopped()
             if self.gate.silent(now) > LOST:
                 return self._lost(f"nobody who steers was heard of for {LOST:g} s")
             frame = self.gate.authorized(now, STEP_SECONDS)
@@ -225,14 +230,20 @@ class _Steered:
         """Have the device do one step, of which nobody else hears."""
         self.done += 1
         run, _, rest = self.key.partition("/")
+        key = f"{run}~/{rest}.{self.done}"
+        if self.edge.stopped() == "now":  # whatever was to come next: nothing moves any more
+            return OperationResult(key=key, outcome="failed", error=self._was_stopped())
         operation = replace(
             self.operation, id=f"{self.operation.id}.{self.done}", primitive=primitive, arguments=arguments
         )
-        result = await self.device.execute(operation, f"{run}~/{rest}.{self.done}", lambda _: None)
+        result = await self.device.execute(operation, key, lambda _: None)
         self.seconds += result.seconds
         return result
 
     # told
+
+    def _was_stopped(self) -> Diagnostic:
+        return error("stopped", f"stopped by a person{self._in_hand()}", hint=self._hint, address=self.address)
 
     def _lost(self, why: str) -> Diagnostic:
         return error("lost", f"{why}{self._in_hand()}", hint=self._hint, address=self.address)
