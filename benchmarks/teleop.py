@@ -55,6 +55,9 @@ class Terminal:
                 from pico_cli.main import main
 
                 code = main(["teleop", *words])
+                sys.stdout.flush()
+            except BaseException:
+                traceback.print_exc()
             finally:
                 os._exit(code)
         self.said, self._unread = b"", b""
@@ -192,7 +195,7 @@ def stops(
         if how in ("terminal closed", "process killed"):
             terminal.gone()
             terminal = None
-            freed(folder)
+            apart(lambda: freed(folder))
         elif how == "process stopped":
             terminal.live(0.3)
             assert not [t for t in record.after(at) if t > at + QUIET], "it moved on by itself"
@@ -204,6 +207,30 @@ def stops(
             pass
         terminal.gone()
     return found
+
+
+def apart(work: Callable[[], None]) -> None:
+    """Do something in a process of its own: threads of this one would not survive a fork."""
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            work()
+            code = 0
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            os._exit(code)
+    if os.waitpid(child, 0)[1]:
+        raise RuntimeError("what was to be done apart failed")
+
+
+def centred(folder: Path) -> None:
+    """Bring what is steered to the middle of its range."""
+    from pico.bench.bench import Bench
+
+    with Bench.open(folder) as bench:
+        bench.apply(bench.single("p2", "set", angle=180))
 
 
 def freed(folder: Path) -> None:
@@ -224,6 +251,7 @@ def measured_stops(given: argparse.Namespace, folder: Path) -> int:
     late = 0
     record = Record(folder.parent / "motion.txt")
     draw = random.Random(given.seed)
+    apart(lambda: centred(folder))
     with recorded(folder, record.path):
         for words, count in ((("p2.angle", "--step", "0.2 deg"), given.stops), (("p2.pose", "--yes"), given.arm)):
             for how in HOW:

@@ -54,7 +54,7 @@ class Steering:
         self.steps = {name: _first(rungs, step) for name, rungs in self.rungs.items()}
         self.chosen = next(iter(jog.known))
         self.held: tuple[str, str, float] | None = None
-        self.press, self.ending, self.stopped, self.told = 0, False, False, 0
+        self.press, self.missed, self.ending, self.stopped, self.told = 0, 0, False, False, 0
         self.asked = self.drawn = self.peeked = 0.0
         self.waits, self.line = False, ""
         self.shown, self.peek = shown, None
@@ -125,7 +125,7 @@ class Steering:
             self.help()
         elif self.jog.ready and not self.ending and (to := self.motion(key.name)):
             self.chosen = to[0]
-            self.press = self.jog.press()
+            self.press, self.missed = self.jog.press(), self.jog.answer.missed
             self.held = (key.name, to[0], to[1] * self.steps[to[0]])
             self.frame()
             if not self.keys.releases:  # one step, and no more until it is pressed again
@@ -155,7 +155,7 @@ class Steering:
             return
         _, tunable, by = self.held
         answer = self.jog.hear(tunable=tunable, by=by, press=self.press)
-        if answer.refused in ("late", "lapsed") or answer.limit:
+        if answer.refused or answer.missed > self.missed:
             self.held = None  # going on takes a fresh press
 
     # what is said

@@ -77,7 +77,8 @@ def text(jog: Teleoperation, *, code: int) -> str:
         rows.append([address, *cells])
     steps = count(int(data.get("steps", 0)), "step")
     refused = f", {data['refused']} refused" if data.get("refused") else ""
-    then = ["  Keep it: `pico capture`, then `pico commit`. Go back: `pico undo`."] if data.get("steps") else []
+    kept = "  Keep it: `pico capture`, then `pico commit`. Go back: `pico undo`."
+    then = [kept] if data.get("steps") and not report.held else []
     return "\n".join(
         [*(f"  {row}" for row in columns(rows)), f"  {steps}{refused}; `pico runs show {report.run}`", *then]
     )
@@ -99,5 +100,8 @@ def _data(jog: Teleoperation) -> Mapping[str, Any]:
     for event in jog.events:
         if event.kind == "operation_done" and event.operation == jog.operation.id:
             return event.data
-    last = {f"{jog.operation.component}.{name}": value for name, value in jog.values.items()}
-    return {"last": last, "steps": jog.answer.steps, "refused": jog.answer.missed}
+    first, last = (
+        {f"{jog.operation.component}.{name}": value for name, value in values.items()}
+        for values in (jog.first, jog.values)
+    )
+    return {"first": first, "last": last, "steps": jog.answer.steps, "refused": jog.answer.missed}

@@ -10,6 +10,7 @@ from pico.bench.in_use import goes_on
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge.link.opening import remembered
+from pico.edge.protocol import STEERING
 
 if TYPE_CHECKING:
     from pico.model.observation import Observation
@@ -29,8 +30,7 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     ended = f"run {last.run} was interrupted" if last and last.outcome == "interrupted" else ""
     run = f"run {killed} was killed{early}" if killed else ended
     text = ", and ".join([*([run] if run else []), *held])
-    after = "`pico resume` takes the run up again, `pico undo` goes back to before it"
-    hands = "`pico recover` only sets down what a hand holds"
+    after, hands = _goes_on_with(last), "`pico recover` only sets down what a hand holds"
     if not killed and last and last.outcome == "done":  # something else was done since
         after, hands = "`pico recover` sets down what a hand holds", "so does `pico apply`, before anything else"
     return (warning("cut-short", text, hint=f"{after}; {hands}" if held else after),)
@@ -49,8 +49,13 @@ def _interrupted(opened: Opened) -> tuple[Diagnostic, ...]:
     last = _last(opened)
     if last is None or last.outcome != "interrupted":
         return ()
-    hint = "`pico resume` takes the run up again, `pico undo` goes back to before it"
-    return (warning("cut-short", f"run {last.run} was interrupted", hint=hint),)
+    return (warning("cut-short", f"run {last.run} was interrupted", hint=_goes_on_with(last)),)
+
+
+def _goes_on_with(last: RunRecord | None) -> str:
+    """Return what goes on with the last run, and what goes back; of a teleoperation only a person could go on."""
+    back = "`pico undo` goes back to before it"
+    return back if last and last.holder.startswith(STEERING) else f"`pico resume` takes the run up again, {back}"
 
 
 def _last(opened: Opened) -> RunRecord | None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.edge.protocol import STEERING
 from pico.model.event import Event
 from pico.model.operation import Operation
 from pico.model.plan import Plan
@@ -32,7 +33,8 @@ TRIES = 3
 
 class Teleoperation:
     """One teleoperation: entered, it takes the bench, and a part in hand where an arm is to hold it; left, it sets that
-    down. `values`: where what is steered stands; `limit`: why the last step was not made; `report` once it is over."""
+    down. `first`, `values`: where what is steered stood, and stands; `limit`: why the last
+    step was not made; `report` once it is over."""
 
     def __init__(self, opened: Opened, plan: Plan) -> None:
         self.plan, self.setup = plan, opened.setup
@@ -41,6 +43,7 @@ class Teleoperation:
             self.setup, self.operation.component, self.operation.arguments["what"]["tunables"]
         )
         self.answer = Answer(clock=0.0, phase="over")
+        self.first: dict[str, float] = {}
         self._opened, self._seq, self._press = opened, 0, 0
         self._run: Execution | None = None
         self.events: list[Event] = []
@@ -75,7 +78,7 @@ class Teleoperation:
 
     def begin(self) -> None:
         """Take the bench; returns at once: go on with `hear` until it is `ready`."""
-        self._run = Moves(self._opened).run(self.plan, holder=f"pico teleop {self.operation.component}")
+        self._run = Moves(self._opened).run(self.plan, holder=f"{STEERING} {self.operation.component}")
         self._run.begin()
 
     def hear(self, *, tunable: str = "", by: float = 0.0, press: int = 0, release: bool = False, end: bool = False) -> (
@@ -92,6 +95,7 @@ class Teleoperation:
         )
         self.answer = self._opened.wait(self._opened.edge.jog(self.run.id, frame))
         self.ready = self.answer.phase == "ready"
+        self.first = self.first or dict(self.answer.values)
         return self.answer
 
     def press(self) -> int:

@@ -57,6 +57,10 @@ class Holder:
         return f"{self.who[:-1]}, since {self.since}): {self.what}" if self.pid else "another process"
 
 
+STEERING = "pico teleop"
+"""For which a bench is taken, and what, where a person steers."""
+
+
 @record
 class OwnLab:
     """The Lab that a bench keeps as its own, with its component types: the files that describe it, as text by their

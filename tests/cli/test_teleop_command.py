@@ -62,7 +62,7 @@ def in_a_terminal(words: tuple[str, ...], typed: list[tuple[bytes, bytes]]) -> t
         try:
             from pico_cli.main import main
 
-            sys.stdin, sys.stdout, sys.stderr = (open(n, m, closefd=False) for n, m in ((0, "r"), (1, "w"), (2, "w")))
+            sys.stdin, sys.stdout, sys.stderr = os.fdopen(0, "r"), os.fdopen(1, "w"), os.fdopen(2, "w")
             before = termios.tcgetattr(0)
             code = main([*words])
             os.write(1, b"[as it was]" if termios.tcgetattr(0) == before else b"[changed]")
