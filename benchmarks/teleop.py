@@ -52,6 +52,7 @@ class Terminal:
             code = 1
             try:
                 os.chdir(folder)
+                sys.stdin, sys.stdout, sys.stderr = os.fdopen(0, "r"), os.fdopen(1, "w"), os.fdopen(2, "w")
                 from pico_cli.main import main
 
                 code = main(["teleop", *words])
@@ -253,7 +254,7 @@ def measured_stops(given: argparse.Namespace, folder: Path) -> int:
     draw = random.Random(given.seed)
     apart(lambda: centred(folder))
     with recorded(folder, record.path):
-        for words, count in ((("p2.angle", "--step", "0.2 deg"), given.stops), (("p2.pose", "--yes"), given.arm)):
+        for words, count in ((("p2.angle", "--step", "2 deg"), given.stops), (("p2.pose", "--yes"), given.arm)):
             for how in HOW:
                 found = stops(folder, record, words, how, count, draw) if count else []
                 if found:
