@@ -10,7 +10,7 @@ from pico.history.blame.how import How
 from pico.history.lab.notes import Note
 from pico.model.record import as_json
 
-from .style import columns, count, paint, place, shorten, wide, width
+from .style import columns, count, paint, shorten, valued, wide, width
 
 _HEAD = ("tunable", "value", "commit", "when", "how", "who", "why")
 
@@ -71,7 +71,7 @@ def _address(leaf: BlamedLeaf) -> str:
 def _value(leaf: BlamedLeaf) -> str:
     if leaf.value is None:
         return paint("dim", "gone")
-    return f"{place(leaf.value)} {leaf.unit}".rstrip()
+    return valued(leaf.value, leaf.unit)
 
 
 def _tally(blamed: Blamed) -> str:

@@ -10,7 +10,7 @@ from pico.model.state import place_of
 
 from .diff import lines
 from .log import entry_data, evidence_lines, header, noted
-from .style import columns, paint, place
+from .style import columns, paint, place, valued
 
 if TYPE_CHECKING:
     from pico.history.shown import Shown
@@ -36,11 +36,9 @@ def _rows(found: Shown) -> list[list[str]]:
     setup, state = found.setup, found.state
     rows = []
     for name in sorted(setup.lab.inventory) if found.component is None else [found.component]:
-        values = state.components[name].values if name in state.components else {}
+        values = state.components[name].given if name in state.components else {}
         kinds = setup.type_of(name).tunables
-        said = [
-            f"{k} {place(v)}{' ' + kinds[k].unit if k in kinds and kinds[k].unit else ''}" for k, v in values.items()
-        ]
+        said = [f"{k} {valued(v, kinds[k].unit if k in kinds else '')}" for k, v in values.items()]
         rows.append([name, place(place_json(*place_of(setup, state, name))), ", ".join(said)])
     return rows
 

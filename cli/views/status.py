@@ -7,7 +7,7 @@ from typing import Any
 from pico.model.record import as_json
 from pico.model.status import Status, StatusRow
 
-from .style import columns, count, paint, place
+from .style import columns, count, paint, place, valued
 
 LONG = 40
 
@@ -35,13 +35,13 @@ def text(status: Status, *, every: bool = False) -> str:
 
 def _cells(row: StatusRow) -> list[str]:
     unit = f" {row.unit}" if row.unit else ""
-    committed = "-" if row.committed is None else place(row.committed) + unit
+    committed = "-" if row.committed is None else valued(row.committed, row.unit)
     desired = (
         "="
         if row.committed is not None and not row.edited
         else "-"
         if row.desired is None
-        else place(row.desired) + unit
+        else valued(row.desired, row.unit)
     )
     desired = paint("yellow", f"{desired} *") if row.edited else desired
     if row.note:

@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Any, TextIO
 
+from pico.model.by_light import is_reference, said
+
 WIDTH = 100
 _CODES = {"bold": 1, "dim": 2, "red": 31, "green": 32, "yellow": 33, "blue": 34, "cyan": 36}
 _ANSI = re.compile(r"\x1b\[[0-9;]*m")
@@ -148,12 +150,19 @@ def ago(moment: str, now: datetime | None = None) -> str:
     return f"{int(past // size)} {unit} ago"
 
 
+def valued(value: Any, unit: str) -> str:
+    """Return a value in its unit; a set-point that light finds says its own."""
+    return said(value, unit) if is_reference(value) else f"{place(value)} {unit}".rstrip()
+
+
 def place(value: Any) -> str:
     """Return a place as a change or an operation holds it: a slot's name, `(x, y, yaw°)`, or a value."""
     if value is None:
         return "unknown"
     if isinstance(value, dict) and "x" in value:
         return f"({number(value['x'])}, {number(value['y'])}, {number(value.get('yaw', 0.0))}°)"
+    if is_reference(value):
+        return said(value)
     if isinstance(value, dict):
         return value.get("slot") or place(value.get("pose"))
     if isinstance(value, bool):

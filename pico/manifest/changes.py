@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from pico.model.address import Named, holds
 from pico.model.diff import deviation, value_deviation
@@ -13,8 +14,9 @@ from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.state import ComponentState, LabState, place_of
 
-Change = Value | Pose | None
-"""A new value: of a tunable, of `slot` (its name) or of `pose`. None takes the entry out."""
+Change = Value | Pose | Mapping[str, Any] | None
+"""A new value: of a tunable (a reference to light as data), of `slot` (its name) or of `pose`. None takes the entry
+out."""
 Changes = Mapping[str, Mapping[str, Change] | None]
 """For each component the entries that change; None takes the whole component out."""
 

@@ -17,7 +17,7 @@ from pico.manifest.text.tree import Document, Map, Node, Scalar, parse, plain
 from pico.model.address import Named
 from pico.model.lab import Setup
 from pico.model.pose import Pose
-from pico.model.quantities import QuantityError, Value, convert
+from pico.model.quantities import QuantityError, convert
 from pico.model.state import LabState
 
 _UNITS = {"x": "mm", "y": "mm", "yaw": "deg"}
@@ -149,7 +149,7 @@ def _edit_component(editor: Editor, components: Map, name: str, wanted: Mapping[
         editor.insert(key, target, added, _entry_order, flow=components.flow, leaving=frozenset(leaving))
 
 
-def _edit_entry(editor: Editor, key: Scalar, node: Node, value: Value | Pose, *, flow: bool) -> None:
+def _edit_entry(editor: Editor, key: Scalar, node: Node, value: Change, *, flow: bool) -> None:
     if not isinstance(value, Pose):
         if not _equal(node, value, None):
             editor.set_scalar(key, node, value)
@@ -171,7 +171,7 @@ def _edit_entry(editor: Editor, key: Scalar, node: Node, value: Value | Pose, *,
         editor.insert(key, node, added, _axis_order, flow=flow)
 
 
-def _equal(node: Node, value: Value, unit: str | None) -> bool:
+def _equal(node: Node, value: Any, unit: str | None) -> bool:
     have = plain(node)
     if unit and isinstance(have, str):
         try:

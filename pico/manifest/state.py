@@ -6,12 +6,14 @@ from collections.abc import Iterable
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, slot_meant, warning
 from pico.manifest.bench_view import BenchView
+from pico.manifest.by_light import read_reference
 from pico.manifest.checks.labs import off_table
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number, read_value
 from pico.manifest.wording import shown
+from pico.model.by_light import LightReference
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import Value
 from pico.model.state import ComponentState, Expectation, LabState
@@ -161,6 +163,7 @@ class _Reader:
             slot=self._slot(document, name, slot[1]) if slot else None,
             pose=self._pose(document, name, *pose) if pose else None,
             values=self._values(document, name, node),
+            by_light=self._by_light(document, name, node),
         )
 
     def _slot(self, document: Document, name: str, node: Node) -> str | None:
@@ -232,12 +235,28 @@ class _Reader:
                     document, at, "unknown-tunable", f"{name} ({kind.name}) has no tunable `{key[:40]}`", hint, name
                 )
                 continue
+            if isinstance(value, Map) and tunable.datatype == "float":
+                continue  # where light says
             read = read_value(document.source, name, key, tunable, value)
             if isinstance(read, Diagnostic):
                 self.found.append(read)
             else:
                 values[key] = read
         return values
+
+    def _by_light(self, document: Document, name: str, node: Map) -> dict[str, LightReference]:
+        kind = self.view.kinds[name]
+        found: dict[str, LightReference] = {}
+        for key, (_, value) in node.entries.items():
+            tunable = kind.tunables.get(key) if kind and key not in ("slot", "pose") else None
+            if tunable is None or tunable.datatype != "float" or not isinstance(value, Map):
+                continue
+            read = read_reference(document.source, self.view, name, key, tunable, value)
+            if isinstance(read, LightReference):
+                found[key] = read
+            else:
+                self.found.extend(read)
+        return found
 
     def _tunables(self, key: str, known: Iterable[str]) -> str:
         near = did_you_mean(key, known)

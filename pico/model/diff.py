@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from typing import Any, Literal
 
+from pico.model.by_light import is_reference
+from pico.model.by_light import said as by_light
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Aligned, Observation, slot_at
@@ -61,8 +63,8 @@ def diff_states(setup: Setup, a: LabState, b: LabState) -> tuple[Change, ...]:
             before, after = place_json(slot_a, pose_a), place_json(slot_b, pose_b)
             text = describe_move(slot_a, pose_a, slot_b, pose_b)
             changes.append(Change(component=name, tunable="pose", before=before, after=after, text=text))
-        values_a = a.components[name].values if name in a.components else {}
-        values_b = b.components[name].values if name in b.components else {}
+        values_a = a.components[name].given if name in a.components else {}
+        values_b = b.components[name].given if name in b.components else {}
         for tunable in sorted(values_a.keys() | values_b.keys()):
             before, after = values_a.get(tunable), values_b.get(tunable)
             if before != after:
@@ -221,16 +223,21 @@ def _signed(number: float) -> str:
     return ("+" if number > 0 else "") + short(number)
 
 
-def describe_value(kind: Tunable, before: Value | None, after: Value | None) -> str:
-    """Return a change of value in words: `90 → 1 deg`."""
+def describe_value(kind: Tunable, before: Any, after: Any) -> str:
+    """Return a change of value in words: `90 → 1 deg`, `90 deg → 1° from the null of p1 and p2`."""
     unit = f" {kind.unit}" if kind.unit else ""
-    return f"{show_value(before)} → {show_value(after)}{unit}"
+    if not is_reference(after):
+        return f"{show_value(before, kind.unit)} → {show_value(after, kind.unit)}{unit}"
+    own = unit if isinstance(before, int | float) and not isinstance(before, bool) else ""
+    return f"{show_value(before, kind.unit)}{own} → {show_value(after, kind.unit)}"
 
 
-def show_value(value: Value | None) -> str:
-    """Return a value as a person writes it in a manifest."""
+def show_value(value: Any, unit: str = "deg") -> str:
+    """Return a value as a person writes it in a manifest; one that light finds in words."""
     if value is None:
         return "unknown"
+    if is_reference(value):
+        return by_light(value, unit)
     if isinstance(value, bool):
         return "true" if value else "false"
-    return f"{value:.6g}" if isinstance(value, int | float) else value
+    return f"{value:.6g}" if isinstance(value, int | float) else str(value)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Any
 
+from pico.model.by_light import LightReference, is_reference, reference_from_json
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import Value
@@ -15,18 +16,25 @@ from pico.model.record import as_json, digest, record
 @record
 class ComponentState:
     """Where a component is (at most one of a slot's name and a pose; neither for a part whose pose the lab fixes) and
-    the values of its other tunables, in the units that its type declares."""
+    the values of its other tunables, in the units that its type declares. `by_light`: tunables whose value light finds;
+    these have none in `values`."""
 
     slot: str | None = None
     pose: Pose | None = None
     values: Mapping[str, Value] = field(default_factory=dict)
+    by_light: Mapping[str, LightReference] = field(default_factory=dict)
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """What the state gives its tunables, as a change holds it: values, and references to light as data."""
+        return {**self.values, **{name: one.as_json() for name, one in self.by_light.items()}}
 
     def as_json(self) -> dict[str, Any]:
         """Return the flat form that manifests use: `slot` or `pose`, and one key a tunable."""
         place: dict[str, Any] = {"slot": self.slot} if self.slot else {}
         if self.pose:
             place["pose"] = as_json(self.pose)
-        return place | dict(self.values)
+        return place | self.given
 
 
 @record
@@ -59,9 +67,19 @@ def state_from_json(lab: str, data: Mapping[str, Any]) -> LabState:
     components = {}
     for name, flat in data.items():
         rest = {k: v for k, v in flat.items() if k not in ("slot", "pose")}
-        pose = Pose(**flat["pose"]) if "pose" in flat else None
-        components[name] = ComponentState(slot=flat.get("slot"), pose=pose, values=rest)
+        by_light = {k: reference_from_json(v) for k, v in rest.items() if is_reference(v)}
+        pose, values = Pose(**flat["pose"]) if "pose" in flat else None, {k: rest[k] for k in rest if k not in by_light}
+        components[name] = ComponentState(slot=flat.get("slot"), pose=pose, values=values, by_light=by_light)
     return LabState(lab=lab, components=components)
+
+
+def references_of(state: LabState) -> dict[str, LightReference]:
+    """Return the references to light of a state by address (`p1.angle`), sorted."""
+    return {
+        f"{name}.{tunable}": one
+        for name, part in sorted(state.components.items())
+        for tunable, one in sorted(part.by_light.items())
+    }
 
 
 def place_of(setup: Setup, state: LabState, component: str) -> tuple[str | None, Pose]:

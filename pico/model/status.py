@@ -151,7 +151,7 @@ def _value_rows(
 
 
 def _values(state: LabState | None, name: str) -> Mapping[str, Any]:
-    return state.components[name].values if state and name in state.components else {}
+    return state.components[name].given if state and name in state.components else {}
 
 
 def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes) -> dict[str, Any]:

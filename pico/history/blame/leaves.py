@@ -8,6 +8,7 @@ import math
 from typing import Any
 
 from pico.manifest.text.tree import Map, Node, Scalar, plain
+from pico.model.by_light import OFFSET, is_reference
 
 Leaf = str
 """A value as JSON text: `90`, `true`, `"open"`, `"1.2 cm"`, `[520,420,30]` (a pose: mm, mm, deg), `"storage/a1"`."""
@@ -23,6 +24,8 @@ def leaf_of(value: Any) -> Leaf:
             return json.dumps(str(value))
         rounded = round(float(value), 6) + 0.0
         return str(int(rounded)) if rounded.is_integer() else repr(rounded)
+    if isinstance(value, dict):
+        return "{" + ",".join(f"{json.dumps(k)}:{leaf_of(v)}" for k, v in sorted(value.items())) + "}"
     return json.dumps("" if value is None else value, ensure_ascii=False)
 
 
@@ -77,4 +80,7 @@ def _in_unit(value: Any, unit: str) -> Leaf:
     if isinstance(value, str):
         with contextlib.suppress(QuantityError):
             value = convert(value, unit)
+    if is_reference(value) and isinstance(value.get(OFFSET), str):
+        with contextlib.suppress(QuantityError):
+            value = {**value, OFFSET: convert(value[OFFSET], unit)}
     return leaf_of(value)

@@ -12,6 +12,7 @@ from pico.history.merge.leaves import canonical, leaves, shown
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, parse, plain
+from pico.model.by_light import is_reference
 from pico.model.catalog import Tunable
 from pico.model.diff import Change, describe_move, describe_value
 from pico.model.pose import Pose
@@ -172,7 +173,8 @@ def _value(node: Node | None, unit: str) -> Any:
     if isinstance(node, Scalar):
         value = _converted(node, unit)
         return "null" if value is None else value
-    return None if node is None else shown(node)
+    data = plain(node) if isinstance(node, Map) else None
+    return data if is_reference(data) else None if node is None else shown(node)
 
 
 def _others(a: Node, b: Node, skip: tuple[str, ...]) -> Iterator[tuple[str, str, str]]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from pico.manifest.text.splice import write_flow
 from pico.manifest.text.tree import List, Map, Node, Scalar, plain
+from pico.model.by_light import is_reference
 
 Path = tuple[str, ...]
 Groups = Mapping[str, tuple[tuple[str, ...], ...]]
@@ -83,9 +84,15 @@ def filled(key: str, node: Node | None) -> Node | None:
     return Map(node.start, True, node.end) if nothing and node else node
 
 
+def single(node: Node | None) -> bool:
+    """Return whether a node is one value: a scalar, a list, or a set-point that light finds, which means something only
+    as a whole."""
+    return isinstance(node, Scalar | List) or (isinstance(node, Map) and node.flow and is_reference(node.entries))
+
+
 def leaves(node: Node, path: Path = ()) -> Iterator[tuple[Path, Node]]:
-    """Yield everything below a node that is no mapping with entries, with its path."""
-    if isinstance(node, Map) and node.entries:
+    """Yield everything below a node that is no mapping with entries, or a single value, with its path."""
+    if isinstance(node, Map) and node.entries and not single(node):
         for key, (_, value) in node.entries.items():
             yield from leaves(value, (*path, key))
     else:
@@ -118,7 +125,8 @@ class _Merge:
 
     def node(self, path: Path, b: Node | None, o: Node | None, t: Node | None) -> tuple[Any, Any]:
         """Return what the merged node says with ours and with theirs; nodes that are not there are None."""
-        if isinstance(o, Map) and isinstance(t, Map) and (b is None or isinstance(b, Map)):
+        whole = any(isinstance(n, Map) and single(n) for n in (b, o, t))
+        if isinstance(o, Map) and isinstance(t, Map) and (b is None or isinstance(b, Map)) and not whole:
             return self.maps(path, b, o, t)
         was, mine, other = canonical(b), canonical(o), canonical(t)
         if path not in self.forced:
@@ -126,8 +134,7 @@ class _Merge:
                 return mine, mine
             if mine == was:
                 return other, other
-        leaf = isinstance(o, Scalar | List) and isinstance(t, Scalar | List)
-        keys = () if leaf else (path[-1],)
+        keys = () if single(o) and single(t) else (path[-1],)
         self.conflicts.append(Conflict(path, shown(b), _against(b, o), _against(b, t), keys))
         return mine, other
 
@@ -178,7 +185,7 @@ def shown(node: Node | None) -> str:
     if node is None:
         return "absent"
     value = plain(node)
-    text = write_flow(value) if not isinstance(value, list) else str(value)
+    text = write_flow(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 
@@ -186,7 +193,7 @@ def _against(base: Node | None, node: Node | None) -> str:
     if node is None:
         return "removed"
     a, b = plain(base) if base else None, plain(node)
-    if isinstance(node, Map) and isinstance(base, Map):
+    if isinstance(node, Map) and isinstance(base, Map) and not single(node):
         return "changed: " + shown(node)
     if _number(a) and _number(b):
         return f"{shown(node)} ({b - a:+.6g})" if a != b else f"{shown(node)} (unchanged)"

@@ -14,7 +14,17 @@ from typing import Any
 
 from pico.diagnostics import PicoError
 from pico.history.merge.layout import merge_layout
-from pico.history.merge.leaves import Conflict, Coupled, Groups, MergedLeaves, Path, canonical, leaves, merge_leaves
+from pico.history.merge.leaves import (
+    Conflict,
+    Coupled,
+    Groups,
+    MergedLeaves,
+    Path,
+    canonical,
+    leaves,
+    merge_leaves,
+    single,
+)
 from pico.history.merge.lines import merge_lines
 from pico.history.merge.markers import OPEN, Labels, has_token, token, view, written
 from pico.manifest.files import decode
@@ -175,7 +185,7 @@ def _leaves(version: _Version) -> dict[Path, Node]:
 def _raw(text: str, node: Node | None) -> str | None:
     """Return a value as it is written, None where it does not stand on one line by itself."""
     line = isinstance(node, Scalar) and node.style not in ("|", ">") and node.end > node.start and not node.tag
-    if node is None or not (line or (isinstance(node, List) and node.flow)):
+    if node is None or not (line or (isinstance(node, List) and node.flow) or (isinstance(node, Map) and single(node))):
         return None
     raw = text[node.start : node.end]
     return raw if "\n" not in raw and "\r" not in raw else None

@@ -94,7 +94,7 @@ def entries(
     made: dict[str, Entry] = {}
     if some is None or "pose" in some:
         made |= _place(setup, name, was, is_)
-    values, old = (dict(part.values) if part else {} for part in (was, is_))
+    values, old = (part.given if part else {} for part in (was, is_))
     for tunable in sorted(values.keys() | old.keys()):
         if holds({name: some}, name, tunable) and values.get(tunable) != old.get(tunable):
             made[tunable] = values.get(tunable)

@@ -10,6 +10,7 @@ from typing import Any
 
 from pico.manifest.text.scalars import resolve
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar
+from pico.model.by_light import is_reference
 
 _BARE = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 _BREAK = re.compile(r"\r\n|\n|\r")
@@ -46,15 +47,17 @@ def write_scalar(value: Any) -> str:
 
 
 def write_flow(value: Any) -> str:
-    """Return a value, or a mapping of values, on one line."""
+    """Return a value, or a mapping or a list of values, on one line."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key}: {write_flow(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(write_flow(inner) for inner in value) + "]"
     return write_scalar(value)
 
 
 def write_block(key: str, value: Any, indent: int, step: int) -> list[str]:
-    """Return the lines of an entry, its mappings in block style."""
-    if isinstance(value, Mapping) and value:
+    """Return the lines of an entry, its mappings in block style, but for a set-point that light finds."""
+    if isinstance(value, Mapping) and value and not is_reference(value):
         inner = [line for k, v in value.items() for line in write_block(k, v, indent + step, step)]
         return [f"{' ' * indent}{key}:", *inner]
     return [f"{' ' * indent}{key}: {write_flow(value)}"]
@@ -82,7 +85,7 @@ class Editor:
 
     def set_scalar(self, key: Scalar, node: Node, value: Any) -> None:
         """Give an existing entry another value."""
-        text = write_scalar(value)
+        text = write_flow(value)
         if not isinstance(node, Scalar):
             self.splices.append(Splice(self._colon(key, node), self.end(key, node), f" {text}"))
         elif node.start == node.end:
