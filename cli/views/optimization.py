@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
-from .measured import value
+from .measured import solved, value
 from .style import columns, count, paint, seconds, wrap
 
 if TYPE_CHECKING:
@@ -25,6 +25,8 @@ def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: st
     if not found.met:
         lines += wrap(f"It ended because {found.why}.", "  ")
     lines += _table(found, chosen, setup)
+    if said := solved({"solution": found.solution, "last": found.last}):
+        lines += wrap(f"It was left at {said}.", "  ")
     back = "; `pico undo` goes back" if found.measurements else ""
     lines += wrap(f"= help: {advice}", "  ") if advice else []
     return "\n".join([*lines, f"  `pico runs show {run}`{back}"])

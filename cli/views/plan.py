@@ -15,6 +15,7 @@ from pico.model.pose import wrap as wrap_angle
 from pico.model.primitive import OWN
 from pico.model.record import as_json
 
+from .by_light import unfound
 from .diff import brief
 from .style import ago, columns, count, listed, paint, place, seconds, wide, width, wrap
 
@@ -255,8 +256,15 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
         return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
     if plan.target.cause == "single":
         return [_as_asked(beside)]
-    empty = "no gripper holds anything, and no arm stands where it was stopped"
-    return [f"Nothing to do: {empty if plan.target.cause == 'recover' else f'the bench equals {goal_name(plan)}'}."]
+    return [_as_wanted(plan)]
+
+
+def _as_wanted(plan: Plan) -> str:
+    if missed := [d.address for d in plan.diagnostics if d.code == "by-light"]:
+        return f"Nothing to do by numbers. {unfound(goal_name(plan), missed)}"
+    if plan.target.cause == "recover":
+        return "Nothing to do: no gripper holds anything, and no arm stands where it was stopped."
+    return f"Nothing to do: the bench equals {goal_name(plan)}."
 
 
 def _as_asked(beside: Sequence[Change] | None) -> str:

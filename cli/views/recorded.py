@@ -10,7 +10,7 @@ from pico.model.run import TRIALS, Run
 from pico.runs.operations import operations
 
 from .diff import lines
-from .measured import line, ranged
+from .measured import line, ranged, solved
 from .report import expectations
 from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
@@ -95,6 +95,13 @@ def _measured(found: Mapping[str, Any]) -> str:
         return str(found)
 
 
+def _solved(found: Mapping[str, Any]) -> str:
+    try:
+        return solved(found)
+    except (KeyError, TypeError, ValueError, AttributeError):  # written by another program
+        return ""
+
+
 def _ended(op: OperationRun) -> str:
     said = op.outcome
     error_mm, error_deg = op.data.get("error_mm"), op.data.get("error_deg")
@@ -106,6 +113,8 @@ def _ended(op: OperationRun) -> str:
         said += ": met" if op.data["met"] else f": not met, {shown(str(op.data.get('why', '')))}"
     if found := ranged(op.data):
         said += f": {found}"
+    if found := _solved(op.data):
+        said += f": {shown(found)}"
     if op.settled:
         said += f", as {'the bench was seen later' if op.settled == 'observation' else shown(op.settled) + ' said'}"
     if op.error:

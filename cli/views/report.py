@@ -9,8 +9,11 @@ from pico.model.expectation import Expected
 from pico.model.record import as_json
 from pico.model.report import RunReport
 
+from .by_light import stays, unfound
 from .diff import brief
 from .style import count, listed, paint, seconds, wrap
+
+_CAPTURE = "The manifest is as it was: `pico capture` takes the bench into it."
 
 
 def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
@@ -58,12 +61,12 @@ def expectations(found: Sequence[Expected]) -> list[str]:
 def _bench(report: RunReport, undoing: bool) -> list[str]:
     if report.reached and (report.whole or report.scope or report.outcome == "done"):
         if report.whole:
-            return [f"The bench equals {report.goal}."]
+            return [unfound(report.goal, report.by_light or ()) or f"The bench equals {report.goal}."]
         if report.scope:
             return [_partial(report)]
         if report.measurements:
             return [f"As asked: `pico runs show {report.run}` has it."]
-        said = "As asked. The manifest is as it was: `pico capture` takes the bench into it."
+        said = f"As asked. {stays(report.by_light or ()) or _CAPTURE}"
         return [said, *(_in_hand(robot, part) for robot, part in report.held.items())]
     lines = []
     if report.remaining:

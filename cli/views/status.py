@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pico.model.record import as_json
+from pico.model.state import is_reference
 from pico.model.status import Status, StatusRow
 
 from .style import columns, count, paint, place, valued
@@ -48,6 +49,8 @@ def _cells(row: StatusRow) -> list[str]:
         live = paint("red", row.note)
     elif row.live is None:
         live = "unknown"
+    elif row.off and is_reference(row.desired):
+        live = paint("yellow" if row.edited else "red", f"{valued(row.live, row.unit)} !  {row.near}")
     elif row.off:
         aside = f", {row.aside}" * bool(row.aside)
         live = paint("yellow" if row.edited else "red", f"{place(row.live)}{aside}{unit} !")

@@ -16,8 +16,10 @@ from pico.model.operation import Operation, searched_by, touched_by
 from pico.model.primitive import primitive
 from pico.model.quantities import convert
 from pico.model.record import as_json
+from pico.model.state import LabState
 from pico.model.vocabulary import measured_in
 from pico.optics.axis import beams
+from pico.planning.by_light import sought_in, with_goals
 from pico.planning.optimizing import seconds
 from pico.planning.sought import algorithm_for
 
@@ -72,14 +74,26 @@ def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRec
     return [record for own in reversed(found) for record in own]
 
 
-def standing(opened: Remembering, seen: Observation) -> tuple[Alignment, ...]:
-    """Return how the goals of a bench's Lab stand."""
-    setup, goals, memory = opened.setup, opened.setup.lab.goals or {}, opened.edge.memory
+def standing(
+    opened: Remembering, seen: Observation, state: LabState | None = None, *, wanted: bool = False
+) -> tuple[Alignment, ...]:
+    """Return how the goals of a bench stand; see `stands`."""
+    return stands(opened.setup, opened.edge.memory, seen, state, wanted=wanted)
+
+
+def stands(
+    bench: Setup, memory: Memory | None, seen: Observation, state: LabState | None = None, *, wanted: bool = False
+) -> tuple[Alignment, ...]:
+    """Return how the goals of a Lab stand, and those that set-points of a `state` are which light finds; `wanted`: as
+    the light goes once its parts stand where that wants them. One that no light comes to is lost."""
+    by_light = sought_in(bench, seen, state, wanted=wanted)
+    setup = with_goals(bench, by_light)
+    goals, dark = setup.lab.goals or {}, [Alignment(d.address, "lost", d.summary) for d in by_light.wrong]
     if not goals:
-        return ()
+        return tuple(dark)
     took = {n: seconds(setup, goal, goal.algorithm or algorithm_for(setup, goal)[0]) for n, goal in goals.items()}
     records = since_last_sought(memory, goals) if memory else ()
-    return alignments(setup, seen, records, utc_now(), took)
+    return (*alignments(setup, seen, records, utc_now(), took), *dark)
 
 
 def with_aligned(opened: Remembering, seen: Observation) -> Observation:
@@ -136,7 +150,10 @@ def made_stale(
         if wrong:
             text = f"{one.goal} is aligned, and will not be: {wrong} changes"
             hint = f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s"
-            yield Diagnostic("note", "goal", text, hint=hint, address=wrong.partition(".")[0])
+            if "." in one.goal:  # a set-point of the state, which the bench will not equal then
+                yield Diagnostic("warning", "by-light", text, hint=hint, address=one.goal)
+            else:
+                yield Diagnostic("note", "goal", text, hint=hint, address=wrong.partition(".")[0])
 
 
 def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[Operation]) -> str:
@@ -182,7 +199,7 @@ def _alignment(
 
 def _wanted(goal: Mapping[str, Any]) -> dict[str, Any]:
     """Return what of a goal says when it is met; not how it is sought."""
-    return {key: goal.get(key) for key in ("tunables", "reach", "minimize", "maximize", "tolerance")}
+    return {key: goal.get(key) for key in ("tunables", "reach", "minimize", "maximize", "tolerance", "offset")}
 
 
 def _seeks(record: JournalRecord, name: str) -> bool:

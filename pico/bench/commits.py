@@ -12,6 +12,7 @@ from datetime import datetime
 from types import MappingProxyType
 from typing import Literal
 
+from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
@@ -28,7 +29,7 @@ from pico.model.address import Named, holds, read_addresses
 from pico.model.diff import Change, as_trimmed, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
-from pico.model.state import LabState, home_state
+from pico.model.state import LabState, home_state, references_of
 from pico.model.status import refuse_unapplied
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
 
@@ -49,17 +50,13 @@ class Commits:
         PicoError: exit code LOCKED where something would be written while somebody moves the bench.
         """
         named = read_addresses(self.folder.setup, only) if only else None
-        if not write:
-            seen = self.opened.observe()
-            with told_with(self.opened, seen):
-                _refuse_in_hand(seen, named)
-            return self.folder.capture(self._live(seen, named), named, write=False)
-        seen, moved = self._seen()
+        seen, moved = self._seen() if write else (self.opened.observe(), None)
         if moved:
             raise moved
         with told_with(self.opened, seen):
             _refuse_in_hand(seen, named)
-        return self.folder.capture(self._live(seen, named), named)
+        kept = _kept(self.folder, seen, named)
+        return replace(self.folder.capture(self._live(seen, named), named, write=write), by_light=kept or None)
 
     def _seen(self) -> tuple[Observation, PicoError | None]:
         """Look at the bench; what stands there while somebody moves it is no state that anybody wanted: nothing of it
@@ -117,7 +114,8 @@ class Commits:
             if not ending and mode != "planned":
                 captured = folder.capture(self._live(seen, named), named)
             content = contents(folder, named)
-            realized = stands(folder.setup, seen, content.state)
+            missed = _unaligned(folder, seen, content.state)
+            realized = stands(folder.setup, seen, content.state) and not missed
             runs = recording.pending(folder, seen, content.state) if realized else {}
             if not (content.paths or runs or ending or empty):
                 raise PicoError([*repository.noticed, nothing(named)])
@@ -125,6 +123,7 @@ class Commits:
             if message is None:
                 message = (message_of(repository.own) if ending else "") or _message(folder, content, changes, runs)
             counts = _evidence(folder, seen, content.state, changes, runs, self.opened.fidelity)
+            counts = "planned" if missed else counts
             hands = None if ending else _hands(folder, seen, content.state, changes, runs)
             made = committed(
                 folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, hands=hands, empty=empty
@@ -152,6 +151,20 @@ class Commits:
         return default_message(changes, captured.files or content.paths)
 
 
+def _kept(folder: LabFolder, seen: Observation, named: Named | None) -> tuple[str, ...]:
+    """Return the set-points which light finds that a capture leaves as they are, though the bench is elsewhere."""
+    missed = _unaligned(folder, seen, folder.state)
+    return tuple(a for a in missed if named is None or holds(named, a.partition(".")[0], a.partition(".")[2]))
+
+
+def _unaligned(folder: LabFolder, seen: Observation, state: LabState) -> Mapping[str, str]:
+    """Return the set-points of a state that light has yet to find here, each with why."""
+    if not references_of(state):
+        return {}
+    with remembered(folder.root) as memory:
+        return unaligned(folder.setup, memory, seen, state)
+
+
 def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named | None, *, used: bool) -> None:
     """Raise PicoError where edits, or the last commit, were never applied here, and nobody said who wins. `used`: the
     bench is not one that was only just made up: such a one never stood as anybody has committed."""
@@ -161,9 +174,10 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
         return
     components = contents(folder, named).components if named else None
     committed = folder.committed()
-    if committed is not None:
-        refuse_unapplied(folder.setup, committed, folder.state, seen, components)
     with remembered(folder.root) as memory:
+        if committed is not None:
+            missed = unaligned(folder.setup, memory, seen, folder.state)
+            refuse_unapplied(folder.setup, committed, folder.state, seen, components, unaligned=missed)
         found = never_here(folder.setup, memory, seen, folder.state, stood=_stood(folder) if used else None)
     never = sorted(
         component if tunable == "pose" else f"{component}.{tunable}"

@@ -12,6 +12,7 @@ from pico.bench.plans import Plans
 from pico.bench.ready.asked import Ready
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.lab import Goal
+from pico.model.state import references_of
 from pico.optimize.problem import Problem, Variable
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from pico.model.event import Event
     from pico.model.plan import Plan
     from pico.model.report import RunReport
+    from pico.planning.by_light import ByLight
     from pico.planning.sought import Sought
 
 
@@ -64,6 +66,7 @@ class Optimized:
     tolerance: Mapping[str, float] = field(default_factory=dict)
     points: Mapping[str, Any] | None = None
     stages: tuple[Mapping[str, Any], ...] = ()
+    solution: Mapping[str, float] | None = None
 
 
 def optimized(events: Sequence[Event]) -> Optimized:
@@ -86,14 +89,23 @@ class Goals:
 
     @property
     def named(self) -> Mapping[str, Goal]:
-        """The goals of the Lab, by name."""
-        return self.opened.setup.lab.goals or {}
+        """The goals of the Lab by name, and those that set-points of the manifest are which light finds, by address."""
+        found = self._by_light()
+        return {**(self.opened.setup.lab.goals or {}), **(found.goals if found else {})}
+
+    def _by_light(self) -> ByLight | None:
+        state = self.opened.folder.state_now()
+        if state is None or not references_of(state):
+            return None
+        from pico.planning.by_light import sought_in
+
+        return sought_in(self.opened.setup, self.opened.observe(), state)
 
     def alignments(self) -> tuple[Alignment, ...]:
-        """Return how the goals of the Lab stand, as the journal knows; nothing is measured."""
+        """Return how the goals stand, as the journal knows; nothing is measured."""
         from pico.bench.aligned import standing
 
-        return standing(self.opened, self.opened.observe())
+        return standing(self.opened, self.opened.observe(), self.opened.folder.state_now())
 
     def chosen(self, words: Sequence[str] | Goal, name: str = "asked", algorithm: str | None = None) -> Chosen:
         """Return a goal: of the Lab by its name, a ready-made one (`centre ly_150 cam`), or the one given, as `name`;
@@ -120,6 +132,9 @@ class Goals:
         what = words[0]
         if what in self.named and len(words) == 1:
             return Ready(what, self.named[what])
+        by_light = self._by_light() if "." in what and len(words) == 1 else None
+        if by_light and (wrong := [d for d in by_light.wrong if d.address == what]):
+            raise PicoError(wrong)
         if what not in known():
             names = (*self.named, *known())
             hint = did_you_mean(what[:40], names) or f"known: {', '.join(names)}"
@@ -174,4 +189,6 @@ class Goals:
 def as_problem(one: Sought) -> Problem:
     """Return what an algorithm is asked, but for where the tunables stand."""
     variables = tuple(Variable(name, low, high, low) for name, (low, high) in one.goal.tunables.items())
-    return Problem(variables, tuple(one.goal.reach or ("objective",)), one.goal.aim, nominal=one.known)
+    offset = None if one.goal.offset is None else {variables[0].name: one.goal.offset}
+    outputs = tuple(one.goal.reach or ("objective",))
+    return Problem(variables, outputs, one.goal.aim, nominal=one.known, offset=offset)

@@ -113,6 +113,7 @@ class Measurements:
         """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
         whether any bench ever stood as that commit (HEAD for the manifest) says. `measurements`: what was measured just
         now, by address."""
+        from pico.bench.by_light import unaligned, unfound
         from pico.history import runs as recording
         from pico.model.expectation import Verified
         from pico.policy.expectations import check_expectations
@@ -122,11 +123,16 @@ class Measurements:
         wanted = folder.state_at(revision) if revision else folder.state
         seen = replace(self.opened.observe(), measurements=measurements)
         committed = wanted if revision else folder.committed()
+        memory = self.opened.edge.memory
+        changes = (*drift_of(setup, seen, wanted), *unfound(setup, memory, seen, wanted))
+        left = committed is not None and (
+            not stands(setup, seen, committed) or bool(unaligned(setup, memory, seen, committed))
+        )
         return Verified(
-            goal=revision or "the manifest", observed_at=seen.observed_at, changes=drift_of(setup, seen, wanted),
+            goal=revision or "the manifest", observed_at=seen.observed_at, changes=changes,
             expectations=check_expectations(setup, seen, wanted.expect, self._measurables()),
             standing=recording.standing_of(folder, revision),
-            left=committed is not None and not stands(setup, seen, committed),
+            left=left,
         )  # fmt: skip
 
     def expected(self, plan: Plan) -> Verified:

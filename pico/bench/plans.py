@@ -18,7 +18,7 @@ from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Target
 from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
-from pico.model.state import LabState, place_of, state_from_json
+from pico.model.state import LabState, place_of, references_of, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -129,11 +129,8 @@ class Plans:
         """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
         stale."""
         plan = with_audit(self.opened, plan, seen)
-        if plan.operations and self.opened.setup.lab.goals:
-            from pico.bench.aligned import made_stale, standing
-
-            if told := tuple(made_stale(self.opened.setup, seen, standing(self.opened, seen), plan.operations)):
-                plan = replace(plan, diagnostics=(*plan.diagnostics, *told)).sealed()
+        if told := self._of_light(plan, seen):
+            plan = replace(plan, diagnostics=(*plan.diagnostics, *told)).sealed()
         if not self.opened.setup.lab.policy.rules:
             return plan
         from pico.policy.rules import judged
@@ -143,6 +140,23 @@ class Plans:
 
             _require_sense(check_rules(self.opened.folder.manifests))
         return judged(self.opened.setup, plan, seen)
+
+    def _of_light(self, plan: Plan, seen: Observation) -> tuple[Diagnostic, ...]:
+        """Return which set-points of its goal light has yet to find, and which goals the plan makes stale."""
+        opened, setup = self.opened, self.opened.setup
+        state = wanted = state_from_json(plan.lab.name, plan.target.state)
+        if not references_of(wanted):
+            state = opened.folder.state_now() or wanted
+        if not (references_of(state) or (setup.lab.goals and plan.operations)):
+            return ()
+        from pico.bench.aligned import made_stale, standing
+        from pico.bench.by_light import staying, told
+        from pico.planning.by_light import sought_in, with_goals
+
+        stands = standing(opened, seen, state, wanted=True)
+        sought = with_goals(setup, sought_in(setup, seen, state, wanted=True))
+        unmet = told(stands, state) if references_of(wanted) else staying(plan, state)
+        return (*unmet, *made_stale(sought, seen, [one for one in stands if one.status == "aligned"], plan.operations))
 
     def leaves_manifest(self, plan: Plan) -> bool:
         """Whether a plan leads the whole bench to a revision, and away from what the manifest says."""

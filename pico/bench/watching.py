@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.bench.by_light import unaligned, unfound
 from pico.bench.cut_short import told_first
 from pico.bench.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
 from pico.bench.in_use import moved_by
@@ -55,7 +56,11 @@ class Watch:
         from pico.model.status import compare
 
         folder, seen = self.opened.folder, self.opened.observe()
-        found = compare(folder.setup, folder.committed(), folder.state, seen, self.opened.history.head_name())
+        head, missed = (
+            self.opened.history.head_name(),
+            unaligned(folder.setup, self.opened.edge.memory, seen, folder.state),
+        )
+        found = compare(folder.setup, folder.committed(), folder.state, seen, head, unaligned=missed)
         return replace(found, cut_short=told_first(self.opened, seen))
 
     def look(self) -> Drifted:
@@ -63,7 +68,7 @@ class Watch:
         needs no lock; raises PicoError."""
         setup, seen = self.opened.setup, self.opened.observe()
         head = self.opened.folder.committed() or self.opened.folder.state_at("HEAD")  # which says why there is none
-        changes = drift_of(setup, seen, head)
+        changes = (*drift_of(setup, seen, head), *unfound(setup, self.opened.edge.memory, seen, head))
         rules = set(setup.lab.policy.ignore)
         ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
         kept = [c for c in changes if c not in ignored]

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 Stopping = Literal["", "safely", "now"]
 OBJECTIVE = "objective"
 """What the value of an expression is called that is to be as low or as high as can be."""
-ACQUIRING = ("likely", "spiral", "raster")
-"""Algorithms that look for light."""
+ACQUIRING = ("likely", "spiral", "raster", "malus")
+"""Algorithms that look for light themselves."""
 ATTEMPTS = 3
 """How often an axis that does not answer or stops is driven, and how often a measurement that gets lost is taken, at
 most; as often as an operation of a plan is tried."""
@@ -45,6 +45,8 @@ AGAIN = ("timeout", "jammed")
 FRAME = "frame"
 """The failure of a measurement that got lost: nothing is known of the light."""
 _UNSAID = error("failed", "the device does not say why")
+_WEAK = 0.02
+"""The share of noise from which another exposure is looked for, of a camera that was given another one already."""
 _OVER = 2.0
 """How far an axis goes beyond, to come to its place from the side on which it is to be, in backlashes."""
 
@@ -164,6 +166,9 @@ class Aligning:
         }  # fmt: skip
         if former:
             found["stages"] = list(former)
+        if outcome.solution is not None:
+            sigmas = {f"{name}_sigma": sigma for name, sigma in outcome.solution.sigma.items()}
+            found["solution"] = {**outcome.solution.point, **sigmas}
         if outcome.tried:
             found["points"] = as_json(self._kept(columns, outcome.tried))
         return {k: v for k, v in found.items() if v is not None}
@@ -280,7 +285,8 @@ class _Run:
         if isinstance(found, str):
             return found
         full = "not saturated" in found.not_assured
-        if (full or (found.unknown and component in self.exposed)) and await self._ranged(component):
+        dim = component in self.exposed and (found.unknown or _weak(found))
+        if (full or dim) and await self._ranged(component):
             found = await self._taken(component, measurable)
         return found
 
@@ -375,7 +381,8 @@ def problem_of(setup: Setup, seen: Observation, operation: Operation) -> Problem
     outputs = tuple(goal.reach) if goal.reach is not None else (OBJECTIVE,)
     aim: Aim = goal.aim
     tolerance = {name: goal.near(name) for name in outputs}
-    return Problem(variables, outputs, aim, dict(goal.reach or {}), tolerance, known)
+    offset = None if goal.offset is None else {variables[0].name: goal.offset}
+    return Problem(variables, outputs, aim, dict(goal.reach or {}), tolerance, known, offset)
 
 
 def _variables(setup: Setup, seen: Observation, goal: Goal, known: Nominal | None) -> Iterator[Variable]:
@@ -430,6 +437,15 @@ def searched(kind: Tunable, bounds: tuple[float, float], start: float) -> tuple[
     if not low <= start <= high or high - low < 4 * over:
         return bounds
     return (min(start, low + over), high) if side > 0 else (low, max(start, high - over)) if side < 0 else bounds
+
+
+def _weak(found: Measurement) -> bool:
+    """Whether the noise of a number is so large a share of it that a longer exposure would tell more."""
+    value, sigma = found.value, found.sigma
+    pairs = (
+        [(value[n], sigma.get(n)) for n in value] if isinstance(value, Mapping) and isinstance(sigma, Mapping) else []
+    )
+    return any(isinstance(v, int | float) and isinstance(s, int | float) and s > _WEAK * abs(v) for v, s in pairs)
 
 
 def _sigma(found: Measurement, number: str) -> float:

@@ -374,7 +374,7 @@ class LocalEdge:
         events = [e for e in running.log if e.kind != "operation_progress"]
         seen = replace(await self.observe(), measurements=measured(job.plan, events))
         report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
-        reached = report.whole and report.outcome == "done" and report.reached
+        reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
         report, self._first = replace(report, diagnostics=(*report.diagnostics, *self._first)), ()
         try:
             self.journal.saw(running.id, seen_after(seen, report.expectations, reached=reached))

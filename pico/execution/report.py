@@ -16,7 +16,7 @@ from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.plan import Plan
 from pico.model.report import RunReport
-from pico.model.state import place_of, state_from_json
+from pico.model.state import place_of, references_of, state_from_json
 
 
 def run_report(
@@ -44,6 +44,7 @@ def run_report(
         absent=_absent(setup, plan, seen) if whole else (),
         expectations=_expectations(setup, plan, seen, able) if whole else (),
         measurements=seen.measurements,
+        by_light=_by_light(plan, events) or None,
         diagnostics=tuple(_diagnostics(events)),
     )
 
@@ -72,6 +73,14 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
         if (change.counts or (plan.asked and not change.tolerated))
         and (whole or (change.component, change.tunable) in asked)
     )
+
+
+def _by_light(plan: Plan, events: Sequence[Event]) -> tuple[str, ...]:
+    """Return the set-points that light has yet to find: those of which the plan says so, and that no goal met."""
+    met = {str(e.data.get("goal")) for e in events if e.kind == "operation_done" and e.data.get("met")}
+    wanted = references_of(state_from_json(plan.lab.name, plan.target.state))
+    found = [d.address for d in plan.diagnostics if d.code == "by-light" and d.address not in met]
+    return tuple(address for address in dict.fromkeys(found) if plan.asked or address in wanted)
 
 
 def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:

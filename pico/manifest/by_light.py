@@ -11,8 +11,8 @@ from pico.manifest.text.splice import write_flow
 from pico.manifest.text.tree import List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number
 from pico.manifest.wording import article, shown
-from pico.model.by_light import KINDS, NULL, OFFSET, THROUGH, LightReference
 from pico.model.catalog import Tunable
+from pico.model.state import KINDS, NULL, OFFSET, THROUGH, LightReference
 
 EXAMPLES = {NULL: "{null_of: [p1, p2], offset: 1.0}", THROUGH: "{through: [iris1, iris2]}"}
 
@@ -47,8 +47,8 @@ class _Reader:
         if both:
             hint = "keep one of the two"
             yield self._error(self.node, "by-light", f"{self.address} has both `{NULL}` and `{THROUGH}`", hint)
-        if not self.node.flow:
-            hint = f"write `{self.name}: {write_flow(plain(self.node))}`: one tunable is one line"
+        if not self.node.flow or "\n" in self.source.content[self.node.start : self.node.end]:
+            hint = f"write `{self.name}: {write_flow(plain(self.node))}`, as `pico fmt` does: one tunable is one line"
             yield self._error(self.node, "by-light", f"what {self.address} refers to is not on one line", hint)
         for key, (at, _) in self.node.entries.items():
             if key not in (*KINDS, OFFSET):

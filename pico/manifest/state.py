@@ -13,10 +13,9 @@ from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number, read_value
 from pico.manifest.wording import shown
-from pico.model.by_light import LightReference
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import Value
-from pico.model.state import ComponentState, Expectation, LabState
+from pico.model.state import ComponentState, Expectation, LabState, LightReference
 
 MOST_COMPONENTS = 200
 """More components in one file than this are warned about: merges and blame work best with 10 to 50."""

@@ -6,15 +6,14 @@ import math
 from dataclasses import replace
 from typing import Any, Literal
 
-from pico.model.by_light import is_reference
-from pico.model.by_light import said as by_light
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Aligned, Observation, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.quantities import Value
 from pico.model.record import as_json, record
-from pico.model.state import LabState, place_of
+from pico.model.state import LabState, is_reference, place_of
+from pico.model.state import said as by_light
 
 Deviation = Literal["none", "tolerated", "off"]
 

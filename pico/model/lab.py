@@ -287,7 +287,8 @@ class Goal:
     numbers that are measured (`cam.centroid.x`) with their targets, in their unit, each met within its `tolerance` (one
     number for all, or by name). `minimize`, `maximize`: an expression over such numbers. `signal`: a number that is
     measured too, below whose `least` nothing is believed. `algorithm`: one by name, with its `parameters`; without, one
-    is chosen. `valid_for`: how long it counts as aligned once it was met (`12 h`).
+    is chosen. `valid_for`: how long it counts as aligned once it was met (`12 h`). `offset`: how far from the best, in
+    its unit, its one tunable is left, as from a null; counted from where the model of the algorithm has the best.
 
     `looks`: what is set while it is measured, and set back at the end: settings by name, each with its tunables. What
     is measured is then spoken of with the name of its look: `near.meter.power`. `after`: goals of the Lab that are
@@ -305,11 +306,14 @@ class Goal:
     parameters: Mapping[str, float] | None = None
     budget: Budget = Budget()
     valid_for: str | None = None
+    offset: float | None = None
     description: str = ""
     looks: Mapping[str, Mapping[str, Value]] | None = None
     after: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
+        if self.offset is not None and (self.reach is not None or len(self.tunables) != 1):
+            raise ValueError("`offset` goes with `minimize` or `maximize` and one tunable")
         if sum(one is not None for one in (self.reach, self.minimize, self.maximize)) != 1:
             raise ValueError("a goal has exactly one of `reach`, `minimize` and `maximize`")
         if not self.tunables:

@@ -26,6 +26,7 @@ class RunReport:
     still has in its gripper. `whole`: the plan was for the whole bench, not for one operation or for some components;
     `scope`: for which (`only p2`), and `left`: what else differs from the goal. `expectations`: of the goal, against
     the bench after a whole run. `measurements`: what was measured, by address. `evidence`: what the run counts as.
+    `by_light`: set-points that light has yet to find.
     """
 
     schema: str = "pico.report/v1"
@@ -48,6 +49,7 @@ class RunReport:
     absent: tuple[str, ...] = ()
     expectations: tuple[Expected, ...] = ()
     measurements: Mapping[str, Measurement] = field(default_factory=dict)
+    by_light: tuple[str, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -70,13 +72,15 @@ class RunReport:
 class Captured:
     """What a capture wrote: the changes from the manifest as it was to the live state, and the files, sorted.
 
-    `written`: false where it was only asked for. `patch`: the lines, as a unified diff.
+    `written`: false where it was only asked for. `patch`: the lines, as a unified diff. `by_light`: set-points that it
+    leaves as they are, for light finds them, though the bench is elsewhere.
     """
 
     changes: tuple[Change, ...] = ()
     files: tuple[str, ...] = ()
     written: bool = True
     patch: str = ""
+    by_light: tuple[str, ...] | None = None
 
 
 @record

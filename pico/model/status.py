@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import field
 from typing import Any
 
@@ -12,7 +12,9 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.record import record
-from pico.model.state import LabState, place_of
+from pico.model.state import LabState, is_reference, place_of, references_of
+
+NOTHING: Mapping[str, str] = {}
 
 
 @record
@@ -69,13 +71,13 @@ class Status:
 
 def compare(
     setup: Setup, committed: LabState | None, desired: LabState, seen: Observation, head: str = "", *,
-    only: Collection[str] | None = None,
+    only: Collection[str] | None = None, unaligned: Mapping[str, str] = NOTHING,
 ) -> Status:  # fmt: skip
     """Return the three states side by side, sorted by component and tunable; `committed` is None without a commit.
 
-    `only`: these components.
+    `only`: these components. `unaligned`: set-points of `desired` that light has yet to find, by address, with why.
     """
-    off = _by_address(diff_observed(setup, seen, desired))
+    off = _by_address([*diff_observed(setup, seen, desired), *_unfound(desired, unaligned)])
     moved = _by_address(diff_observed(setup, seen, committed)) if committed else {}
     rows: list[StatusRow] = []
     for name in sorted(setup.lab.inventory if only is None else setup.lab.inventory.keys() & set(only)):
@@ -93,6 +95,14 @@ def compare(
 
 
 _Changes = Mapping[tuple[str, str], Change]
+
+
+def _unfound(desired: LabState, unaligned: Mapping[str, str]) -> Iterator[Change]:
+    """Yield where the bench is not, or not known to be, where light says that it should."""
+    for address, one in references_of(desired).items():
+        component, _, tunable = address.partition(".")
+        if address in unaligned:
+            yield Change(component=component, tunable=tunable, after=one.as_json(), text=unaligned[address])
 
 
 def _by_address(changes: Iterable[Change]) -> dict[tuple[str, str], Change]:
@@ -142,25 +152,30 @@ def _value_rows(
             desired=after.get(tunable),
             live=live.get(tunable),
             edited=committed is not None and before.get(tunable) != after.get(tunable),
-            near=f"({show_value(live.get(tunable))})",
+            near=_near(off.get((name, tunable)), live.get(tunable), after.get(tunable)),
             unit=kinds[tunable].unit if tunable in kinds else "",
-            **_verdict((name, tunable), off, moved),
+            **_verdict((name, tunable), off, moved, by_light=is_reference(after.get(tunable))),
         )
         for tunable in sorted(before.keys() | after.keys())
     ]
+
+
+def _near(change: Change | None, live: Any, goal: Any) -> str:
+    """Return what is told beside a value that is not exactly right: of one that light finds why it is not."""
+    return change.text if change is not None and is_reference(goal) else f"({show_value(live)})"
 
 
 def _values(state: LabState | None, name: str) -> Mapping[str, Any]:
     return state.components[name].given if state and name in state.components else {}
 
 
-def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes) -> dict[str, Any]:
+def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes, *, by_light: bool = False) -> dict[str, Any]:
     change, drift = off.get(key), moved.get(key)
     is_off = change is not None and change.counts
     return {
         "off": is_off,
         "drifted": is_off and drift is not None and not drift.tolerated,
-        "exact": change is None,
+        "exact": change is None and not by_light,
         "requested": change is not None and bool(change.requested),
     }
 
@@ -189,18 +204,18 @@ def _aside(setup: Setup, name: str, slot: str, live: Pose) -> str:
 
 def refuse_unapplied(
     setup: Setup, committed: LabState | None, desired: LabState, seen: Observation,
-    components: Collection[str] | None = None,
+    components: Collection[str] | None = None, *, unaligned: Mapping[str, str] = NOTHING,
 ) -> None:  # fmt: skip
     """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied.
 
     Edits of a part that nobody sees, or not surely, count as well: nobody can say that they were. `components`: only of
-    these.
+    these. `unaligned`: see `compare`.
     """
     edited = None if committed is None else {c.component for c in diff_states(setup, committed, desired)}
     among = edited if components is None else set(components) & (edited if edited is not None else set(components))
     if among is not None and not among:
         return
-    rows = compare(setup, committed, desired, seen, only=among).rows
+    rows = compare(setup, committed, desired, seen, only=among, unaligned=unaligned).rows
     unsure = {row.component: row.note for row in rows if row.note}
     edits = [
         row for row in rows

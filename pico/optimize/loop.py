@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from pico.optimize.problem import Algorithm, Point, Problem
+from pico.optimize.problem import Algorithm, Point, Problem, Solution, Solver
 
 STOPPED = "it was stopped"
 """Why it ended where somebody asked for that."""
@@ -36,7 +36,7 @@ class Limits:
 @dataclass(frozen=True)
 class Ask:
     """Tunables to be set, and whether to measure then. `why`: `try`, `back` to where light was, `best` to be restored
-    and measured again, `start` because nothing better was found."""
+    and measured again, `start` because nothing better was found, `offset` from the best, where they are to be left."""
 
     point: Point
     measure: bool = True
@@ -68,7 +68,8 @@ class Tried:
 @dataclass(frozen=True)
 class Outcome:
     """How a loop ended. `first`, `last`: the results with which it began and ended (None: not measured); `tried`: all
-    that was measured, in order; `met`: the goal is met; `why` it ended; `fault`: what failed."""
+    that was measured, in order; `met`: the goal is met; `why` it ended; `fault`: what failed; `solution`: where the
+    algorithm's model has the best, where the tunables were left by an offset from there."""
 
     first: Mapping[str, float] | None
     last: Mapping[str, float] | None
@@ -77,6 +78,7 @@ class Outcome:
     why: str
     fault: str = ""
     seconds: float = 0.0
+    solution: Solution | None = None
 
 
 Loop = Generator[Ask, Reading, Outcome]
@@ -102,15 +104,16 @@ class _Walk:
         self.began: float | None = None
         self.now = self.longest = 0.0
         self.lost, self.fault, self.unknown, self.glaring = 0, "", "", False
+        self.solution: Solution | None = None
 
     def run(self, refine: Making, acquire: Making | None) -> Loop:
         yield from self._ask(self.problem.start)
-        while not (why := self._over()) and self.glaring:
+        while not (why := self._over()) and self.glaring and acquire is not None:
             if self.lost >= LOST:
                 return (yield from self._end("there is too much light to begin with"))
             yield from self._ask(self.problem.start)
         if not why and self.good is None and acquire is not None:
-            why = yield from self._stage(acquire(self.problem), until_light=True)
+            why = yield from self._stage(acquire(replace(self.problem, offset=None)), until_light=True)
             if self.good is None:
                 return (yield from self._end(why or "no light was found"))
             why = self._over()
@@ -125,6 +128,7 @@ class _Walk:
         while not (why := self._over()):
             points = algorithm.suggest(1)
             if not points:
+                self.solution = algorithm.solution if isinstance(algorithm, Solver) else None
                 return algorithm.finished or "there is nothing more to try"
             point = self.problem.within(points[0])
             if known is not None and all(known.result.get(n) == v for n, v in point.items()):
@@ -195,6 +199,8 @@ class _Walk:
     def _end(self, why: str) -> Loop:
         """Bring the tunables to the best point, measured again; or to where they began, where nothing better is."""
         first = self.tried[0] if self.tried else None
+        if self.problem.offset is not None and self.solution is not None and not self.fault:
+            return (yield from self._leave(why, self.solution, self.problem.offset))
         stopped = self.fault
         if self.unknown and not self.fault and (self.good is None or self.lost):
             why = f"{why} ({self.unknown})"
@@ -217,7 +223,7 @@ class _Walk:
         last = self.tried[-1] if self.tried else None
         believed = last is not None and self._believed(last.result) and not stopped
         reached = believed and last is not None and (self.problem.aim != "reach" or self.problem.met(last.result))
-        spent = ("the budget", STOPPED, "it comes no nearer", "the light", "the readings do not")
+        spent = ("the budget", STOPPED, "it comes no nearer", "the light", "the readings do not", "there is too little")
         met = reached and (self.problem.aim == "reach" or not why.startswith(spent))
         seen = first.result if first and self._believed(first.result) else None
         return Outcome(
@@ -234,6 +240,24 @@ class _Walk:
         least = {n: _SURE * r.get(f"{output}_sigma", 0.0) for n, r in (("first", first.result), ("last", last))}
         dark = abs(last.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
         return dark and len(self.tried) + 2 <= self.limits.measurements
+
+    def _leave(self, why: str, solution: Solution, offset: Mapping[str, float]) -> Loop:
+        """Leave the tunables by an offset from where the best is, not the best that was read, as finely as they can
+        be set, and measure there; again where that reading is lost."""
+        goal = self.problem.within({name: at + offset.get(name, 0.0) for name, at in solution.point.items()})
+        goal = {v.name: v.settable(goal[v.name]) for v in self.problem.variables}
+        last = yield from self._ask(goal, why="offset")
+        if not self.problem.measured(last.result) and len(self.tried) < self.limits.measurements and not self.fault:
+            last = yield from self._ask(goal, why="offset")
+        there = self.problem.measured(last.result) and not self.fault
+        if not there and not self.fault:
+            why = f"{why}, but nothing was measured where it is to stand" + (
+                f" ({self.unknown})" if self.unknown else ""
+            )
+        return Outcome(
+            self.tried[0].result, last.result if there else None, tuple(self.tried), there, why, self.fault,
+            self.now - (self.began or 0.0), solution,
+        )  # fmt: skip
 
     def _worse(self, first: Tried) -> bool:
         """Whether it is worse now than it began, by two standard deviations."""
@@ -259,8 +283,6 @@ def believed(problem: Problem, limits: Limits, result: Mapping[str, float]) -> b
 
 def started(problem: Problem, at: Mapping[str, float]) -> Problem:
     """Return a problem whose tunables stand at a point."""
-    from dataclasses import replace
-
     return replace(problem, variables=tuple(replace(v, start=at.get(v.name, v.start)) for v in problem.variables))
 
 

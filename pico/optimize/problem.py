@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, runtime_checkable
 
 from pico.diagnostics import PicoError, error
 
@@ -43,6 +43,13 @@ class Variable:
     def likely(self) -> float:
         """How far from its start its best value is likely to be."""
         return min(self.reach, self.span) if self.reach else self.span / 2
+
+    def settable(self, value: float) -> float:
+        """Return the nearest value that its axis can be set to, within the bounds."""
+        if self.resolution <= 0:
+            return value
+        nearest = round(value / self.resolution) * self.resolution
+        return min(self.high, max(self.low, round(nearest, 9)))
 
     def within(self, value: float) -> float:
         """Return a value brought within the bounds: by its period where that leads there, else to the nearer one."""
@@ -91,6 +98,7 @@ class Problem:
     high as can be, `tolerance` (of that output, 0 for none) being how near to the best is near enough. `floor`: the
     least that a maximized or minimized output of a beam may be worth, below which nothing is believed (dark).
     `nominal`: what is known before anything is measured, None for nothing.
+    `offset`: how far from the best, as the algorithm's model has it, its tunables are left; None: at the best measured.
     """
 
     variables: tuple[Variable, ...]
@@ -99,6 +107,7 @@ class Problem:
     target: Mapping[str, float] = field(default_factory=dict)
     tolerance: Mapping[str, float] = field(default_factory=dict)
     nominal: Nominal | None = None
+    offset: Mapping[str, float] | None = None
 
     @property
     def start(self) -> Point:
@@ -169,9 +178,28 @@ class Algorithm(Protocol):
 
 
 @dataclass(frozen=True)
+class Solution:
+    """Where an algorithm's model of the readings has the best, with one standard deviation of each tunable."""
+
+    point: Mapping[str, float]
+    sigma: Mapping[str, float]
+
+
+@runtime_checkable
+class Solver(Protocol):
+    """An algorithm with a model of the readings, that knows better than the best reading where the best is."""
+
+    @property
+    def solution(self) -> Solution | None:
+        """Where the best is once the algorithm is `finished`; None where it could not tell."""
+        ...
+
+
+@dataclass(frozen=True)
 class Declaration:
     """What a file of algorithms brings: its name is the file's. `aims` that it can, how many `variables` and `outputs`
-    it takes (least and most), its `parameters` with their defaults, and how many measurements are `usual`."""
+    it takes (least and most), its `parameters` with their defaults, and how many measurements are `usual`. `solves`: it
+    is a `Solver`."""
 
     what: str
     aims: tuple[Aim, ...]
@@ -179,6 +207,7 @@ class Declaration:
     outputs: tuple[int, int] = (1, 1)
     parameters: Mapping[str, float] = field(default_factory=dict)
     usual: int = 40
+    solves: bool = False
 
     def refusal(self, problem: Problem) -> str:
         """Return why it cannot solve a problem, in words that follow its name; empty where it can."""
@@ -192,4 +221,6 @@ class Declaration:
             return f"needs {how} numbers measured, not {len(problem.outputs)}"
         if problem.aim not in self.aims:
             return f"cannot {problem.aim}"
+        if problem.offset is not None and not self.solves:
+            return "does not tell where the best is by its model, from which an offset could be counted"
         return ""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
 
-from pico.optimize.problem import Point, Problem
+from pico.optimize.problem import Point, Problem, Solution
 
 Result = Mapping[str, float]
-Steps = Generator[Point, Result, str]
-"""Yields points, is sent what was measured at each, and returns why it is done."""
+Steps = Generator[Point, Result, "str | tuple[str, Solution]"]
+"""Yields points, is sent what was measured at each, and returns why it is done; with where the best is by its model,
+where it has one."""
 
 
 class Stepwise:
@@ -21,6 +22,7 @@ class Stepwise:
     def __init__(self, problem: Problem, steps: Steps) -> None:
         self._problem, self._steps = problem, steps
         self._finished = ""
+        self._solution: Solution | None = None
         self._pending: Point | None = None
         self._advance(None)
 
@@ -28,6 +30,11 @@ class Stepwise:
     def finished(self) -> str:
         """Why nothing more is to be tried, empty while something is."""
         return self._finished
+
+    @property
+    def solution(self) -> Solution | None:
+        """Where the model of the steps has the best, once they are done; None where they do not tell."""
+        return self._solution
 
     def suggest(self, num_points: int | None = None) -> list[Point]:
         """Return the next point to try; none where it is done."""
@@ -45,6 +52,7 @@ class Stepwise:
         try:
             point = next(self._steps) if result is None else self._steps.send(result)
         except StopIteration as stop:
-            self._pending, self._finished = None, stop.value or "done"
+            said, self._solution = stop.value if isinstance(stop.value, tuple) else (stop.value, None)
+            self._pending, self._finished = None, said or "done"
         else:
             self._pending = self._problem.within(point)

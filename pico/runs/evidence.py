@@ -155,6 +155,8 @@ def _there(setup: Setup, state: LabState, one: tuple[str, str], success: Success
         place = place_of(setup, state, component)
         return part.pose is not None and deviation(setup, component, part.pose, *place) != "off"
     value, own = part.values.get(tunable), kind.tunables.get(tunable)
+    if component in state.components and tunable in state.components[component].by_light:
+        return value is not None and value.value is not None  # how it stands is told by its goal
     goal_value = state.components[component].values.get(tunable) if component in state.components else None
     if value is None or value.value is None or goal_value is None or own is None:
         return False

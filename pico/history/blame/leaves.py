@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from pico.manifest.text.tree import Map, Node, Scalar, plain
-from pico.model.by_light import OFFSET, is_reference
+from pico.model.state import OFFSET, is_reference
 
 Leaf = str
 """A value as JSON text: `90`, `true`, `"open"`, `"1.2 cm"`, `[520,420,30]` (a pose: mm, mm, deg), `"storage/a1"`."""

@@ -12,12 +12,12 @@ from pico.history.merge.leaves import canonical, leaves, shown
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, parse, plain
-from pico.model.by_light import is_reference
 from pico.model.catalog import Tunable
 from pico.model.diff import Change, describe_move, describe_value
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
 from pico.model.record import as_json
+from pico.model.state import is_reference
 
 _PLACE = ("slot", "pose")
 

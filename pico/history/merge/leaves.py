@@ -8,7 +8,7 @@ from typing import Any
 
 from pico.manifest.text.splice import write_flow
 from pico.manifest.text.tree import List, Map, Node, Scalar, plain
-from pico.model.by_light import is_reference
+from pico.model.state import is_reference
 
 Path = tuple[str, ...]
 Groups = Mapping[str, tuple[tuple[str, ...], ...]]
@@ -185,7 +185,7 @@ def shown(node: Node | None) -> str:
     if node is None:
         return "absent"
     value = plain(node)
-    text = write_flow(value)
+    text = write_flow(value) if not isinstance(value, list) else str(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar
+from pico.model.state import is_reference
 
 WIDEST = 120
 """A flow collection that was on several lines is put on one where it stays within this width."""
@@ -87,8 +88,24 @@ class Layout:
             entry.value = _flow(self.content, node)
             self.at = node.end
             entry.trail = self._trail()
+        elif "*" in block_style and isinstance(node, Map) and (line := self._on_one_line(node)):
+            entry.lead += [line for _, line in self._gap(node.start) if line]
+            entry.value, self.at = line, max(value.end for _, value in node.entries.values())
+            entry.trail = self._trail()
         else:
             self._fill_block(entry, node, block_style)
+
+    def _on_one_line(self, node: Map) -> str:
+        """Return a set-point that light finds, in block style, as the one line that it is; empty for anything else."""
+        if node.flow or not is_reference(node.entries):
+            return ""
+        texts = {key.text: self.content[value.start : value.end] for key, value in node.entries.values()}
+        plain = all(isinstance(value, Scalar) or value.flow for _, value in node.entries.values())
+        clean = not any(_LINE.search(text) or "#" in text or not text for text in texts.values())
+        end = max(value.end for _, value in node.entries.values())
+        if not plain or not clean or any(True for _ in comments(self.content, node.start, end, node)):
+            return ""
+        return "{" + ", ".join(f"{key}: {text}" for key, text in texts.items()) + "}"
 
     def _fill_block(self, entry: Entry, node: Map | List, block_style: frozenset[str]) -> None:
         if node.flow:
@@ -112,7 +129,7 @@ class Layout:
         text = self.content[node.start : node.end]
         if not (node.entries if isinstance(node, Map) else node.items):
             return "#" not in text
-        if "*" in block_style and isinstance(node, Map):
+        if "*" in block_style and isinstance(node, Map) and not is_reference(node.entries):
             return False
         if any(True for _ in comments(self.content, node.start, node.end, node)):
             return False

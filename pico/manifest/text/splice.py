@@ -10,7 +10,7 @@ from typing import Any
 
 from pico.manifest.text.scalars import resolve
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar
-from pico.model.by_light import is_reference
+from pico.model.state import is_reference
 
 _BARE = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 _BREAK = re.compile(r"\r\n|\n|\r")

@@ -12,17 +12,22 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.optimize.problem import Declaration, Problem, Variable
+from pico.optimize.problem import Declaration, Problem, Solution, Variable
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
     what="the law of Malus, fitted to a few readings",
     aims=("minimize", "maximize"), variables=(1, 1),
-    parameters={"cycle": 180.0, "within": 0.1}, usual=5,
+    parameters={"cycle": 180.0, "within": 0.1}, usual=5, solves=True,
 )  # fmt: skip
 """`cycle`: after which readings repeat (180 deg of a polarizer, 90 of a half-wave plate); `within`: how well the place
 is to be known, in the tunable's unit."""
 _MOST = 20
+_ANYWHERE = (0.0, 1 / 2, 1 / 4, 3 / 4, 1 / 8, 5 / 8, 3 / 8, 7 / 8)
+"""Where the first reading is sought, in cycles from where it stands: where it is too dark or too bright to be read, it
+is neither half a cycle farther."""
+_NEARBY = (1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64)
+"""Where the second is sought, from the first one."""
 _NOISE = 0.005
 _FLOOR = 1e-6
 _AGREES, _SHARE = 8.0, 0.01
@@ -41,15 +46,16 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
     variable, output = problem.variables[0], problem.outputs[0]
     k = 2 * math.pi / parameters["cycle"]
     seen: list[Result] = []
-    first = yield {variable.name: variable.start}
-    seen += [first] if problem.measured(first) else []
-    quarter = parameters["cycle"] / 4
-    at = variable.start + quarter if variable.start + quarter <= variable.high else variable.start - quarter
-    second = yield {variable.name: at}
-    seen += [second] if problem.measured(second) else []
+    for probes in (_ANYWHERE, _NEARBY):
+        base = seen[0][variable.name] if seen else variable.start
+        for share in probes:
+            result = yield {variable.name: _from(variable, base, share * parameters["cycle"])}
+            if problem.measured(result):
+                seen.append(result)
+                break
+        else:
+            return f"there is too little to see: {len(seen)} readings of {variable.name}"
     for _ in range(_MOST):
-        if len(seen) < 2:
-            return "there is too little to see"
         if len(seen) == 2:
             at = _guess(problem, variable, output, seen, k)
         else:
@@ -58,11 +64,20 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
                 last = yield {variable.name: place}
                 seen += [last] if problem.measured(last) else []
                 if problem.measured(last) and _agrees(variable, output, seen, k, fit):
-                    return "the place of the extremum is known"
+                    place, sigma, _ = _fitted(problem, variable, output, seen, k)
+                    return "the place of the extremum is known", Solution(
+                        {variable.name: place}, {variable.name: sigma}
+                    )
             at = _telling(problem, variable, output, seen, k, fit)
         result = yield {variable.name: at}
         seen += [result] if problem.measured(result) else []
     return "the readings do not follow the law of Malus well enough"
+
+
+def _from(variable: Variable, base: float, away: float) -> float:
+    """Return the value that is so far from another one; on its other side where the bounds end before, and nothing
+    comes round."""
+    return variable.within(base + away if variable.period or base + away <= variable.high else base - away)
 
 
 def _guess(problem: Problem, variable: Variable, output: str, seen: list[Result], k: float) -> float:
