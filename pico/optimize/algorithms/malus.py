@@ -34,6 +34,13 @@ _AGREES, _SHARE = 8.0, 0.01
 """Standard deviations, and share of the brightest reading, by which a reading may be off the law."""
 _FLICKER = 0.002
 """By which share a laser is another from reading to reading, which no standard deviation of one reading tells."""
+_DARKER, _SAFE = 0.03, 0.8
+"""By which share less noise than in the dimmest reading is hoped for where it is dimmer still; which share of what was
+too bright is not."""
+_TIMES, _CLOSE = 6.0, 0.01
+"""How far beside a null that is known too badly readings are taken: in standard deviations, and at least in cycles."""
+_AWAY = np.concatenate([s * np.geomspace(0.25, 0.001, 40) for s in (1, -1)])
+"""How far from the extremum readings may tell of it, in cycles."""
 Array = NDArray[np.float64]
 
 
@@ -46,32 +53,45 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
     variable, output = problem.variables[0], problem.outputs[0]
     k = 2 * math.pi / parameters["cycle"]
     seen: list[Result] = []
-    for probes in (_ANYWHERE, _NEARBY):
-        base = seen[0][variable.name] if seen else variable.start
-        for share in probes:
-            result = yield {variable.name: _from(variable, base, share * parameters["cycle"])}
+    unread: list[float] = []
+    for third in (False, False, True):
+        for at in _third(problem, variable, output, seen, k) if third else _probes(variable, seen, parameters["cycle"]):
+            result = yield {variable.name: at}
             if problem.measured(result):
                 seen.append(result)
                 break
+            unread.append(at)
         else:
             return f"there is too little to see: {len(seen)} readings of {variable.name}"
     for _ in range(_MOST):
-        if len(seen) == 2:
-            at = _guess(problem, variable, output, seen, k)
-        else:
-            place, sigma, fit = _fitted(problem, variable, output, seen, k)
-            if sigma <= parameters["within"] / 3:
-                last = yield {variable.name: place}
-                seen += [last] if problem.measured(last) else []
-                if problem.measured(last) and _agrees(variable, output, seen, k, fit):
-                    place, sigma, _ = _fitted(problem, variable, output, seen, k)
-                    return "the place of the extremum is known", Solution(
-                        {variable.name: place}, {variable.name: sigma}
-                    )
-            at = _telling(problem, variable, output, seen, k, fit)
+        place, sigma, fit = _fitted(problem, variable, output, seen, k)
+        known = sigma <= parameters["within"] / 3
+        told, at = (sigma, place) if known else _telling(problem, variable, output, seen, unread, k, fit)
+        if told > parameters["within"] / 3 and problem.aim == "minimize":
+            at = _beside(variable, seen, unread, place, max(_TIMES * sigma, _CLOSE * parameters["cycle"]))
         result = yield {variable.name: at}
-        seen += [result] if problem.measured(result) else []
+        if not problem.measured(result):
+            unread.append(at)
+            continue
+        seen.append(result)
+        if known and _agrees(variable, output, seen, k, fit):
+            place, sigma, _ = _fitted(problem, variable, output, seen, k)
+            return "the place of the extremum is known", Solution({variable.name: place}, {variable.name: sigma})
     return "the readings do not follow the law of Malus well enough"
+
+
+def _probes(variable: Variable, seen: list[Result], cycle: float) -> list[float]:
+    """Return where the first two readings are sought, one after the other until one is."""
+    shares, base = (_NEARBY, seen[0][variable.name]) if seen else (_ANYWHERE, variable.start)
+    return [_from(variable, base, share * cycle) for share in shares]
+
+
+def _third(problem: Problem, variable: Variable, output: str, seen: list[Result], k: float) -> list[float]:
+    """Return where the third reading is sought: the two places of the extremum that two readings leave, the nearer
+    first; then near the two."""
+    x1, x2 = (r[variable.name] for r in seen)
+    more = [variable.within(at) for at in ((x1 + x2) / 2, x1 - (x2 - x1) / 2, x2 + (x2 - x1) / 2)]
+    return [*_guesses(problem, variable, output, seen, k), *more]
 
 
 def _from(variable: Variable, base: float, away: float) -> float:
@@ -80,9 +100,9 @@ def _from(variable: Variable, base: float, away: float) -> float:
     return variable.within(base + away if variable.period or base + away <= variable.high else base - away)
 
 
-def _guess(problem: Problem, variable: Variable, output: str, seen: list[Result], k: float) -> float:
-    """Return where the extremum is if the floor is 0: of the two places that two readings leave, the one that is nearer
-    to where it began."""
+def _guesses(problem: Problem, variable: Variable, output: str, seen: list[Result], k: float) -> list[float]:
+    """Return where the extremum is if the floor is 0: the two places that two readings leave, the one that is nearer to
+    where it began first."""
     (x1, y1), (x2, y2) = ((r[variable.name], max(r[output], 0.0)) for r in seen)
     ratio = math.sqrt(y1 / y2) if y2 > 0 else 1e6
     turn = k * (x2 - x1) / 2
@@ -94,7 +114,7 @@ def _guess(problem: Problem, variable: Variable, output: str, seen: list[Result]
         places.append(null if problem.aim == "minimize" else null + math.pi / k)
     cycle = 2 * math.pi / k
     near = [variable.start + (p - variable.start + cycle / 2) % cycle - cycle / 2 for p in places]
-    return variable.within(min(near, key=lambda p: abs(p - variable.start)))
+    return [variable.within(p) for p in sorted(near, key=lambda p: abs(p - variable.start))]
 
 
 def _scaled(variable: Variable, output: str, seen: list[Result]) -> tuple[Array, Array, Array]:
@@ -148,19 +168,48 @@ def _spread(fit: Array, covariance: NDArray[np.floating], k: float) -> float:
     return math.sqrt(max(0.0, float(slope @ covariance @ slope)))
 
 
-def _telling(problem: Problem, variable: Variable, output: str, seen: list[Result], k: float, fit: Array) -> float:
-    """Return the value at which a reading will tell most about the place of the extremum."""
+def _telling(
+    problem: Problem, variable: Variable, output: str, seen: list[Result], unread: list[float], k: float, fit: Array
+) -> tuple[float, float]:
+    """Return the value at which a reading will tell most about the place of the extremum, among those that are neither
+    too bright nor too dark to be read, as far as `unread` ones tell; and how well the place is known then."""
     x, y, sigma = _scaled(variable, output, seen)
     share = float(np.median(sigma / np.maximum(np.abs(y), _FLOOR)))
-    rows = _rows(x, k) / sigma[:, None]
+    rows, least = _rows(x, k) / sigma[:, None], _floor(y, sigma, share)
     normal = rows.T @ rows
     place, cycle = _place(problem, variable, fit, k), 2 * math.pi / k
-    best = (math.inf, place)
-    for away in np.linspace(-0.25, 0.25, 81) * cycle:
-        at = variable.within(place + float(away))
-        row = _rows(np.array([at]), k)[0]
-        expected = max(abs(float(row @ fit)), _FLOOR)
-        noise = max(share * expected, float(sigma.min()))
-        there = np.linalg.pinv(normal + np.outer(row, row) / noise**2, hermitian=True, rcond=1e-14)
-        best = min(best, (_spread(fit, there, k), at))
-    return best[1]
+    lowest, highest = _readable(y, [float(_rows(np.array([at]), k)[0] @ fit) for at in unread])
+    places = np.array([variable.within(place + float(away)) for away in _AWAY * cycle])
+    row = _rows(places, k)
+    expected = np.maximum(np.abs(row @ fit), _FLOOR)
+    noise = np.maximum(share * expected, least)
+    more = row[:, :, None] * row[:, None, :] / (noise**2)[:, None, None]
+    there = np.linalg.pinv(normal + more, hermitian=True, rcond=1e-14)
+    told = [_spread(fit, one, k) if lowest < y < highest else math.inf for one, y in zip(there, expected, strict=True)]
+    best = int(np.argmin(told))
+    return told[best], float(places[best])
+
+
+def _beside(variable: Variable, seen: list[Result], unread: list[float], place: float, away: float) -> float:
+    """Return a value so far from a null, on the side of it that has been read less closely: two readings that lie on
+    both sides of a null tell of its place without knowing how dark it is."""
+    known = [r[variable.name] for r in seen] + unread
+    sides = [variable.within(place + away), variable.within(place - away)]
+    return max(sides, key=lambda at: min(abs(at - one) for one in known))
+
+
+def _floor(y: Array, sigma: Array, share: float) -> float:
+    """Return the noise of a reading without light, in shares of the largest reading: that of the dimmest reading where
+    its noise is no share of it; else much less, as nobody knows yet."""
+    dim = int(np.argmin(np.abs(y)))
+    if sigma[dim] > 3 * share * abs(y[dim]):
+        return float(sigma[dim])
+    return max(_FLOOR * share, _DARKER * share * abs(float(y[dim])))
+
+
+def _readable(y: Array, unread: list[float]) -> tuple[float, float]:
+    """Return between which readings others may be expected to be read, in shares of the largest one: what could not be
+    read though it is brighter, or darker, than all that was read."""
+    bright = [one for one in unread if one > float(y.max())]
+    dark = [one for one in unread if one < float(y.min())]
+    return max(dark, default=-math.inf), _SAFE * min(bright, default=math.inf)
