@@ -1,0 +1,1 @@
+"""Set-points that are more than numbers."""
