@@ -23,7 +23,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from oracles.optics_references import RAYS, surfaces_of  # noqa: E402
 
-from pico.bench.picture_contents import standing, wanted  # noqa: E402
+from pico.bench.picturing.contents import standing, wanted  # noqa: E402
 from pico.drawing.beams import standing as upright  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.optics.light import Light, light_of  # noqa: E402

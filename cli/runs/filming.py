@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def film(session: Session, bench: Bench, plan: Plan, recording: Recording, events: Sequence[Event], path: Path) -> None:
     """Write the film of a run and say where it is; raises PicoError."""
-    from pico.bench.picture_contents import captions
+    from pico.bench.picturing.contents import captions
 
     done, total = 0, 1
     pictures = bench.moves.film(recording, session.folder / path, captions=captions(events, view.titles(plan)))

@@ -12,10 +12,10 @@ from datetime import datetime
 from types import MappingProxyType
 from typing import Literal
 
+from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
-from pico.bench.setpoints.by_light import unaligned
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.link.opening import remembered
 from pico.history import runs as recording

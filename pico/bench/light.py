@@ -65,7 +65,7 @@ class Lights:
         return image
 
     def _standing(self, revision: str | None, manifest: bool) -> tuple[Setup, dict[str, Pose], Values, str]:
-        from pico.bench.picture_contents import places, standing, wanted, with_strangers
+        from pico.bench.picturing.contents import places, standing, wanted, with_strangers
         from pico.drawing.beams import standing as upright
 
         setup = self.folder.setup

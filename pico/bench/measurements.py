@@ -113,7 +113,7 @@ class Measurements:
         """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
         whether any bench ever stood as that commit (HEAD for the manifest) says. `measurements`: what was measured just
         now, by address."""
-        from pico.bench.setpoints.by_light import unaligned, unfound
+        from pico.bench.by_light import unaligned, unfound
         from pico.history import runs as recording
         from pico.model.expectation import Verified
         from pico.policy.expectations import check_expectations

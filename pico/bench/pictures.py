@@ -44,7 +44,7 @@ class Pictures:
         `size`: width and height [pixels], without that list; no height: as high as what is in it. `out`: write it
         there, too, as PNG. Raises PicoError.
         """
-        from pico.bench.picture_contents import goals, marks, standing, steps, wanted
+        from pico.bench.picturing.contents import goals, marks, standing, steps, wanted
         from pico.drawing.picture import render, write_png
 
         if plan is True:
@@ -81,7 +81,7 @@ class Pictures:
     def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:
         """Return a drawing of the bench from above as SVG at true scale, with its parts list: as it is, or as a
         revision or the manifest wants it; raises PicoError."""
-        from pico.bench.picture_contents import standing, wanted
+        from pico.bench.picturing.contents import standing, wanted
         from pico.drawing.sheet import sheet
 
         setup, poses, _, values = self._live()
@@ -95,7 +95,7 @@ class Pictures:
     def render_diff(self, a: str | None = None, b: str | None = None, *, out: Path | None = None) -> Image:
         """Return a picture (height, width, 3) from above of how state `a` (HEAD) becomes `b` (the manifest), numbered
         in the order of `diff`; raises PicoError."""
-        from pico.bench.picture_contents import differences, standing, wanted
+        from pico.bench.picturing.contents import differences, standing, wanted
         from pico.drawing.picture import render, write_png
 
         setup, before = self.folder.setup, self.folder.state_at(a or "HEAD")
@@ -138,7 +138,7 @@ class Pictures:
 
     def _live(self) -> tuple[Setup, dict[str, Place], dict[str, Joints], Values]:
         """Return the bench with strangers on it, where everything is, the joints of each robot, and known tunables."""
-        from pico.bench.picture_contents import places, with_strangers
+        from pico.bench.picturing.contents import places, with_strangers
 
         seen = self.opened.observe()
         in_space = self.opened.sim.placements() if self.opened.backend_name == SIMULATOR else {}

@@ -150,7 +150,7 @@ class Plans:
         if not (references_of(state) or (setup.lab.goals and plan.operations)):
             return ()
         from pico.bench.aligned import made_stale, standing
-        from pico.bench.setpoints.by_light import staying, told
+        from pico.bench.by_light import staying, told
         from pico.planning.by_light import sought_in, with_goals
 
         stands = standing(opened, seen, state, wanted=True)

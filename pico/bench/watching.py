@@ -8,13 +8,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.bench.by_light import unaligned, unfound
 from pico.bench.cut_short import told_first
 from pico.bench.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
 from pico.bench.in_use import moved_by
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.bench.setpoints.by_light import unaligned, unfound
 from pico.diagnostics import ExitCode, PicoError
 from pico.model.drift import drift_of
 from pico.model.observation import Observation

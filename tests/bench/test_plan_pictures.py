@@ -14,7 +14,7 @@ import pico
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
 from pico.bench.bench import Bench
-from pico.bench.picture_contents import goals, marks, places
+from pico.bench.picturing.contents import goals, marks, places
 from pico.drawing.conflict_marks import Mark
 from pico.history.examples.example import make_example
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from physical import LABS
 
-from pico.bench.picture_contents import standing
+from pico.bench.picturing.contents import standing
 from pico.drawing.canvas import Canvas
 from pico.drawing.dimensions import Dimension
 from pico.drawing.label_places import Box, bounds, meets, overlap

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from commanding import Pico
 
-from pico.bench.picture_contents import standing, wanted
+from pico.bench.picturing.contents import standing, wanted
 from pico.drawing.beams import beam_paths
 from pico.drawing.beams import standing as upright
 from pico.drawing.picture import carried

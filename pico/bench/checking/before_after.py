@@ -14,7 +14,7 @@ def draw(candidate: Candidate, before: Origin, found: LabChecked, folder: Path, 
     nothing differs or where it can't be read. Raises PicoError where a file can't be written."""
     if found.plan is None or not found.changes:
         return ()
-    from pico.bench.picture_contents import goals, marks, standing, steps
+    from pico.bench.picturing.contents import goals, marks, standing, steps
     from pico.drawing.picture import render, write_png
 
     setup, wanted = candidate.manifests.require()

@@ -57,7 +57,7 @@ def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit
 
 def pictures_of(setup: Setup, state: LabState) -> Iterator[File]:
     """Yield pictures of the bench as it stands in a state."""
-    from pico.bench.picture_contents import standing
+    from pico.bench.picturing.contents import standing
     from pico.drawing.picture import png, render
 
     poses = standing(setup, state)

@@ -1,1 +1,0 @@
-"""Set-points that are more than numbers."""
