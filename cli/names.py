@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "laser": "arming a laser",
     "budget": "error budgets",
     "morning": "the check of a morning",
     "swap": "exchanging one part for another",

@@ -21,7 +21,7 @@ def stop(context: typer.Context, now: Now = False) -> None:
       pico stop
       pico stop --now
     """
-    from pico.bench.stopping import stop
+    from pico.bench.running.stopping import stop
 
     session = Session.of(context)
     session.show(view, *stop(session.folder, now=now))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.model.expectation import Verified
-from pico.model.proof import Standing
+from pico.model.expectation import Standing, Verified
 from pico.model.record import as_json
 
 from .diff import lines

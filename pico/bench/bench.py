@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pico.bench.cameras import Cameras
     from pico.bench.commits import CommitMode, Commits
     from pico.bench.goals import Goals, Optimized
+    from pico.bench.lasers import Lasers
     from pico.bench.light import Lights
     from pico.bench.measurements import Measurements
     from pico.bench.moves import Moves
@@ -80,6 +81,13 @@ class Bench(Opened):
         from pico.bench.placing import Placing
 
         return Placing(self)
+
+    @cached_property
+    def lasers(self) -> Lasers:
+        """What lets lasers emit."""
+        from pico.bench.lasers import Lasers
+
+        return Lasers(self)
 
     @cached_property
     def pictures(self) -> Pictures:

@@ -87,8 +87,11 @@ class Measurements:
 
     def dark(self) -> str:
         """Return what keeps light back on the bench, or where to see where it goes."""
-        setup = self.opened.setup
-        known = self.opened.observe().known_values
+        from pico.optics.audit.lasers import laser_class
+        from pico.planning.checks.emission import licensed
+
+        setup, seen = self.opened.setup, self.opened.observe()
+        known = seen.known_values
         dark = [
             f"{name}.{tunable} is {'false' if value is False else value}"
             for name in sorted(setup.lab.inventory)
@@ -96,7 +99,11 @@ class Measurements:
             for tunable, value in sorted(known.get(name, {}).items())
             if (tunable, value) in (("shutter", "closed"), ("emission", False))
         ]
-        return ", ".join(dark) or "`pico beam` shows where the light goes"
+        shut = dict.fromkeys(one.partition(".")[0] for one in dark)
+        sources = [n for n in shut if setup.type_of(n).optics.element == "source"]
+        unarmed = [n for n in sources if not licensed(seen, n, laser_class(setup, n, known.get(n, {}))[0])]
+        opens = [f"`pico laser arm {name}` opens it" for name in unarmed]
+        return "; ".join([", ".join(dark), *opens]) if dark else "`pico beam` shows where the light goes"
 
     def _measurables(self) -> frozenset[str]:
         return self.opened.wait(self.opened.edge.describe()).measurables

@@ -104,7 +104,7 @@ class Plans:
         from pico.planning import plan
 
         motion = DeferredMotion(self.opened.setup)
-        start, setup = self._start(seen), self.opened.setup
+        start, setup = self.start_of(seen), self.opened.setup
         found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
         while seen.aligned and found.operations:
             from pico.bench.aligned import not_aligned_after
@@ -116,16 +116,16 @@ class Plans:
             found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
         if told or calibration:
             found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
-        return self._judged(found, seen)
+        return self.judged(found, seen)
 
-    def _start(self, seen: Observation) -> dict[str, Any]:
+    def start_of(self, seen: Observation) -> dict[str, Any]:
         """Return what a plan from this observation starts from, and on what it is to run."""
         head = self.opened.folder.head()
         state = live_state(self.opened.setup, seen).as_json()
         base = Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
         return {"backend": self.opened.backend_name, "fidelity": self.opened.fidelity, "base": base}
 
-    def _judged(self, plan: Plan, seen: Observation) -> Plan:
+    def judged(self, plan: Plan, seen: Observation) -> Plan:
         """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
         stale."""
         plan = with_audit(self.opened, plan, seen)
@@ -176,7 +176,13 @@ class Plans:
         if any(options.get(k) for k in ("exact", "targets", "exclude")) or options.get("prefer") == "shortest-time":
             text = f"{word} is a saved plan, and is taken as it is"
             raise PicoError(error("usage", text, hint="names, --exact, --exclude and --prefer go with `pico plan`"))
-        return found
+        return self._still_let_out(found)
+
+    def _still_let_out(self, plan: Plan) -> Plan:
+        """Return a saved plan without the light that nobody lets out now, and what is said of that."""
+        from pico.planning.light import without_light
+
+        return without_light(self.opened.setup, self.opened.observe(), plan) if plan.operations else plan
 
     def refreshed(self, plan: Plan) -> Plan:
         """Return a new plan from the bench as it stands to the goal of a saved one, for the same components."""
@@ -222,8 +228,8 @@ class Plans:
         from pico import planning
 
         setup, seen = self.opened.setup, self.opened.observe()
-        found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **self._start(seen))
-        return self._judged(found, seen)
+        found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **self.start_of(seen))
+        return self.judged(found, seen)
 
     def setting(self, values: Mapping[str, Value]) -> Plan:
         """Return the plan that brings tunables to values exactly, by address (`p1.angle`), side by side as far as their
@@ -281,9 +287,11 @@ class Plans:
         from pico.execution.checks import require_able
 
         setup, seen = self.opened.setup, self.opened.observe()
-        found = planning.optimize_one(setup, seen, one, first=first, motion=DeferredMotion(setup), **self._start(seen))
+        found = planning.optimize_one(
+            setup, seen, one, first=first, motion=DeferredMotion(setup), **self.start_of(seen)
+        )
         require_able(found, self.opened.wait(self.opened.edge.describe()))
-        judged, told = self._judged(found, seen), cut_short(self.opened, seen)
+        judged, told = self.judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
 
     def with_goals_again(self, plan: Plan, seen: Observation, sought: Mapping[str, Operation]) -> Plan:
@@ -294,7 +302,7 @@ class Plans:
         from pico import planning
 
         setup = self.opened.setup
-        found = self._judged(planning.again(setup, seen, plan, sought, motion=DeferredMotion(setup)), seen)
+        found = self.judged(planning.again(setup, seen, plan, sought, motion=DeferredMotion(setup)), seen)
         return replace(found, diagnostics=tuple(dict.fromkeys(found.diagnostics))).sealed()
 
     def to_steer(self, component: str, tunable: str | None = None) -> Plan:
@@ -307,10 +315,10 @@ class Plans:
 
         setup, seen = self.opened.setup, self.opened.observe()
         found = planning.teleoperate_one(
-            setup, seen, component, tunable, motion=DeferredMotion(setup), **self._start(seen)
+            setup, seen, component, tunable, motion=DeferredMotion(setup), **self.start_of(seen)
         )
         require_able(found, self.opened.wait(self.opened.edge.describe()))
-        judged, told = self._judged(found, seen), cut_short(self.opened, seen)
+        judged, told = self.judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
 
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
@@ -329,7 +337,7 @@ class Plans:
     def _one(self, seen: Observation, request: PrimitiveRequest) -> Plan:
         from pico import planning
 
-        name, setup, options = request.component, self.opened.setup, self._start(seen)
+        name, setup, options = request.component, self.opened.setup, self.start_of(seen)
         if request.primitive == "set":
             assert request.tunable is not None and request.value is not None
             found = planning.set_one(setup, seen, name, request.tunable, request.value, **options)
@@ -347,7 +355,7 @@ class Plans:
             goal = request.slot or request.pose
             assert goal is not None
             found = planning.move_one(setup, seen, name, goal, motion=DeferredMotion(setup), **options)
-        return self._judged(found, seen)
+        return self.judged(found, seen)
 
 
 def _strangers(seen: Observation) -> Iterator[Diagnostic]:

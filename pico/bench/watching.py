@@ -110,7 +110,9 @@ class Watch:
         names = sorted({d.change.component for d in found.beyond if d.by != "operation"})
         if found.held or not names:
             return None
-        plan = Plans(self.opened).plan("HEAD", targets=names)
+        kinds = {name: self.opened.setup.type_of(name).tunables for name in names}
+        light = [f"{n}.{t}" for n, own in kinds.items() for t in own if self.opened.setup.requests(n, t)]
+        plan = Plans(self.opened).plan("HEAD", targets=names, exclude=light)
         if plan.errored:
             raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
         return Moves(self.opened).apply(plan.because("heal")) if plan.operations else None

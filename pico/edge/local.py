@@ -8,10 +8,11 @@ import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import bench_folder
+from pico.attachment import bench_folder, require_attached
 from pico.backends.device import Capabilities, Device
 from pico.backends.devices import opener
 from pico.backends.world import World
@@ -29,16 +30,22 @@ from pico.model.operation import Operation, OperationResult, Outcome
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.edge.aligning import Stopping
+    from pico.edge.armings import Kept
     from pico.edge.attempts import Attempts
     from pico.edge.protocol import Asking
     from pico.edge.recovery import SettledOperation
     from pico.edge.running import Running
     from pico.edge.teleoperating import Teleoperating
+    from pico.model.arming import Arming
     from pico.model.report import RunReport
     from pico.runs.journal import Journal
     from pico.teleop.frames import Answer, Frame
     from pico.twin.snapshot import Snapshot
 
+SHUT_WITHIN = 150
+"""So often is looked whether who has the bench has shut a laser that was disarmed."""
+LOOKS = 10
+"""Between so many of these is looked whether an arming is over."""
 OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
 KNOWN = 32
@@ -72,6 +79,9 @@ class LocalEdge:
         self._first: tuple[Diagnostic, ...] = ()
         self.settled: tuple[SettledOperation, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
+        self._shutting = asyncio.Lock()
+        self._shut: tuple[Diagnostic, ...] = ()
+        self._able: tuple[Device, Capabilities] | None = None
         self._lease: Lease | None = None
         self._halted = False
         self._stopping: Stopping = ""
@@ -159,13 +169,13 @@ class LocalEdge:
     async def observe(self) -> Observation:
         """Look, and return what was seen; raises PicoError where nothing can be seen."""
         self._require_kept()
-        return self._with_hands(await self.device.observe())
+        return await self._with_licences(self._with_hands(await self.device.observe()))
 
     async def look(self) -> Look:
         """Look through the cameras and return what they see; raises PicoError where there are none."""
         self._require_kept()
         found = await self.device.look()
-        return replace(found, observation=self._with_hands(found.observation))
+        return replace(found, observation=await self._with_licences(self._with_hands(found.observation)))
 
     async def peek(self, component: str, measurable: str) -> Measurement:
         """Acquire a measurable as the bench is, without lease; raises PicoError."""
@@ -182,6 +192,93 @@ class LocalEdge:
             return with_picks(self.setup, self.memory, seen) if self.memory else seen
         return seen
 
+    async def _with_licences(self, seen: Observation) -> Observation:
+        from pico.edge.emission import with_licences
+
+        if self._able is None or self._able[0] is not self.device:
+            self._able = self.device, await self.device.describe()
+        return with_licences(self.setup, self.root, self._able[1], self._clock(), seen)
+
+    # who may let it emit
+
+    async def armings(self) -> tuple[Kept, ...]:
+        """Return what the bench keeps of armings, broken ones, too."""
+        from pico.edge.armings import kept
+
+        return kept(self.root)
+
+    async def arm(self, arming: Arming) -> Arming:
+        """Keep an arming, see `pico.edge.protocol.Edge`."""
+        from pico.edge.armings import keep
+        from pico.policy.arming import refusal
+
+        require_attached(self.root)
+        given = replace(arming, backend=(await self.device.describe()).name)
+        if wrong := refusal(self.setup, given, self._clock()):
+            raise PicoError(wrong, ExitCode.DENIED)
+        keep(self.root, given)
+        return given
+
+    async def disarm(self, laser: str, by: str) -> bool:
+        """End what arms a laser, and shut it; see `pico.edge.protocol.Edge`."""
+        from pico.edge.armings import keep
+        from pico.policy.arming import ended
+
+        require_attached(self.root)
+        now, known = self._clock(), {one.laser: one.arming for one in await self.armings()}
+        keep(self.root, ended(self.setup, known.get(laser), laser, by, (await self.device.describe()).name, now))
+        for _ in range(SHUT_WITHIN):
+            if self._lease is None and await self.holder() is None:
+                with suppress(PicoError):  # who takes the bench next shuts it, or has it and does
+                    await self.release(await self.acquire("pico laser disarm"))
+            if laser not in {one.laser for one in await self.armings()}:
+                return True
+            await asyncio.sleep(OBEYS)
+        return False
+
+    async def _shut_over(self) -> None:
+        """Shut the lasers whose arming is over, as operations that the journal has; one that can't be is tried again,
+        by whoever has the bench next."""
+        from pico.edge import emission
+
+        async with self._shutting:
+            for laser, why in emission.over(self.setup, self.root, self._clock()).items():
+                if self._attempts is None or not await self._shut_one(self._attempts, laser, why):
+                    return
+
+    async def _shut_one(self, attempts: Attempts, laser: str, why: str) -> bool:
+        from pico.edge import emission
+        from pico.edge.armings import forget
+
+        operation = emission.shutting(self.setup, await self.observe(), laser, why)
+        if operation is not None:
+            run = self._running.id if self._running is not None else await self._tidying(operation)
+            key = f"{run}/{operation.id}.{self._clock()}/1"
+            attempts.known(operation, key)
+            task = self._under_way[key] = asyncio.create_task(attempts.perform(operation, key))
+            task.add_done_callback(lambda _: self._under_way.pop(key, None))
+            result = await asyncio.shield(task)
+            if self._running is None:
+                self.journal.end_run(run, "done" if result.outcome == "done" else "failed", {result.outcome: 1})
+            if result.outcome != "done":
+                return False
+            self._shut = (*self._shut, emission.told(laser, why))
+        forget(self.root, laser)
+        return True
+
+    async def _tidying(self, operation: Operation) -> str:
+        """Begin a run of one operation that shuts a laser, and return its id."""
+        from pico.edge.about import about_run
+        from pico.edge.emission import shut_plan
+        from pico.edge.running import new_run_id
+
+        able = await self.describe()
+        plan = shut_plan(self.setup, await self.observe(), operation, able)
+        run = new_run_id()
+        about = about_run(self.setup, plan, able)
+        self.journal.begin_run(run, plan.digest, "the edge", document=plan.to_json(), about=about)
+        return run
+
     # who may move it
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
@@ -194,6 +291,7 @@ class LocalEdge:
         """Take the bench for a run, or for who runs nothing; `prepare` is called before the device is taken."""
         from pico.edge.aligning import Aligning
         from pico.edge.attempts import Attempts
+        from pico.edge.emission import Guarded
         from pico.edge.recovery import open_questions, settle
         from pico.edge.teleoperating import Teleoperating
 
@@ -213,10 +311,13 @@ class LocalEdge:
             inner = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
             doing = Teleoperating(self.setup, inner, self.device, lambda: self._stopping, self._heard)
             self._steering = doing
-            self._attempts, self._lease = Attempts(self.journal, doing, lease.token), lease
+            guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None)
+            self._attempts, self._lease = Attempts(self.journal, guarded, lease.token), lease
             self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
             if asked := open_questions(self.journal.unsettled()):
                 raise PicoError(asked)
+            if not run:
+                await self._shut_over()
         except BaseException:
             await self._leave()
             raise
@@ -245,7 +346,10 @@ class LocalEdge:
         from pico.edge.stopping import asked_to_stop
 
         last: Asking | None = None
-        while True:
+        for turn in count():
+            if turn % LOOKS == LOOKS - 1 and (idle or self._running is not None):
+                with suppress(PicoError):  # a journal that is gone is told by what moves
+                    await self._shut_over()
             asked = asked_to_stop(self.root, lease.token)
             if asked is not None and asked != last:
                 last = asked
@@ -303,6 +407,7 @@ class LocalEdge:
             seen = await self.observe()
             require_current(self.setup, job.plan, seen)
             require_allowed(self.setup, job.plan, seen)
+            await self._shut_over()
             self._begin(job, run, await self.describe(), lease)
         except BaseException:
             await self._leave()
@@ -375,7 +480,8 @@ class LocalEdge:
         seen = replace(await self.observe(), measurements=measured(job.plan, events))
         report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
         reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
-        report, self._first = replace(report, diagnostics=(*report.diagnostics, *self._first)), ()
+        report = replace(report, diagnostics=(*report.diagnostics, *self._first, *self._shut))
+        self._first = self._shut = ()
         try:
             self.journal.saw(running.id, seen_after(seen, report.expectations, reached=reached))
         except PicoError as exc:  # it must not hide the report

@@ -20,6 +20,8 @@ from pico.teleop.frames import Answer, Frame
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
+    from pico.edge.armings import Kept
+    from pico.model.arming import Arming
     from pico.model.report import RunReport
     from pico.runs.memory import Memory
     from pico.twin.snapshot import Snapshot
@@ -117,10 +119,29 @@ class Edge(Protocol):
         """Return the run that has begun and not ended: one that goes on, else one that was killed; None for none."""
         ...
 
+    # who may let it emit
+
+    async def armings(self) -> tuple[Kept, ...]:
+        """Return what the bench keeps of armings, also those that are over, or broken."""
+        ...
+
+    async def arm(self, arming: Arming) -> Arming:
+        """Keep an arming: what then lets its laser emit is an operation like any other, which it allows. Return it as
+        it is kept. Raises PicoError (exit code DENIED) for a person, a class or a time that the lab's policy does not
+        allow. Needs no lease.
+        """
+        ...
+
+    async def disarm(self, laser: str, by: str) -> bool:
+        """End what arms a laser, at once and whoever has the bench, who shuts it. Return whether it is shut; else it
+        will be, by who has the bench next. Needs no lease."""
+        ...
+
     # looking
 
     async def observe(self) -> Observation:
-        """Look, and return what was seen, with what is known of the parts in the hands. Moves nothing."""
+        """Look, and return what was seen, with what is known of the parts in the hands and what may emit. Moves
+        nothing."""
         ...
 
     async def look(self) -> Look:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import secrets
 from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 
 from pico.execution.walk import Walk
 from pico.model.event import Event
@@ -45,3 +47,8 @@ class Running:
             if (self.log and self.log[-1].kind == "run_finished") or self.task is None or self.task.done():
                 return
             await news.wait()
+
+
+def new_run_id() -> str:
+    """Return the id of a run: the time in UTC, and six random characters."""
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(3)}"

@@ -36,13 +36,16 @@ def require_able(plan: Plan, able: Capabilities) -> None:
 
 def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
     """Raise PicoError (exit code DENIED) where a mandatory rule of the lab does not hold of `plan` on the bench as it
-    is now, or the beam audit refuses it; and where the state expects what makes no sense."""
+    is now, it lets light out that nobody lets, or the beam audit refuses it; and where the state expects what makes no
+    sense."""
+    from pico.planning.checks.emission import require_licensed
     from pico.policy.audit import require_safe
 
     if plan.target.expect and not plan.target.scope:
         from pico.policy.expectations import require_expressions
 
         require_expressions(setup, [one.that for one in plan.target.expect])
+    require_licensed(setup, seen, plan.operations)
     require_safe(setup, plan, seen)
     if setup.lab.policy.rules:
         from pico.policy import rules

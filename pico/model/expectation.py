@@ -1,11 +1,14 @@
-"""What became of the expectations of a state, and whether the bench is as it says."""
+"""What became of the expectations of a state, whether the bench is as it says, and whether one ever was."""
 
 from __future__ import annotations
 
-from pico.diagnostics import ExitCode
+from typing import Literal
+
+from pico.diagnostics import Diagnostic, ExitCode
 from pico.model.diff import Change
-from pico.model.proof import Standing
 from pico.model.record import record
+
+Verdict = Literal["verified", "inherited", "planned", "unknown"]
 
 
 @record
@@ -23,6 +26,36 @@ class Expected:
     def failed(self) -> bool:
         """Whether a command fails for it."""
         return not self.holds and self.assured
+
+
+@record
+class Standing:
+    """The proof of one commit.
+
+    `verified`: a bench stood exactly so, as the digest of its state says, which is computed from what the commit holds.
+    `inherited`: it brings runs, or words in its message, that are of other states: it was cherry-picked, rebased,
+    merged or edited, and nobody has applied it since. `planned`: nothing says that a bench ever stood so. `unknown`:
+    its manifests can't be read.
+
+    `state`: the digest. Where it is verified: `evidence` (`kinematic`, `physics`, `emulated`, `hardware`), `run` that
+    led there, or None where it was only captured, `at` when, and `carried` by which commit: None where this bench alone
+    knows the run yet. `why` in words.
+    """
+
+    verdict: Verdict
+    commit: str
+    state: str = ""
+    evidence: str | None = None
+    run: str | None = None
+    at: str = ""
+    carried: str | None = None
+    why: str = ""
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def simulated(self) -> bool:
+        """Whether what proves it happened in a simulation: that never counts as hardware."""
+        return self.evidence in ("kinematic", "physics")
 
 
 @record

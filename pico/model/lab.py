@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
 
+from pico.model.arming import ArmingPolicy
 from pico.model.catalog import (
     Catalog,
     ComponentType,
@@ -375,7 +376,8 @@ class Policy:
     --heal` may bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift.
     `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
     a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam
-    leaves; what the beam audit finds is then only told."""
+    leaves; what the beam audit finds is then only told. `arming`: who may let lasers above class 2 emit; nobody,
+    without it."""
 
     open_beam: bool = False
     enclosed: bool | None = None
@@ -383,6 +385,7 @@ class Policy:
     heal: bool = False
     ignore: tuple[str, ...] = ()
     merge: Literal["warn", "strict"] = "warn"
+    arming: ArmingPolicy | None = None
 
 
 @record

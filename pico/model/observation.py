@@ -7,6 +7,7 @@ from dataclasses import field, replace
 from typing import Literal
 
 from pico.diagnostics import Diagnostic, warning
+from pico.model.arming import Licence
 from pico.model.catalog import Footprint
 from pico.model.lab import Setup, Slot
 from pico.model.measurement import Measurement
@@ -94,6 +95,9 @@ class Observation:
     `aligned`: tunables by address (`m1.tip`) whose goal is aligned, as the journal of the bench knows; a backend itself
     knows of none.
 
+    `licences`: what lets lasers emit now, by name, as the edge knows it; of one that it does not name nothing does,
+    unless its class is 1 or 2.
+
     `problems`: what could not be told, or is not as it should be; an error about a component keeps a plan from
     touching it.
     """
@@ -106,6 +110,7 @@ class Observation:
     robots: Mapping[str, ObservedRobot] = field(default_factory=dict)
     person: bool | None = None
     measurements: Mapping[str, Measurement] = field(default_factory=dict)
+    licences: Mapping[str, Licence] | None = None
     problems: tuple[Diagnostic, ...] = ()
     aligned: Mapping[str, Aligned] | None = None
 

@@ -16,6 +16,8 @@ from pico.model.state import Expectation
 FORMAT = Format("pico.plan")
 AUDIT = "beam-audit"
 """The code of what the beam audit tells: a plan is denied for it, though nothing physical is in its way."""
+UNARMED = "unarmed"
+"""The same of light that nobody lets out."""
 
 
 @record
@@ -116,7 +118,7 @@ class Plan:
     @property
     def exit_code(self) -> ExitCode:
         """Why the plan can't be run, or DONE."""
-        if any(d.severity == "error" and d.code != AUDIT for d in self.diagnostics):
+        if any(d.severity == "error" and d.code not in (AUDIT, UNARMED) for d in self.diagnostics):
             return ExitCode.IMPOSSIBLE
         return ExitCode.DENIED if self.errored or self.denied else ExitCode.DONE
 

@@ -20,7 +20,7 @@ from pico.model.pose import Pose, angle_between
 
 POLICY_NAMES: dict[str, Kind] = {
     "plan": "any", "operations": "list", "components": "any", "lasers": "list", "lab": "any", "backend": "text",
-    "fidelity": "text", "human_present": "bool", "audit": "any",
+    "fidelity": "text", "human_present": "bool", "audit": "any", "supervised": "text",
 }  # fmt: skip
 """What rules of a policy speak of, besides the bench."""
 OF_AN_IMAGE = ("peak", "mean")

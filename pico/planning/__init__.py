@@ -1,8 +1,19 @@
 """From the bench as it was seen to the state wanted: a plan, or why there is none."""
 
 from pico.planning.compile import plan
-from pico.planning.single import again, do_one, home_one, measure, move_one, optimize_one, set_one, teleoperate_one
+from pico.planning.single import (
+    again,
+    arm_one,
+    do_one,
+    home_one,
+    measure,
+    move_one,
+    optimize_one,
+    set_one,
+    teleoperate_one,
+)
 
 __all__ = [
-    "again", "do_one", "home_one", "measure", "move_one", "optimize_one", "plan", "set_one", "teleoperate_one",
+    "again", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "plan", "set_one",
+    "teleoperate_one",
 ]  # fmt: skip

@@ -16,9 +16,11 @@ from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
 from pico.planning.checks.clearance import beams_in_the_way
-from pico.planning.checks.interlocks import lets_light_out, policy_rules, unguarded, with_interlocks
+from pico.planning.checks.emission import lets_out
+from pico.planning.checks.interlocks import policy_rules, stay_shut, unguarded, with_interlocks
 from pico.planning.checks.target import Source, check_target, no_source
 from pico.planning.checks.tethers import check_tethers
+from pico.planning.light import light_last, told_of, withheld
 from pico.planning.parts.movers import Place
 from pico.planning.parts.selection import done_by, selection, told
 from pico.planning.parts.setdown import after_set_downs, parked_first, set_downs
@@ -76,6 +78,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     situation = read_situation(setup, request.seen, request.wanted, exact=request.exact)
     moves = compile_moves(request, situation) if situation.moving else Compiled()
     asked = tuple(c for c in situation.changes if request.only.chosen(c.component, c.tunable))
+    left = withheld(request, asked, undoing=target.cause == "undo")
+    asked = tuple(c for c in asked if (c.component, c.tunable) not in left)
     values, notes = value_operations(setup, request.seen, asked, request.reason)
     diagnostics = (*emptied.diagnostics, *situation.diagnostics, *moves.diagnostics, *notes)
     operations: tuple[Operation, ...] = ()
@@ -83,8 +87,10 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         offset = len(moves.operations)
         shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
         ordered = after_set_downs(setup, emptied, (*moves.operations, *shifted), request.motion)
-        if request.only.everything or any(lets_light_out(setup, o) for o in ordered):
+        if request.only.everything or any(lets_out(setup, o) for o in ordered):
             ordered = parked_first(setup, request.seen, ordered, request.motion)
+        ordered = light_last(setup, request.seen, ordered)
+        diagnostics = (*diagnostics, *told_of(request, left, stay_shut(setup, request.seen, ordered)))
         guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))

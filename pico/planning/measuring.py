@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
+from pico.model.arming import LaserClass
 from pico.model.catalog import Measurable
 from pico.model.lab import Setup
 from pico.model.observation import Observation, astray
@@ -13,6 +14,7 @@ from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.setpoint import set_seconds
 from pico.motion.types import Motion
+from pico.planning.checks.emission import unlicensed
 from pico.planning.checks.interlocks import CLOSED
 from pico.planning.parts.setdown import park_operation
 
@@ -49,6 +51,25 @@ def needed(setup: Setup, seen: Observation, component: str, measurable: Measurab
                 yield Need(component=name, tunable=tunable, value=value, live=known)
 
 
+def granted(setup: Setup, seen: Observation, needs: Iterable[Need]) -> list[Need]:
+    """Return what may be set of what measurements need: no light of a laser that nobody lets emit is let out for them,
+    which then say that it was not."""
+    return [n for n in needs if not unlicensed(setup, seen, [setting(setup, n, n.live, n.value, (), "")])]
+
+
+def unlit(setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]]) -> dict[str, LaserClass]:
+    """Return the lasers that measurements want to emit and nobody lets, each with its class."""
+    needs = [n for c, name in wanted for n in needed(setup, seen, c, setup.measurables_of(c)[name])]
+    return unlicensed(setup, seen, [setting(setup, n, n.live, n.value, (), "") for n in needs if n.live != n.value])
+
+
+def kept_shut(setup: Setup, seen: Observation, need: Need) -> bool:
+    """Return whether what was set for a measurement is not set back, for that would let light out that nobody lets."""
+    if need.live is None:
+        return False
+    return bool(unlicensed(setup, seen, [setting(setup, need, need.value, need.live, (), "")]))
+
+
 def measuring(
     setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]], reason: Reason, motion: Motion | None
 ) -> list[Operation]:
@@ -62,7 +83,7 @@ def measuring(
     parks = [*map(str, range(len(out)))]
     waits: list[str] = []
     for component, name in wanted:
-        needs = needed(setup, seen, component, setup.measurables_of(component)[name])
+        needs = granted(setup, seen, needed(setup, seen, component, setup.measurables_of(component)[name]))
         closed = bool(parks) and not waits  # while an arm parks
         wants = [n for n in needs if n.live != n.value or (closed and n.opens)]
         text = f"to measure {component}.{name}"
@@ -70,7 +91,7 @@ def measuring(
         measured = str(len(out))
         out.append(_measure(setup, component, name, [*map(str, range(len(out)))], reason))
         text = f"as it was before {component}.{name} was measured"
-        back = [(n, n.live) for n in wants if n.live != n.value]
+        back = [(n, n.live) for n in wants if n.live != n.value and not kept_shut(setup, seen, n)]
         out += [setting(setup, n, n.value, live, [measured], text) for n, live in back if live is not None]
         waits = [measured, *map(str, range(int(measured) + 1, len(out)))]
     return out

@@ -13,7 +13,7 @@ from pico.model.setpoint import set_seconds
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
 from pico.optimize.registry import algorithm_file
-from pico.planning.measuring import needed, setting
+from pico.planning.measuring import granted, kept_shut, needed, setting
 from pico.planning.parts.setdown import park_operation
 from pico.planning.sought import Sought, arguments_of
 
@@ -41,7 +41,7 @@ def optimizing(
     wants = {
         need.address: need
         for component, measurable in measured
-        for need in needed(setup, seen, component, setup.measurables_of(component)[measurable])
+        for need in granted(setup, seen, needed(setup, seen, component, setup.measurables_of(component)[measurable]))
         if need.live != need.value or (parks and need.opens)
     }
     for need in wants.values():
@@ -58,7 +58,7 @@ def optimizing(
     ))  # fmt: skip
     done = str(len(out) - 1)
     for need in wants.values():
-        if need.live is not None and need.live != need.value:
+        if need.live is not None and need.live != need.value and not kept_shut(setup, seen, need):
             text = f"as it was before {name}"
             out.append(setting(setup, need, need.value, need.live, [done], text))
     return out

@@ -15,11 +15,15 @@ from pico.model.pose import Pose
 from pico.model.primitive import primitive
 from pico.model.quantities import Value
 from pico.model.state import ComponentState, LabState, state_from_json
+from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
-from pico.planning.checks.interlocks import policy_rules, unguarded, with_interlocks
+from pico.planning.checks.beams import shutter_of
+from pico.planning.checks.emission import left_shut, refused
+from pico.planning.checks.interlocks import policy_rules, stay_shut, unguarded, with_interlocks
 from pico.planning.compile import compiled_plan
-from pico.planning.measuring import measuring
+from pico.planning.measuring import measuring, unlit
 from pico.planning.optimizing import optimizing
+from pico.planning.parts.setdown import parked_first
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.sought import Sought, sought_by, tunables_of
@@ -131,7 +135,8 @@ def measure(
     Each is a component or camera with one of its `Setup.measurables_of`.
     """
     operations = measuring(setup, seen, wanted, ASKED, motion)
-    return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
+    notes = [*left_shut(seen, unlit(setup, seen, wanted))]
+    return _sealed(setup, seen, operations, notes, backend, fidelity, base, live_state(setup, seen), ())
 
 
 def optimize_one(
@@ -146,7 +151,42 @@ def optimize_one(
     for component in {address.partition(".")[0] for address in tunables_of(one, first)}:
         _part(setup, seen, component)
     operations = optimizing(setup, seen, one, motion, first)
-    return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
+    texts = [text for stage in (*first, one) for text in stage.goal.texts]
+    notes = [*left_shut(seen, unlit(setup, seen, measured_in(setup, texts)))]
+    return _sealed(setup, seen, operations, notes, backend, fidelity, base, live_state(setup, seen), ())
+
+
+def arm_one(
+    setup: Setup, seen: Observation, laser: str, *, motion: Motion | None, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that lets a laser emit, arms parked before: it is switched on, and what shuts it opened.
+
+    Raises PicoError for what is no laser here, or is not seen.
+    """
+    _part(setup, seen, laser)
+    gate = laser if "shutter" in setup.type_of(laser).tunables else shutter_of(setup, seen, (), laser)
+    wanted: list[tuple[str, str, Value]] = (
+        [(laser, "emission", True)] if "emission" in setup.type_of(laser).tunables else []
+    )
+    wanted += [(gate, "shutter", "open")] if gate else []
+    changes, live = [], live_state(setup, seen)
+    for component, tunable, value in wanted:
+        _tunable(setup, seen, component, tunable)
+        known = seen.components[component].values[tunable]
+        before = None if known.status == "unknown" else known.value
+        if before != value:
+            text = describe_value(setup.type_of(component).tunables[tunable], before, value)
+            changes.append(Change(component=component, tunable=tunable, before=before, after=value, text=text))
+        now = live.components.get(component, ComponentState())
+        live = LabState(lab=live.lab, components={
+            **live.components, component: replace(now, values={**now.values, tunable: value})
+        })  # fmt: skip
+    operations, notes = value_operations(setup, seen, tuple(changes), ASKED)
+    operations = [replace(op, after=tuple(map(str, range(n)))) for n, op in enumerate(operations)]
+    return _sealed(
+        setup, seen, parked_first(setup, seen, operations, motion), notes, backend, fidelity, base, live, tuple(changes)
+    )
 
 
 def again(
@@ -210,7 +250,8 @@ def _sealed(
 ) -> Plan:  # fmt: skip
     guarded, told = kept_dark(setup, with_interlocks(setup, seen, operations))
     timed = schedule(guarded)
-    notes = [*notes, *told, *unguarded(setup, seen, timed)]
+    notes = [*notes, *told, *unguarded(setup, seen, timed), *refused(setup, seen, timed)]
+    notes += left_shut(seen, stay_shut(setup, seen, operations))
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
         base=base or Base(state=live_state(setup, seen).as_json()),

@@ -11,7 +11,7 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
 from pico.motion.types import Blocked, Motion
-from pico.planning.checks.interlocks import lets_light_out
+from pico.planning.checks.emission import lets_out
 from pico.planning.parts.movers import standing_obstacles
 from pico.planning.parts.setdown import park_operation
 
@@ -118,7 +118,7 @@ def kept_dark(setup: Setup, operations: list[Operation]) -> tuple[list[Operation
     part ends that a person steers nobody knows, so that nothing could be said of the light. `after` holds indices as
     text, and what lets light out comes last."""
     steers = any(op.primitive == "teleoperate" and op.robot for op in operations)
-    shut = [n for n, op in enumerate(operations) if steers and lets_light_out(setup, op)]
+    shut = [n for n, op in enumerate(operations) if steers and lets_out(setup, op)]
     if not shut:
         return operations, []
     number = {str(n): str(k) for k, n in enumerate(n for n in range(len(operations)) if n not in shut)}

@@ -17,10 +17,9 @@ from pico.optics.audit.findings import Audit, Finding, told
 from pico.optics.audit.lasers import laser_class, lasers_of
 from pico.optics.audit.limits import above_class_2
 from pico.optics.axis import Values, axis_of
+from pico.planning.checks.emission import SEARCHING, lets_out
 from pico.policy.beams import open_beams
 
-SEARCHING = ("optimize", "teleoperate")
-"""Primitives that may set their tunables to anything within bounds."""
 SCANNED = 5
 """At so many values of what a raster search scans is its light judged; mirrors over all of their range anyway."""
 
@@ -58,14 +57,14 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
              if c.pose is not None and c.presence == "seen" and n in setup.lab.inventory}  # fmt: skip
     values = {n: _set(setup, wanted, n, own) for n, own in seen.known_values.items() if n in setup.lab.inventory}
     opened, scanned = set[str](), False
-    lifted = {(op.component, op.arguments.get("tunable")) for op in plan.operations if _lets_out(setup, op)}
+    lifted = {(op.component, op.arguments.get("tunable")) for op in plan.operations if _opens(setup, op)}
     for op in plan.operations:
         to, tunable = op.arguments.get("to"), op.arguments.get("tunable")
         if isinstance(to, Mapping) and "pose" in to:
             poses[op.component] = Pose(**to["pose"])
         elif op.primitive == "set" and tunable is not None and op.component in setup.lab.inventory:
             own = values.setdefault(op.component, {})
-            lets = _lets_out(setup, op)
+            lets = _opens(setup, op)
             if lets or (op.component, tunable) not in lifted:  # what is open at some time counts as open
                 own[str(tunable)] = max(own.get(str(tunable), 0.0), to) if lets and _number(to) else to
             opened |= {op.component} if lets else set()
@@ -76,13 +75,8 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
                bool(setup.lab.policy.enclosed))  # fmt: skip
 
 
-def _lets_out(setup: Setup, op: Operation) -> bool:
-    """Whether an operation lets light out: opens a shutter, or sets a laser to anything but dark."""
-    if op.primitive != "set" or op.component not in setup.lab.inventory:
-        return False
-    emits = setup.type_of(op.component).optics.element == "source"
-    tunable, to = op.arguments.get("tunable"), op.arguments.get("to")
-    return (tunable == "shutter" and to != "closed") or (emits and to not in ("closed", False, 0))
+def _opens(setup: Setup, op: Operation) -> bool:
+    return op.primitive == "set" and lets_out(setup, op)
 
 
 def _number(value: object) -> bool:

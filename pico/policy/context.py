@@ -14,7 +14,7 @@ from pico.policy.beams import open_beams
 
 
 def policy_values(setup: Setup, plan: Plan, seen: Observation) -> dict[str, Any]:
-    """Return `plan`, `operations`, `components`, `lasers`, `lab`, `backend` and `fidelity`.
+    """Return `plan`, `operations`, `components`, `lasers`, `lab`, `backend`, `fidelity` and `supervised`.
 
     An operation is that of the plan with `robot` ("" for none), `by_hand`, the `mass` of what it moves [kg] and
     `open_beams`: the lasers whose beam may be open while it runs. A component has its type, parameters, `mass`,
@@ -34,7 +34,13 @@ def policy_values(setup: Setup, plan: Plan, seen: Observation) -> dict[str, Any]
         | {"open_beam": setup.lab.policy.open_beam},
         "backend": plan.backend,
         "fidelity": plan.fidelity,
+        "supervised": _people(seen),
     }
+
+
+def _people(seen: Observation) -> str:
+    """Return who answers for the bench: those whose armings count now."""
+    return ", ".join(sorted({one.by for one in (seen.licences or {}).values() if one.by}))
 
 
 def _operation(setup: Setup, op: Operation, opened: list[str]) -> dict[str, Any]:

@@ -54,7 +54,7 @@ class Doing:
         A plan that only measures and was carried out before the recipe was cut short is not run again.
         """
         from pico.bench.running.attending import attend
-        from pico.bench.running.execution import new_run_id
+        from pico.edge.running import new_run_id
         from pico.recipes.taken_up import measured_before
 
         plan = plan.for_recipe(self.recipe, self.step)

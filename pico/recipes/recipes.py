@@ -102,7 +102,7 @@ class Recipes:
 
     def begin(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Log:
         """Begin a run of a recipe with the values of all its parameters."""
-        from pico.bench.running.execution import new_run_id
+        from pico.edge.running import new_run_id
 
         at = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
         path = str(Path(recipe.path).resolve())

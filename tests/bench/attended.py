@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from pico.bench.bench import Bench
-from pico.bench.running.execution import new_run_id
 from pico.edge.protocol import Job
+from pico.edge.running import new_run_id
 from pico.model.event import Event
 from pico.model.plan import Plan
 from pico.model.report import RunReport

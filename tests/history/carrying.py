@@ -11,7 +11,7 @@ from pico.history.repository.repository import Repository
 from pico.history.runs import standing_of, unrecorded
 from pico.history.runs.committed import places_in_history
 from pico.history.runs.proof import Standings
-from pico.model.proof import Standing
+from pico.model.expectation import Standing
 from pico.model.report import Committed
 from pico.model.run import Run
 

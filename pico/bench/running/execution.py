@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import queue
-import secrets
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
-from datetime import UTC, datetime
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from pico.bench.running.loop import HEED, LoopThread
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.protocol import Edge, Job
+from pico.edge.running import new_run_id
 from pico.model.event import Event
 from pico.model.plan import Plan
 from pico.model.report import RunReport
@@ -144,8 +143,3 @@ class Execution:
         self._cancelled = True
         at_once = now and self._begun  # who waits stops nobody else
         await (self._edge.stop() if at_once else self._edge.cancel(self.id))
-
-
-def new_run_id() -> str:
-    """Return the id of a run: the time in UTC, and six random characters."""
-    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(3)}"

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 from pico.attachment import require_attached
 from pico.backends.device import Capabilities
 from pico.diagnostics import PicoError, error
+from pico.edge.armings import Kept
 from pico.edge.link import wire
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
+from pico.model.arming import Arming
 from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -241,6 +243,21 @@ class RemoteEdge:
     async def adopt(self, lab: OwnLab, holder: str) -> None:
         """Take another Lab as the bench's own."""
         await self._call("adopt", lab, holder)
+
+    async def armings(self) -> tuple[Kept, ...]:
+        """Return what the bench keeps of armings."""
+        found: tuple[Kept, ...] = await self._call("armings")
+        return found
+
+    async def arm(self, arming: Arming) -> Arming:
+        """Keep an arming, and return it as it is kept."""
+        found: Arming = await self._call("arm", arming)
+        return found
+
+    async def disarm(self, laser: str, by: str) -> bool:
+        """End what arms a laser; return whether it is shut."""
+        found: bool = await self._call("disarm", laser, by)
+        return found
 
     async def observe(self) -> Observation:
         """Look, and return what was seen."""

@@ -12,7 +12,9 @@ from typing import Any
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.edge.armings import Kept
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
+from pico.model.arming import Arming
 from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -34,6 +36,9 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "unended": ((), str | None),
     "lab": ((), OwnLab | None),
     "adopt": ((OwnLab, str), None),
+    "armings": ((), tuple[Kept, ...]),
+    "arm": ((Arming,), Arming),
+    "disarm": ((str, str), bool),
     "observe": ((), Observation),
     "look": ((), dict[str, Any]),
     "peek": ((str, str), Measurement),
@@ -76,7 +81,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
 }
 """Every call that there is: the types of its arguments, and of its value or of each `next` one."""
 STREAMS = frozenset({"events"})
-TAKES = frozenset({"acquire", "adopt", "start", "resolve"}) | (
+TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "resolve"}) | (
     {call for call in CALLS if call.startswith("world.")}
     - {"world.placements", "world.true_cameras", "world.true_arms"}
 )

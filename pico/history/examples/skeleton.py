@@ -21,6 +21,9 @@ robots:
   arm1:
     model: xarm7            # reaches 0.10 to 0.67 m from its base
     mount: {x: 480, y: 760, yaw: -90}   # yaw: where it faces; -90 is the front edge
+policy:
+  arming:                   # who lets lasers above class 2 emit: `pico laser arm`, docs/how-to/laser-safety.md
+    waived: [kinematic, physics, emulated]   # what is simulated or emulated emits nothing; hardware is never waived
 inventory:                  # every part that this bench owns; `pico catalog list` names the types
   laser:
     type: hene_laser

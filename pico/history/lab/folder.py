@@ -33,7 +33,7 @@ from pico.model.state import LabState, home_state
 if TYPE_CHECKING:
     from pico.edge.protocol import OwnLab
     from pico.history.repository.repository import Repository
-    from pico.model.proof import Standing
+    from pico.model.expectation import Standing
     from pico.model.report import Captured
     from pico.model.run import Run
 

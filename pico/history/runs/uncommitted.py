@@ -19,8 +19,8 @@ from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
 from pico.model.drift import drift_of
+from pico.model.expectation import Standing
 from pico.model.observation import Observation, live_state
-from pico.model.proof import Standing
 from pico.model.run import FOLD, TRIALS, Run
 from pico.model.state import LabState
 from pico.runs.document import RecordedRun, recorded

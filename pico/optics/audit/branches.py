@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from pico.model.arming import LaserClass
 from pico.model.lab import Setup
 from pico.model.pose import short
 from pico.optics.audit.findings import Finding, Kind
-from pico.optics.audit.limits import LaserClass
 from pico.optics.light import Crossing, Light
 from pico.optics.part import Part
 

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, error, warning
+from pico.model.arming import LaserClass
 from pico.model.plan import AUDIT
 from pico.model.record import record
-from pico.optics.audit.limits import LaserClass, above_class_2
+from pico.optics.audit.limits import above_class_2
 
 Kind = Literal["end", "edge", "plane", "damage", "lost", "endless", "carried"]
 """`end`: it ends on no block; `edge`: what an aperture stops; `plane`: it may leave the plane of the table; `damage`:

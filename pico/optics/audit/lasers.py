@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from pico.model.arming import LaserClass
 from pico.model.lab import Setup
 from pico.model.quantities import convert
-from pico.optics.audit.limits import LaserClass, class_of
+from pico.optics.audit.limits import class_of
 from pico.optics.axis import Values
 
 

@@ -16,10 +16,8 @@ and any branch of it as dangerous.
 
 from __future__ import annotations
 
-from typing import Literal
+from pico.model.arming import CLASSES, LaserClass, within
 
-LaserClass = Literal["1", "2", "3R", "3B", "4"]
-CLASSES: tuple[LaserClass, ...] = ("1", "2", "3R", "3B", "4")
 VISIBLE, KNOWN = (400.0, 700.0), (400.0, 1050.0)
 """Wavelengths that an eye turns away from, and those for which a limit is known here [nm]."""
 _CLASS_1, _CLASS_2, _VISIBLE_3R, _CLASS_3B = 0.39, 1.0, 5.0, 500.0  # mW
@@ -47,4 +45,4 @@ def class_of(power: float, wavelength: float) -> LaserClass:
 
 def above_class_2(name: LaserClass) -> bool:
     """Whether a laser of a class harms before anybody can blink."""
-    return CLASSES.index(name) > CLASSES.index("2")
+    return not within(name, "2")

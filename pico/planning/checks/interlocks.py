@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic, error, warning
+from pico.model.arming import LaserClass
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedValue
@@ -15,6 +16,7 @@ from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
 from pico.planning.checks.beams import shutter_of
+from pico.planning.checks.emission import unlicensed
 from pico.planning.parts.phrases import listed
 
 STEERING = (
@@ -47,7 +49,8 @@ def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operat
     that this takes. `after` holds indices as text. A shutter ends as the operations given leave it.
 
     What sets a shutter comes after the moves themselves, not only after the park: where a move fails, an arm still
-    parks, but nobody knows what stands in the beam, and the shutter stays closed.
+    parks, but nobody knows what stands in the beam, and the shutter stays closed. That of a laser which nobody lets
+    emit stays closed in the end, too.
     """
     out = list(operations)
     arms = [n for n, o in enumerate(operations) if o.robot is not None]
@@ -58,8 +61,29 @@ def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operat
         return out
     why = _why(operations, guarded)
     for shutter in _shutters(setup, seen, operations):
+        if _stays_shut(setup, seen, operations, shutter):
+            shutter = replace(shutter, goal=None)
         _keep(out, operations, shutter, guarded, why, f"closed while {why}")
     return out
+
+
+def stay_shut(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> dict[str, LaserClass]:
+    """Return the lasers that are open now, and that the interlocks of these operations shut for good, for nobody lets
+    them emit; each with its class."""
+    if not _guarded(setup, operations) or setup.lab.policy.open_beam:
+        return {}
+    found: dict[str, LaserClass] = {}
+    for shutter in _shutters(setup, seen, operations):
+        found |= _stays_shut(setup, seen, operations, shutter) if shutter.goal != CLOSED else {}
+    return found
+
+
+def _stays_shut(
+    setup: Setup, seen: Observation, operations: Sequence[Operation], gate: Gate
+) -> dict[str, LaserClass]:  # fmt: skip
+    if gate.goal is None or gate.goal == CLOSED:
+        return {}
+    return unlicensed(setup, seen, [*operations, _set(gate, CLOSED, gate.goal, "")])
 
 
 def _keep(
@@ -151,15 +175,6 @@ def _closes(kind: Tunable) -> bool:
 def _sets(operation: Operation, name: str, tunable: str = "shutter") -> bool:
     own = operation.arguments.get("tunable")
     return operation.primitive == "set" and operation.component == name and own == tunable
-
-
-def lets_light_out(setup: Setup, operation: Operation) -> bool:
-    """Return whether an operation opens a shutter, or turns a laser on."""
-    if operation.primitive != "set" or operation.component not in setup.lab.inventory:
-        return False
-    emits = setup.type_of(operation.component).optics.element == "source"
-    wanted = (operation.arguments.get("tunable"), operation.arguments.get("to"))
-    return wanted == ("shutter", OPEN) or (emits and wanted == ("emission", True))
 
 
 def _close(

@@ -1,0 +1,106 @@
+"""What an edge lets emit: no operation lets light out of a laser above class 2 without a licence, whoever asks for it,
+and a laser whose arming is over is shut."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.backends.device import Began, Capabilities
+from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.edge import armings
+from pico.model.lab import Setup
+from pico.model.observation import Observation, live_state
+from pico.model.operation import Operation, OperationResult, Reason
+from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
+from pico.planning.checks.beams import shutter_of
+from pico.planning.checks.emission import lets_out, may_shine, refused
+from pico.policy import arming
+
+if TYPE_CHECKING:
+    from pico.edge.attempts import Executing
+
+Looking = Callable[[], Awaitable[Observation]]
+
+
+class Guarded:
+    """A device that lets light out only by a licence; where no plan asks for it (`bare`) only after the beam audit."""
+
+    def __init__(self, setup: Setup, inner: Executing, look: Looking, bare: Callable[[], bool]) -> None:
+        self._setup, self._inner, self._look, self._bare = setup, inner, look, bare
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute an operation; one that lets light out and must not fails, and nothing moves."""
+        if not lets_out(self._setup, operation):
+            return await self._inner.execute(operation, key, began)
+        seen = await self._look()
+        wrong: Sequence[Diagnostic] = refused(self._setup, seen, [operation])
+        if not wrong and self._bare():
+            wrong = _unsafe(self._setup, seen, operation)
+        if wrong:
+            return OperationResult(key=key, outcome="failed", error=wrong[0], ended=seen.time)
+        return await self._inner.execute(operation, key, began)
+
+
+def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[Diagnostic]:
+    from pico.policy.audit import require_safe
+
+    try:
+        require_safe(setup, _plan(setup, seen, operation, seen.backend, ""), seen)
+    except PicoError as exc:
+        return exc.diagnostics
+    return ()
+
+
+def with_licences(setup: Setup, root: Path, able: Capabilities, now: str, seen: Observation) -> Observation:
+    """Return the observation with what lets lasers emit now."""
+    known = [one.arming for one in armings.kept(root) if one.arming is not None]
+    return replace(seen, licences=arming.licences(setup, able.evidence, known, able.name, now))
+
+
+def over(setup: Setup, root: Path, now: str) -> dict[str, str]:
+    """Return the lasers whose arming is over or broken, each with why."""
+    found = {}
+    for one in armings.kept(root):
+        why = arming.over(setup, one.arming, now) if one.arming else f"its arming can't be read ({one.broken})"
+        if why:
+            found[one.laser] = why
+    return found
+
+
+def shutting(setup: Setup, seen: Observation, laser: str, why: str) -> Operation | None:
+    """Return the operation that shuts a laser: by its own shutter, else one in its beam, else it is switched off. None
+    where it is dark, or is not there; ids are given by who runs it."""
+    if laser not in setup.lab.inventory or not may_shine(setup, seen, laser, seen.known_values.get(laser, {})):
+        return None
+    gate = laser if "shutter" in setup.type_of(laser).tunables else shutter_of(setup, seen, (), laser)
+    component, tunable = (gate, "shutter") if gate else (laser, "emission")
+    if seen.known_values.get(component, {}).get(tunable) in ("closed", False):
+        return None
+    before = seen.known_values.get(component, {}).get(tunable)
+    return Operation(
+        id=f"shut_{laser}", primitive="set", component=component, reason=Reason(kind="interlock", text=why),
+        arguments={"tunable": tunable, "from": before, "to": "closed" if gate else False},
+        resources=(f"{component}.{tunable}", component),
+    )  # fmt: skip
+
+
+def shut_plan(setup: Setup, seen: Observation, operation: Operation, able: Capabilities) -> Plan:
+    """Return a plan that shuts a laser, as the journal keeps it: it tidies up, and is nothing to undo."""
+    return _plan(setup, seen, operation, able.name, able.fidelity)
+
+
+def _plan(setup: Setup, seen: Observation, operation: Operation, backend: str, fidelity: str) -> Plan:
+    state = live_state(setup, seen).as_json()
+    title = f"{operation.component} shut: {operation.reason.text}"
+    return Plan(
+        lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
+        base=Base(state=state), target=Target(title=title, cause="recover", state=state), operations=(operation,),
+    ).sealed()  # fmt: skip
+
+
+def told(laser: str, why: str) -> Diagnostic:
+    """Return what is said of a laser that was shut because its arming is over."""
+    return warning(UNARMED, f"{laser} was shut: {why}", hint=f"`pico laser arm {laser}` opens it again", address=laser)

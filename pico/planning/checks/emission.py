@@ -1,0 +1,149 @@
+"""Which operations let light out, of which lasers, and whether anybody lets them: one rule for planner and edge.
+
+Lasers of class 1 and 2 may emit; one above that only by a licence of its class, as an observation has them
+(`Observation.licences`): an arming by a person, or a waiver of the lab where nothing is emitted.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
+from pico.model.arming import LaserClass, within
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, searched_by
+from pico.model.plan import UNARMED
+from pico.optics.audit.lasers import laser_class
+from pico.optics.audit.limits import above_class_2
+
+SEARCHING = ("optimize", "teleoperate")
+"""Primitives that set the tunables which they name, within bounds."""
+DARK = ("closed", False, 0)
+"""What a tunable of a source or a shutter is at where it lets no light out."""
+
+
+def lets_out(setup: Setup, op: Operation) -> bool:
+    """Return whether an operation lets light out: opens a shutter, sets a laser to anything but dark, searches one of
+    its tunables, or does to it what nobody can tell."""
+    if op.primitive in SEARCHING:
+        return any(True for _ in _searched(setup, op))
+    if op.component not in setup.lab.inventory:
+        return False
+    element = setup.type_of(op.component).optics.element
+    tunable = op.arguments.get("tunable")
+    if op.primitive in ("set", "operator"):
+        dark = op.arguments.get("to") in DARK
+        return not dark and (tunable == "shutter" or (element == "source" and tunable is not None))
+    gates = element == "source" or (element == "shutter" and "shutter" in setup.type_of(op.component).tunables)
+    return gates and op.kind.mutating and op.kind.by == "device"
+
+
+def _searched(setup: Setup, op: Operation) -> Iterator[tuple[str, str, float]]:
+    """Yield the tunables of sources and shutters that are searched or steered, each with the most that it is set to."""
+    for address, bounds in searched_by(op.arguments).items():
+        component, _, tunable = address.partition(".")
+        known = component in setup.lab.inventory
+        if known and setup.type_of(component).optics.element in ("source", "shutter"):
+            yield component, tunable, max(bounds) if bounds else math.inf
+
+
+def let_out(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> dict[str, LaserClass]:
+    """Return the lasers that operations let light out of, at some time, each with the class of what it then emits. What
+    nobody knows counts as open and on, and a power as the highest that it has or gets."""
+    opening = [op for op in operations if lets_out(setup, op)]
+    if not opening:
+        return {}
+    values = seen.known_values
+    for op in opening:
+        for component, tunable, to in _settings(setup, op):
+            own = values.setdefault(component, {})
+            before = own.get(tunable)
+            own[tunable] = max(before, to) if _number(before) and _number(to) else to
+    touched = {component for op in opening for component, _, _ in _settings(setup, op)} | {o.component for o in opening}
+    sources = [n for n in sorted(setup.lab.inventory) if setup.type_of(n).optics.element == "source"]
+    apart = any(name not in sources for name in touched)
+    return {
+        name: laser_class(setup, name, values.get(name, {}))[0]
+        for name in sources
+        if (apart or name in touched) and may_shine(setup, seen, name, values.get(name, {}))
+    }
+
+
+def _settings(setup: Setup, op: Operation) -> Iterator[tuple[str, str, Any]]:
+    if op.primitive in SEARCHING:
+        yield from _searched(setup, op)
+        return
+    kind = setup.type_of(op.component).tunables.get(str(op.arguments.get("tunable")))
+    if op.primitive in ("set", "operator"):
+        yield op.component, str(op.arguments.get("tunable")), op.arguments.get("to")
+    elif kind is not None:  # where it ends nobody knows beforehand
+        yield op.component, str(op.arguments.get("tunable")), kind.range[1] if kind.range else "anything"
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def may_shine(setup: Setup, seen: Observation, laser: str, values: Mapping[str, Any]) -> bool:
+    """Return whether a laser with these tunables may emit, for all that is known; not one that is not there."""
+    part = seen.components.get(laser)
+    if part is None or part.presence == "missing":
+        return False
+    return values.get("emission") is not False and values.get("shutter") != "closed"
+
+
+def unlicensed(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> dict[str, LaserClass]:
+    """Return the lasers that operations let light out of and nobody lets, each with its class."""
+    found = let_out(setup, seen, operations)
+    return {name: of for name, of in found.items() if not licensed(seen, name, of)}
+
+
+def licensed(seen: Observation, laser: str, of: LaserClass) -> bool:
+    """Return whether a laser may emit as of a class."""
+    if not above_class_2(of):
+        return True
+    own = (seen.licences or {}).get(laser)
+    return own is not None and within(of, own.laser_class)
+
+
+def why_not(seen: Observation, laser: str, of: LaserClass) -> str:
+    """Return in words why a laser may not emit as of a class."""
+    own = (seen.licences or {}).get(laser)
+    if own is None:
+        return "nobody has armed it"
+    return f"{own.by} armed it for class {own.laser_class} only" if own.by else f"it is no more than {own.laser_class}"
+
+
+def opening_hint(laser: str) -> str:
+    """Return what lets a laser emit."""
+    return (
+        f"`pico laser arm {laser}` opens it, once the beam audit passes; "
+        "a lab may waive that in its twin: `policy: {arming: {waived: [kinematic, physics]}}`"
+    )
+
+
+def refused(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Diagnostic]:
+    """Return an error for each laser that operations let light out of and nobody lets."""
+    return [
+        error(UNARMED, f"{name} (class {of}) stays shut: {why_not(seen, name, of)}", hint=opening_hint(name),
+              address=name)
+        for name, of in unlicensed(setup, seen, operations).items()
+    ]  # fmt: skip
+
+
+def require_licensed(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> None:
+    """Raise PicoError (exit code DENIED) where operations let light out of a laser and nobody lets it."""
+    if found := refused(setup, seen, operations):
+        raise PicoError(found, ExitCode.DENIED)
+
+
+def left_shut(seen: Observation, lasers: Mapping[str, LaserClass]) -> tuple[Diagnostic, ...]:
+    """Return a warning for each laser that a plan leaves shut though its light is asked for."""
+    return tuple(
+        warning(UNARMED, f"{name} (class {of}) is left shut: {why_not(seen, name, of)}", hint=opening_hint(name),
+                address=name)
+        for name, of in sorted(lasers.items())
+    )  # fmt: skip

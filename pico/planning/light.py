@@ -1,0 +1,82 @@
+"""Light that a state asks for: a plan brings what somebody lets out, last of all, and leaves the rest shut."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from pico.diagnostics import Diagnostic
+from pico.model.arming import LaserClass
+from pico.model.diff import Change
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation
+from pico.model.plan import UNARMED, Plan
+from pico.planning.checks.emission import left_shut, lets_out, unlicensed
+from pico.planning.request import Request
+from pico.planning.values import value_operations
+
+Withheld = Mapping[tuple[str, str], Mapping[str, LaserClass]]
+"""Requests that a plan leaves as they are, by component and tunable, each with the lasers that stay shut for it."""
+
+
+def withheld(request: Request, changes: Sequence[Change], *, undoing: bool) -> Withheld:
+    """Return the requests among some changes that a plan leaves: those that let light out of a laser which nobody lets
+    emit. Undoing lets no light out at all: it only shuts."""
+    asked = [c for c in changes if c.requested and not c.tolerated]
+    made = {(c.component, c.tunable): value_operations(request.setup, request.seen, (c,))[0] for c in asked}
+    opening = {one: ops for one, ops in made.items() if any(lets_out(request.setup, op) for op in ops)}
+    if undoing:
+        return {one: {} for one in opening}
+    lasers = unlicensed(request.setup, request.seen, [op for ops in opening.values() for op in ops])
+    own = {one: _of(request.setup, one[0], lasers) for one in opening}
+    return {one: left for one, left in own.items() if left}
+
+
+def _of(setup: Setup, component: str, lasers: Mapping[str, LaserClass]) -> dict[str, LaserClass]:
+    """Return those among some lasers that a component opens: itself, or all where it is a shutter on the table."""
+    apart = setup.type_of(component).optics.element != "source"
+    return {name: of for name, of in lasers.items() if apart or name == component}
+
+
+def told_of(request: Request, left: Withheld, shut: Mapping[str, LaserClass]) -> tuple[Diagnostic, ...]:
+    """Return what is said of light that a plan leaves shut: of each laser with the command that opens it."""
+    lasers = {**{name: of for one in left.values() for name, of in one.items()}, **shut}
+    undone = sorted(f"{component}.{tunable}" for (component, tunable), of in left.items() if not of)
+    text = f"undoing lets no light out: {', '.join(undone)} {'stays' if len(undone) == 1 else 'stay'} as is"
+    hint = "`pico apply` brings what the manifest asks for"
+    notes = [Diagnostic("note", UNARMED, text, hint=hint)] if undone else []
+    return (*left_shut(request.seen, lasers), *notes)
+
+
+def without_light(setup: Setup, seen: Observation, plan: Plan) -> Plan:
+    """Return a plan without the operations that let light out of lasers which nobody lets emit, with a warning for each
+    of these; the same plan where there are none."""
+    shut = unlicensed(setup, seen, plan.operations)
+    if not shut:
+        return plan
+    gone = {op.id: op.after for op in plan.operations if lets_out(setup, op) and _of(setup, op.component, shut)}
+    kept = [op for op in plan.operations if op.id not in gone]
+    waits = [[w for a in op.after for w in gone.get(a, (a,)) if w not in gone] for op in kept]
+    operations = tuple(replace(op, after=tuple(dict.fromkeys(w))) for op, w in zip(kept, waits, strict=True))
+    return replace(plan, operations=operations, diagnostics=(*plan.diagnostics, *left_shut(seen, shut))).sealed()
+
+
+def light_last(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
+    """Return the operations such that light comes out after all else is done; a laser behind its own shutter, which is
+    closed, warms up meanwhile. `after` holds indices as text."""
+    lit = [n for n, op in enumerate(operations) if _comes_out(setup, seen, op)]
+    others = [n for n in range(len(operations)) if n not in lit]
+    waited = {int(e) for n in others for e in operations[n].after}
+    last = [str(n) for n in others if n not in waited]
+    return [
+        replace(op, after=tuple(dict.fromkeys((*op.after, *last)))) if n in lit else op
+        for n, op in enumerate(operations)
+    ]
+
+
+def _comes_out(setup: Setup, seen: Observation, op: Operation) -> bool:
+    if op.primitive not in ("set", "operator") or not lets_out(setup, op):
+        return False
+    behind = seen.known_values.get(op.component, {}).get("shutter") == "closed"
+    return op.arguments.get("tunable") == "shutter" or not behind
