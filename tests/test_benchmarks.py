@@ -30,6 +30,7 @@ SMALLEST = {
     "interferometers": "--frames 1 --points 3 --size 128 96 --repeat 1",
     "kernels": "--seeds 1 --shape 1000 1200",
     "kills": "--kills 50 --applies 1 --git 9",
+    "absorbed": "--seeds 1 --seat 1",
     "beam_audit": "--repeat 1",
     "alignment": "--seeds 1",
     "faulted_loops": "--loops 12 --kills 2 --goals tip null",

@@ -141,9 +141,10 @@ class Goals:
             raise PicoError(error("goal", f"{self.opened.setup.lab.name} has no goal `{what[:40]}`", hint=hint))
         return made_ready(self.opened.setup, self.opened.observe(), words)
 
-    def plan(self, chosen: Chosen) -> Plan:
-        """Return the plan that brings light to a goal; raises PicoError."""
-        return Plans(self.opened).to_goal(chosen.one, chosen.first)
+    def plan(self, chosen: Chosen, *, absorb: bool = True) -> Plan:
+        """Return the plan that brings light to a goal; raises PicoError. `absorb`: its tunables make up first for how
+        parts were seen to stand since light was right, see `pico.optics.nominal.feeding`."""
+        return Plans(self.opened).to_goal(chosen.one, chosen.first, absorb=absorb)
 
     def optimize(
         self, plan: Plan, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None

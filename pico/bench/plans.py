@@ -11,8 +11,9 @@ from pico.bench.auditing import with_audit
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
-from pico.model.diff import Change, show_value
+from pico.model.diff import Change, diff_observed, show_value
 from pico.model.drift import drift_of
+from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Target
@@ -25,6 +26,7 @@ from pico.vision.calibration import calibration_digest
 if TYPE_CHECKING:
     from pico.history.restoring.selected import SelectedParts
     from pico.manifest.load import Manifests
+    from pico.optics.nominal.feeding import Right
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.planning.sought import Sought
@@ -280,7 +282,7 @@ class Plans:
         told = cut_short(self.opened, seen)
         return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
 
-    def to_goal(self, one: Sought, first: Sequence[Sought] = ()) -> Plan:
+    def to_goal(self, one: Sought, first: Sequence[Sought] = (), *, absorb: bool = True) -> Plan:
         """Return the plan that brings light to a goal, by those that are sought `first` where it is dark; see
         `pico.bench.goals`; raises PicoError."""
         from pico import planning
@@ -288,8 +290,9 @@ class Plans:
 
         setup, seen = self.opened.setup, self.opened.observe()
         found = planning.optimize_one(
-            setup, seen, one, first=first, motion=DeferredMotion(setup), **self.start_of(seen)
-        )
+            setup, seen, one, first=first, motion=DeferredMotion(setup),
+            right=[*self._right(one.name, one.goal, seen)] if absorb else (), **self.start_of(seen),
+        )  # fmt: skip
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         judged, told = self.judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
@@ -320,6 +323,23 @@ class Plans:
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         judged, told = self.judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
+
+    def _right(self, name: str, goal: Goal, seen: Observation) -> Iterator[Right]:
+        """Yield benches with the light that a goal is to have: as it was met last, and as the manifest has it, where
+        the tunables of the goal stand as that says."""
+        from pico.optics.nominal.feeding import Right
+        from pico.runs.when_met import when_met
+
+        setup, wanted = self.opened.setup, self.opened.folder.state_now()
+        if (met := when_met(self.opened.edge.memory, setup.lab.name, name)) is not None:
+            yield Right(met, met=True)
+        if wanted is None:
+            return
+        off = {f"{c.component}.{c.tunable}" for c in diff_observed(setup, seen, wanted) if not c.tolerated}
+        if not off & goal.tunables.keys():
+            live = seen.known_values
+            parts = {n: replace(p, values={**live.get(n, {}), **p.values}) for n, p in wanted.components.items()}
+            yield Right(replace(wanted, components=parts), met=False)
 
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError

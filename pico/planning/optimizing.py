@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.model.lab import EXPOSURE, Goal, Setup
@@ -17,6 +18,9 @@ from pico.planning.measuring import granted, kept_shut, needed, setting
 from pico.planning.parts.setdown import park_operation
 from pico.planning.sought import Sought, arguments_of
 
+if TYPE_CHECKING:
+    from pico.optics.nominal.feeding import Right
+
 TAKES = 0.6
 """What a measurement takes, with the table at rest [s]."""
 ASKED = Reason(kind="asked")
@@ -24,11 +28,12 @@ ASKED = Reason(kind="asked")
 
 def optimizing(
     setup: Setup, seen: Observation, one: Sought, motion: Motion | None, first: Sequence[Sought] = (),
-    reason: Reason = ASKED,
+    reason: Reason = ASKED, right: Sequence[Right] = (),
 ) -> list[Operation]:  # fmt: skip
     """Return the operations that bring light to a goal: arms that stand out park, what is measured gets what it needs,
-    the optimization, and all is set back. `after` holds indices as text. `first`: goals that are sought before it where
-    it is dark, in the same operation.
+    its tunables make up for how parts stand otherwise than where light was `right`, in the first of these that is this
+    bench still, the optimization, and all is set back. `after` holds indices as text. `first`: goals that are sought
+    before it where it is dark, in the same operation.
 
     Raises PicoError where a tunable of a goal is not known, so that nobody could go back to it.
     """
@@ -47,6 +52,11 @@ def optimizing(
     for need in wants.values():
         waits = parks if need.opens else []
         out.append(setting(setup, need, need.live, need.value, waits, f"to measure for {name}"))
+    made_up = (absorbed(setup, seen, one.goal, bench) for bench in right)
+    fed = next((found for found in made_up if found is not None), {})
+    for address, value in fed.items():
+        out.append(_absorbing(setup, address, begin[address], value, parks))
+    begin |= fed
     parts = sorted({address.partition(".")[0] for address in begin})
     looked = {a for stage in stages for settings in (stage.goal.looks or {}).values() for a in settings}
     detectors = sorted({component for component, _ in measured} | {a.partition(".")[0] for a in looked})
@@ -62,6 +72,35 @@ def optimizing(
             text = f"as it was before {name}"
             out.append(setting(setup, need, need.value, need.live, [done], text))
     return out
+
+
+def absorbed(setup: Setup, seen: Observation, goal: Goal, right: Right) -> dict[str, float] | None:
+    """Return what tunables of a goal are to be set to first, so that they make up for how parts stand otherwise than
+    where light was right: within the goal's bounds, and within the trim of each around where it was. None where nobody
+    can tell."""
+    from pico.optics.nominal.feeding import fed_forward
+
+    limits = {}
+    for address, (low, high) in goal.tunables.items():
+        component, _, tunable = address.partition(".")
+        restore = setup.type_of(component).tunables[tunable].restore
+        part = right.state.components.get(component)
+        was = part.values.get(tunable) if part else None
+        if restore.kind == "align" and restore.trim is not None and isinstance(was, int | float):
+            low, high = max(low, was - restore.trim), min(high, was + restore.trim)
+        limits[address] = (low, high)
+    if any(low >= high for low, high in limits.values()):
+        return None
+    return fed_forward(setup, seen, goal, right, limits)
+
+
+def _absorbing(setup: Setup, address: str, before: float, after: float, waits: Sequence[str]) -> Operation:
+    component, _, tunable = address.partition(".")
+    return Operation(
+        id="", primitive="set", component=component, reason=Reason(kind="asked", text="makes up for how parts stand"),
+        arguments={"tunable": tunable, "from": before, "to": after}, after=tuple(waits),
+        resources=(address, component), seconds=set_seconds(setup.type_of(component).tunables[tunable], before, after),
+    )  # fmt: skip
 
 
 def seconds(setup: Setup, goal: Goal, algorithm: str) -> float:

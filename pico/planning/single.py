@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
@@ -29,6 +30,9 @@ from pico.planning.schedule import makespan, schedule
 from pico.planning.sought import Sought, sought_by, tunables_of
 from pico.planning.teleoperating import kept_dark, steered, teleoperating
 from pico.planning.values import home_operation, value_operations
+
+if TYPE_CHECKING:
+    from pico.optics.nominal.feeding import Right
 
 ASKED = Reason(kind="asked")
 
@@ -141,16 +145,16 @@ def measure(
 
 def optimize_one(
     setup: Setup, seen: Observation, one: Sought, *, motion: Motion | None, first: Sequence[Sought] = (),
-    backend: str = "sim", fidelity: str = "kinematic", base: Base | None = None,
+    backend: str = "sim", fidelity: str = "kinematic", base: Base | None = None, right: Sequence[Right] = (),
 ) -> Plan:  # fmt: skip
     """Return the plan that brings light to a goal, by those that are sought `first` where it is dark, and leaves all
-    else as it is.
+    else as it is. `right`: benches with the light that it is to have; what is seen to stand otherwise is made up for.
 
     Raises PicoError for a component that is not seen, and for tunables of which nobody knows where they stand.
     """
     for component in {address.partition(".")[0] for address in tunables_of(one, first)}:
         _part(setup, seen, component)
-    operations = optimizing(setup, seen, one, motion, first)
+    operations = optimizing(setup, seen, one, motion, first, right=right)
     texts = [text for stage in (*first, one) for text in stage.goal.texts]
     notes = [*left_shut(seen, unlit(setup, seen, measured_in(setup, texts)))]
     return _sealed(setup, seen, operations, notes, backend, fidelity, base, live_state(setup, seen), ())

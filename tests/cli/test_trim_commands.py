@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 from pathlib import Path
 
@@ -65,6 +66,20 @@ def test_a_plan_that_makes_it_stale_sets_the_value_and_ends_where_a_plan_finds_n
     edit(aligned / "state" / "table.yaml", "    angle: 22.75", "    angle: 22")
     assert pico("apply", "--yes").code == 0
     assert stage(pico) == 0 and pico("plan", "--detailed-exitcode").code == 0
+
+
+def test_what_was_seen_of_how_parts_stand_is_made_up_for_first(aligned: Path, pico: Pico) -> None:
+    *first, last = pico("runs", "show", "--json").data["operations"]
+    assert {(one["primitive"], one["component"]) for one in first} == {("set", "ly_150")}
+    assert last["primitive"] == "optimize"
+    assert pico("optimize", "centred", "--yes").code == 0
+    assert len(pico("runs", "show", "--json").data["operations"]) == 1, "nothing was put down since"
+    assert pico("sim", "nudge", "ly_150", "--dy", "0.2").code == 0
+    before = stage(pico)
+    found = json.loads(pico("optimize", "centred", "--yes", "--json").out.splitlines()[-1])
+    assert found["first"]["ly_150.stage_y"] == pytest.approx(before - 0.2, abs=0.01)
+    assert abs(found["first"]["cam.centroid.x"]) < 20, "it is there nearly before it is sought"
+    assert pico("undo", "--yes").code == 0 and stage(pico) == pytest.approx(before, abs=1e-6)
 
 
 def test_of_a_set_point_the_value_counts(aligned: Path, pico: Pico) -> None:

@@ -24,10 +24,16 @@ PLACED = ("x", "y", "yaw", "pitch", "roll", "height")
 """The ways in which a placement errs, as `pico.geometry.seat.PlacementError` names them."""
 _STEPS = {"x": 1e-2, "y": 1e-2, "height": 1e-2, "yaw": 1e-3, "pitch": 1e-3, "roll": 1e-3}  # mm, deg
 _OPEN = ("shutter", "emission")
-_TOLD: Mapping[str, Callable[[Arrival], float]] = {
+TOLD: Mapping[str, Callable[[Arrival], float]] = {
     "centroid.x": lambda arrival: 1e3 * arrival.center[0],
     "centroid.y": lambda arrival: 1e3 * arrival.center[1],
+    "spot.left": lambda arrival: 1e3 * arrival.center[0],
+    "spot.up": lambda arrival: 1e3 * arrival.center[1],
+    "way.left": lambda arrival: 1e3 * float(arrival.beam.along @ arrival.part.axes[1]),
+    "way.up": lambda arrival: 1e3 * float(arrival.beam.along @ arrival.part.axes[2]),
 }
+"""Numbers of light on a detector, by name: its centroid, which cameras measure; where it comes to any detector [um],
+and how it comes there, from the detector's axis [mrad]."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +50,7 @@ class Nominal:
         found, light = [], None
         for address in wanted:
             detector, _, number = address.partition(".")
-            if number not in _TOLD:
+            if number not in TOLD:
                 return None
             if light is None:
                 shining = {n: {k: v for k, v in own.items() if k not in _OPEN} for n, own in self.values.items()}
@@ -52,7 +58,7 @@ class Nominal:
             arrivals = light.at(detector)
             if not arrivals:
                 return None
-            found.append(_TOLD[number](max(arrivals, key=lambda a: a.power)))
+            found.append(TOLD[number](max(arrivals, key=lambda a: a.power)))
         return np.array(found) if found else None
 
     def on_the_way(self, wanted: Sequence[str]) -> tuple[str, ...]:
