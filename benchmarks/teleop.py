@@ -210,6 +210,25 @@ def stops(
     return found
 
 
+def taking(folder: Path, record: Record, how: str, count: int, draw: random.Random) -> list[float]:
+    """Return how long after each stop an arm moved last that was on its way to take a part in hand [s]."""
+    found: list[float] = []
+    while len(found) < count:
+        began = time.monotonic()
+        terminal = Terminal(folder, "p2.pose", "--yes")
+        terminal.until(lambda b=began: len(record.after(b)) >= 8, "the arm does not move")  # type: ignore[misc]
+        terminal.live(draw.uniform(0.0, 0.5))
+        at = stop(terminal, how, b"C")
+        assert record.after(at - 0.4), "nothing moved just before"
+        time.sleep(2 * QUIET)
+        found.append(max(record.after(at), default=at) - at)
+        if how == "process stopped":
+            os.kill(terminal.child, signal.SIGKILL)
+        terminal.gone()
+        apart(lambda: freed(folder))
+    return found
+
+
 def apart(work: Callable[[], None]) -> None:
     """Do something in a process of its own: threads of this one would not survive a fork."""
     child = os.fork()
@@ -255,13 +274,21 @@ def measured_stops(given: argparse.Namespace, folder: Path) -> int:
     apart(lambda: centred(folder))
     with recorded(folder, record.path):
         for words, count in ((("p2.angle", "--step", "2 deg"), given.stops), (("p2.pose", "--yes"), given.arm)):
-            for how in HOW:
+            for how in given.how:
                 found = stops(folder, record, words, how, count, draw) if count else []
-                if found:
-                    late += sum(t > 0.2 + (BRAKING if words[0] == "p2.pose" else 0.0) for t in found)
-                    said = f"median {1000 * sorted(found)[len(found) // 2]:.0f} ms, max {1000 * max(found):.0f} ms"
-                    print(f"{words[0]}: {how}: moved on for {said} after it, of {len(found)}", flush=True)
+                said = f"{words[0]}: {how}"
+                late += told(said, found, BRAKING if words[0] == "p2.pose" else 0.0)
+        for how in [how for how in given.how if how != HOW[0]]:
+            late += told(f"arm on its way to p2: {how}", taking(folder, record, how, given.arm, draw), BRAKING)
     return late
+
+
+def told(what: str, found: list[float], braking: float) -> int:
+    """Tell of some stops, and return how many came late."""
+    if found:
+        said = f"median {1000 * sorted(found)[len(found) // 2]:.0f} ms, max {1000 * max(found):.0f} ms"
+        print(f"{what}: moved on for {said} after it, of {len(found)}", flush=True)
+    return sum(t > 0.2 + braking for t in found)
 
 
 # sessions
@@ -414,6 +441,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stops", type=int, default=50, help="of each kind, of a motor")
     parser.add_argument("--arm", type=int, default=10, help="of each kind, with a part in hand")
+    parser.add_argument("--how", choices=HOW, nargs="+", default=HOW, help="kinds of stops")
     parser.add_argument("--sessions", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()

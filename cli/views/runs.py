@@ -50,7 +50,7 @@ def deed(d: Run) -> str:
     if d.cause.kind in ("undo", "resume", "recover") or not d.cause.kind:
         of = f" {shown(d.cause.of)}" if d.cause.of else ""
         return f"{shown(d.cause.kind)}{of}" if d.cause.kind else goal
-    return goal if d.cause.kind == "single" else f"{shown(d.cause.kind)} {goal}"
+    return goal if d.cause.kind in ("single", "teleoperation") else f"{shown(d.cause.kind)} {goal}"
 
 
 def moment(at: str) -> str:

@@ -33,6 +33,8 @@ POLL = 0.02
 """Seconds between two looks at whether somebody still steers, asked to stop, or fell silent."""
 _SURE = 2
 """So often in a row must the silence be found while an arm moves by itself: frames may wait for their turn here."""
+_QUIET = SILENCE - (_SURE + 0.5) * POLL
+"""Seconds of silence that are looked at twice, so that the arm is told to stop within SILENCE."""
 REFUSED = frozenset({"blocked", "step", "range"})
 """Why a step is not made, where nothing moved and going on elsewhere is no matter."""
 
@@ -217,9 +219,8 @@ class _Steered:
         silent = 0
         while not doing.done():
             await asyncio.wait([doing], timeout=POLL)
-            quiet = self.gate.silent(self.edge.clock()) > SILENCE - _SURE * POLL
-            silent = silent + 1 if quiet else 0
-            if silent > _SURE and not doing.done():
+            silent = silent + 1 if self.gate.silent(self.edge.clock()) > _QUIET else 0
+            if silent >= _SURE and not doing.done():
                 await self.device.stop()
                 await doing
                 return self._lost("nobody who steers was heard of while the arm moved")

@@ -6,8 +6,9 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-LATE = 0.05
-"""A world that is later than this is not hurried after the wall clock [s]: motion is never faster than it should be."""
+LATE = 0.25
+"""A world that is later than this is not hurried after the wall clock [s]. One that is less late is, so that a step is
+over when it should be by the wall, as a real one would be."""
 TICK = 0.01
 """Longest time between two looks at the clock [s]."""
 STEP = 0.02
