@@ -34,6 +34,7 @@ SMALLEST = {
     "beam_audit": "--repeat 1",
     "alignment": "--seeds 1",
     "faulted_loops": "--loops 12 --kills 2 --goals tip null",
+    "stages": "--seeds 1",
     "lens_by_light": "--seeds 1 --fidelity kinematic",
     "light": "--repeat 1",
     "links": "--kills 1",

@@ -36,13 +36,14 @@ def optimize(
 ) -> int:
     """Set and measure until light is as a goal wants it.
 
-    The best is kept. Without a goal those that there are are listed: `goals:` of `lab.yaml`, and ready made
-    `centre PART CAMERA`, `focus PART CAMERA`, `peak PART DETECTOR`, `null PART DETECTOR`. Ctrl-C ends at the best
-    point. The exit code is 6 where the goal was not met; `pico undo` goes back.
+    The best is kept. Without a goal those that there are are listed: `goals:` of `lab.yaml`, and ready made ones
+    with the words that they take (`centre PART CAMERA`, `through IRIS IRIS`, `fibre COUPLER`). Ctrl-C ends at the
+    best point. The exit code is 6 where the goal was not met; `pico undo` goes back.
 
     Examples:
       pico optimize centre ly_150 cam
       pico optimize null p2 cam --plot null.png
+      pico optimize through iris1 iris2 --dry-run
       pico optimize centred --dry-run
       pico optimize centre lens camera --by-arm
     """

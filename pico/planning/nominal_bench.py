@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 Values = Mapping[str, Mapping[str, Any]]
 T = TypeVar("T")
+STEERS = ("tip", "tilt")
+"""Tunables of a mirror that steers a beam."""
 _STOPPED_DOWN = 0.6
 """The share of its widest below which an iris is closed to be aimed at."""
 _STEP = 1e-3
@@ -86,9 +88,14 @@ class NominalBench:
     def __init__(self, setup: Setup, seen: Observation, ends: Sequence[Place]) -> None:
         self.setup, self.places = setup, ends
         self.poses = _standing(setup, seen)
-        self.values = {name: _open(own) for name, own in seen.known_values.items()}
+        self.values: Values = {name: _open(own) for name, own in seen.known_values.items()}
         self._light = self._lit(self.poses, self.values)
-        self.offsets = self._offsets(self._light)
+        try:
+            self.offsets = self._offsets(self._light)
+        except Astray:  # what its mirrors make up for is not seen: as they were meant, it comes there
+            self.values = straight(self.values)
+            self._light = self._lit(self.poses, self.values)
+            self.offsets = self._offsets(self._light)
 
     def _lit(self, poses: Mapping[str, Pose], values: Values, leaning: Mapping[str, Unseen] | None = None) -> Light:
         from pico.optics.light import light_of
@@ -134,19 +141,18 @@ class NominalBench:
 
     def scattered(self) -> Array:
         """Return by how much the offsets change with one standard deviation of each placement, one a column; of parts
-        that an arm puts down, others stand as they did."""
+        that an arm puts down, as others stand as they did; of all where it puts none down."""
         import numpy as np
 
         columns = [np.zeros(len(self.offsets))]
-        for name in sorted({c.component for c in self._light.crossings} & self.poses.keys()):
+        met = sorted({c.component for c in self._light.crossings} & self.poses.keys())
+        for name in [n for n in met if self.setup.movable(n)] or met:
             for poses, leaning in self._put_down(name):
                 columns.append((self._offsets(self._lit(poses, self.values, leaning)) - self.offsets) / _STEP)
         return np.stack(columns, axis=1)
 
     def _put_down(self, name: str) -> Iterator[tuple[dict[str, Pose], dict[str, Unseen]]]:
         """Yield poses, and how parts lean, with one part put down otherwise by a small share of how it scatters."""
-        if not self.setup.movable(name):
-            return
         from pico.optics.unseen import SEEN
 
         one, pose = scatter_of(self.setup, name), self.poses[name]
@@ -161,6 +167,11 @@ class NominalBench:
     def _with(self, address: str, value: float) -> Values:
         component, _, tunable = address.partition(".")
         return {**self.values, component: {**self.values.get(component, {}), tunable: value}}
+
+
+def straight(values: Values) -> Values:
+    """Return tunables with mirrors that are not turned."""
+    return {n: {k: 0.0 if k in STEERS else v for k, v in own.items()} for n, own in values.items()}
 
 
 def _part(address: str) -> str:

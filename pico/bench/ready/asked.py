@@ -14,10 +14,9 @@ from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.vocabulary import numbers_of
 from pico.optics.axis import Axis, beams
+from pico.planning.nominal_bench import STEERS, straight
 
 Bounds = Mapping[str, tuple[float, float]]
-STEERS = ("tip", "tilt")
-"""Tunables of a mirror that steers a beam."""
 LIGHT = ("power", "voltage")
 """Numbers that tell how much light there is."""
 
@@ -59,8 +58,15 @@ class Asked:
 
     @cached_property
     def axes(self) -> tuple[Axis, ...]:
-        """The beams of all sources."""
-        return tuple(beams(self.setup, self.poses, self.values))
+        """The beams of all sources: as mirrors are turned, then as they would be if none were, where light is lost."""
+        ways = (self.values, straight(self.values))
+        return tuple(axis for values in ways for axis in beams(self.setup, self.poses, values))
+
+    def look(self, name: str) -> str:
+        """Return a name for a look that no component has."""
+        while name in self.setup.lab.inventory or name in self.setup.lab.cameras:
+            name = f"at_{name}"
+        return name
 
     def refused(self, text: str, hint: str) -> PicoError:
         """Return the refusal of this goal."""
@@ -82,8 +88,9 @@ class Asked:
         return set(tunables) <= self.setup.type_of(component).tunables.keys()
 
     def ways(self, component: str) -> list[list[str]]:
-        """Return the ways of light from a source to a component: what it meets, in order, the component last."""
-        return [[m.component for m in way] for axis in self.axes for way in axis.ways(component)]
+        """Return the ways of light from a source to a component, each once: what it meets, in order, it last."""
+        found = [[m.component for m in way] for axis in self.axes for way in axis.ways(component)]
+        return [way for n, way in enumerate(found) if way not in found[:n]]
 
     def way(self, component: str) -> list[str]:
         """Return the first way of light to a component; raises PicoError where none comes there."""

@@ -10,11 +10,12 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Protocol, cast
 
-from pico.bench.ready.asked import STEERS, Asked, Ready
+from pico.bench.ready.asked import Asked, Ready
 from pico.diagnostics import Diagnostic, PicoError
 from pico.manifest.checks.goals import goal_errors
 from pico.model.lab import Goal, Setup
 from pico.model.observation import Observation
+from pico.planning.nominal_bench import STEERS
 
 FOLDER = "pico.bench.ready.goals"
 GROUP = "pico.goals"

@@ -3,9 +3,10 @@ after the other, and what moves one of them brings it to where the other is."""
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import STEERS, Asked, Ready
+from pico.bench.ready.asked import Asked, Ready
 from pico.model.lab import Budget, Goal
 from pico.model.quantities import Value
+from pico.planning.nominal_bench import STEERS
 
 TAKES = "[MIRROR MIRROR] NEAR FAR: two arms one on the other on both cameras, to 10 um"
 LEAST = 2
@@ -21,10 +22,11 @@ def make(asked: Asked) -> Ready:
     shutters = [_shutter(asked, arm, near) for arm in arms]
     mirrors = named or _steered(asked, arms)
     tunables = {a: b for mirror in mirrors for a, b in asked.bounds(mirror, *STEERS).items()}
+    one, other = asked.look("one"), asked.look("other")
     looks: dict[str, dict[str, Value]] = {
-        "one": {shutters[0]: "open", shutters[1]: "closed"}, "other": {shutters[0]: "closed", shutters[1]: "open"},
+        one: {shutters[0]: "open", shutters[1]: "closed"}, other: {shutters[0]: "closed", shutters[1]: "open"},
     }  # fmt: skip
-    apart = [f"one.{c}.centroid.{axis} - other.{c}.centroid.{axis}" for c in cameras for axis in ("x", "y")]
+    apart = [f"{one}.{c}.centroid.{axis} - {other}.{c}.centroid.{axis}" for c in cameras for axis in ("x", "y")]
     return Ready(asked.name, Goal(
         tunables=tunables, reach=dict.fromkeys(apart, 0.0), tolerance=NEAR, looks=looks,
         budget=Budget(measurements=80, seconds=900.0),

@@ -3,9 +3,10 @@ as can be, as a detector beside the way sees it."""
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import STEERS, Asked, Ready
+from pico.bench.ready.asked import Asked, Ready
 from pico.bench.ready.openings import stopped_down
 from pico.model.lab import Goal
+from pico.planning.nominal_bench import STEERS
 
 TAKES = "MIRROR [IRIS] [DETECTOR]: back through the iris that the light came through"
 LEAST = 1
@@ -30,9 +31,9 @@ def make(asked: Asked) -> Ready:
         text = f"{named[0] if named else 'no iris with a motor'} is not on the way to {mirror} and back"
         raise asked.refused(text, f"an iris between the splitter and {mirror}: where light must come back to")
     detector, iris = found
-    light, opening = asked.light_of(detector), stopped_down(asked, iris)
+    light, opening, look = asked.light_of(detector), stopped_down(asked, iris), asked.look("back")
     return Ready(asked.name, Goal(
-        tunables=asked.bounds(mirror, *STEERS), maximize=f"back.{light}", looks={"back": {f"{iris}.opening": opening}},
+        tunables=asked.bounds(mirror, *STEERS), maximize=f"{look}.{light}", looks={look: {f"{iris}.opening": opening}},
     ))  # fmt: skip
 
 

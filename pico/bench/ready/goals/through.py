@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pico.bench.ready.asked import STEERS, Asked, Ready
+from pico.bench.ready.asked import Asked, Ready
 from pico.bench.ready.openings import stopped_down, wide_open
 from pico.model.lab import Budget, Goal
 from pico.model.quantities import Value
+from pico.planning.nominal_bench import STEERS
 
 TAKES = "[MIRROR MIRROR] IRIS IRIS [DETECTOR]: the beam through both, by the light behind each in turn"
 LEAST = 2
@@ -29,11 +30,12 @@ def make(asked: Asked) -> Ready:
     mirrors = named or asked.mirrors_before(near, 2)
     others = [w for w in words if w not in (*irises, *named)]
     light = asked.light_of(others[-1] if others else asked.meter_behind(far))
-    looks = {"near": _looks(asked, near, [far]), "far": _looks(asked, far, [near])}
+    one, other = asked.look("near"), asked.look("far")
+    looks = {one: _looks(asked, near, [far]), other: _looks(asked, far, [near])}
     tunables = {a: b for mirror in mirrors for a, b in asked.bounds(mirror, *STEERS).items()}
-    first = Goal(tunables=asked.bounds(mirrors[0], *STEERS), maximize=f"near.{light}", looks={"near": looks["near"]})
+    first = Goal(tunables=asked.bounds(mirrors[0], *STEERS), maximize=f"{one}.{light}", looks={one: looks[one]})
     whole = Goal(
-        tunables=tunables, maximize=f"near.{light} * far.{light}", looks=looks,
+        tunables=tunables, maximize=f"{one}.{light} * {other}.{light}", looks=looks,
         budget=Budget(measurements=120, seconds=900.0),
     )  # fmt: skip
     return Ready(asked.name, whole, ((f"light behind {near}", first),))

@@ -1,0 +1,146 @@
+"""Ready-made goals, each on a small bench: reached by the traced truth, not by their own reading; refusals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import pico
+from pico.backends.sim.lighted import unseen_of
+from pico.backends.sim.store import load_world
+from pico.bench.bench import Bench
+from pico.diagnostics import PicoError
+from pico.optics.light import Light, light_of
+from pico.optics.offsets import Place, offset
+
+HEAD = """\
+apiVersion: pico/v1
+kind: Lab
+metadata: {name: small}
+table: {size: [1500, 900], beam_height: 70}
+robots: {arm1: {model: xarm7, mount: {x: 750, y: 850, yaw: -90}}}
+sim: {fidelity: kinematic, seed: 3, environment: none}
+policy: {enclosed: true}
+inventory:
+  laser: {type: hene_laser_expanded, pose: {x: 120, y: 260, yaw: 0}}
+  weak: {type: neutral_density_filter, pose: {x: 260, y: 260, yaw: 0}}
+"""
+TWO_MIRRORS = """\
+  m1: {type: mirror_tip_tilt, pose: {x: 400, y: 260, yaw: -45}}
+  m2: {type: mirror_tip_tilt, pose: {x: 400, y: 440, yaw: 135}}
+"""
+
+
+def bench(folder: Path, parts: str, **tunables: Mapping[str, Any]) -> Bench:
+    """Open a bench with parts and the laser on; others as given."""
+    (folder / "lab.yaml").write_text(HEAD + parts)
+    lines = [f"  {name}: {{{', '.join(f'{k}: {v}' for k, v in own.items())}}}" for name, own in tunables.items()]
+    (folder / "table.yaml").write_text(
+        "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: small}\ncomponents:\n"
+        "  laser: {emission: true, shutter: open}\n" + "\n".join(lines) + "\n"
+    )
+    opened = pico.open(folder)
+    assert opened.apply().outcome == "done"
+    return opened
+
+
+def truth(opened: Bench, folder: Path) -> Light:
+    """The light as it truly is, irises open."""
+    world = load_world(opened.setup, folder)[0]
+    standing = {n: b for n, b in world.components.items() if b.pose is not None}
+    unseen = {n: one for n, b in standing.items() if (one := unseen_of(opened.setup, n, b))}
+    values = {n: {k: v for k, v in b.true_values.items() if k != "opening"} for n, b in standing.items()}
+    return light_of(opened.setup, {n: b.pose for n, b in standing.items() if b.pose}, values, unseen=unseen)
+
+
+def beside(light: Light, component: str, *by: str) -> float:
+    """How far a beam passes beside the middle of a component [mm]."""
+    found = offset(light, Place(component, by=frozenset(by)))
+    return float(abs(found[:2]).max()) if found is not None else float("inf")
+
+
+def refused(opened: Bench, *words: str) -> str:
+    with pytest.raises(PicoError) as caught:
+        opened.goals.chosen(words)
+    found = caught.value.diagnostics[0]
+    return f"{found.summary} {found.hint}"
+
+
+def test_a_beam_is_walked_through_two_irises_that_were_dark(tmp_path: Path) -> None:
+    parts = (
+        TWO_MIRRORS
+        + """\
+  near: {type: iris, pose: {x: 560, y: 440, yaw: 0}}
+  far: {type: iris, pose: {x: 1000, y: 440, yaw: 0}}
+  meter: {type: power_meter, pose: {x: 1200, y: 440, yaw: 0}}
+"""
+    )
+    off = {"m1": {"tip": 2.1, "tilt": -0.9}, "m2": {"tip": -1.2, "tilt": 0.8}}
+    with bench(
+        tmp_path, parts, near={"opening": 11.5}, far={"opening": 11.5}, meter={"wavelength": 632.8}, **off
+    ) as it:
+        found = it.optimize("through", "near", "far")
+        light = truth(it, tmp_path)
+        assert found.met, found
+        assert max(beside(light, "near"), beside(light, "far")) < 0.2
+        assert it.observe().known_values["near"]["opening"] == pytest.approx(11.5, abs=0.1)
+        assert "it takes two irises" in refused(it, "through", "near", "meter")
+        assert "no beam comes through" in refused(it, "through", "near", "near")
+
+
+def test_a_mirror_sends_light_back_through_the_iris(tmp_path: Path) -> None:
+    parts = """\
+  split: {type: beam_splitter_50_50, pose: {x: 420, y: 260, yaw: 0}}
+  stop: {type: beam_block, pose: {x: 420, y: 500, yaw: 90}}
+  meter: {type: power_meter, pose: {x: 420, y: 140, yaw: -90}}
+  iris: {type: iris, pose: {x: 560, y: 260, yaw: 0}}
+  back: {type: mirror_tip_tilt, pose: {x: 1100, y: 260, yaw: 0}}
+"""
+    with bench(
+        tmp_path, parts, iris={"opening": 11.5}, back={"tip": 0.9, "tilt": -0.7}, meter={"wavelength": 632.8}
+    ) as it:
+        found = it.optimize("retro_reflect", "back")
+        assert found.met, found
+        assert beside(truth(it, tmp_path), "iris", "back") < 0.25
+        assert "has no motors for tip and tilt" in refused(it, "retro_reflect", "split")
+
+
+def test_light_is_brought_through_the_pinhole_of_a_spatial_filter(tmp_path: Path) -> None:
+    parts = """\
+  filter: {type: spatial_filter, pose: {x: 450, y: 260, yaw: 0}}
+  meter: {type: power_meter, pose: {x: 700, y: 260, yaw: 0}}
+"""
+    with bench(tmp_path, parts, filter={"pinhole_y": 30, "pinhole_z": -25}, meter={"wavelength": 632.8}) as it:
+        found = it.optimize("spatial_filter", "filter")
+        assert found.met, found
+        assert beside(truth(it, tmp_path), "filter") < 0.003
+
+
+def test_a_beam_is_collimated_by_two_cameras(tmp_path: Path) -> None:
+    parts = """\
+  first: {type: plano_convex_60, pose: {x: 360, y: 260, yaw: 0}}
+  lens: {type: lens_xyz_stage, pose: {x: 520, y: 260, yaw: 0}}
+  split: {type: beam_splitter_50_50, pose: {x: 640, y: 260, yaw: 0}}
+  near: {type: beam_camera, parameters: {filter_density: 3}, pose: {x: 640, y: 360, yaw: 90}}
+  far: {type: beam_camera, parameters: {filter_density: 3}, pose: {x: 1300, y: 260, yaw: 0}}
+"""
+    with bench(
+        tmp_path, parts, lens={"stage_x": -3, "stage_y": 0, "stage_z": 0}, near={"exposure": 1}, far={"exposure": 1}
+    ) as it:
+        found = it.optimize("collimate", "lens", "near", "far")
+        light = truth(it, tmp_path)
+        wide = [light.at(camera)[0].beam.widths[0] for camera in ("near", "far")]
+        assert found.met and wide[0] == pytest.approx(wide[1], rel=0.015)
+        assert "does not tell whether the beam widens" in refused(it, "collimate", "lens", "near")
+
+
+def test_a_fibre_takes_what_two_mirrors_and_a_focus_bring(tmp_path: Path) -> None:
+    parts = TWO_MIRRORS + "  coupler: {type: fiber_coupler, pose: {x: 800, y: 440, yaw: 0}}\n"
+    off = {"m1": {"tip": 0.6, "tilt": -0.5}, "m2": {"tip": 0.5, "tilt": 0.6}}
+    with bench(tmp_path, parts, **off) as it:
+        found = it.optimize("fibre", "coupler")
+        assert found.met and beside(truth(it, tmp_path), "coupler") < 0.1, found
+        assert "more must be said" in refused(it, "fibre")
