@@ -3,7 +3,7 @@
 For each seed a bench is made anew: a laser of 0.1 mW behind its filter, two mirrors with tip and tilt, an iris,
 splitters to a power meter and to a lens with a camera in its focus, a fibre coupler. The arm puts mirrors, iris, lens,
 meter and coupler down, each off in all six ways by what the catalog says of its seat, in a world that drifts and walks;
-splitters, laser and camera are bolted. No start is drawn by its power. Then one goal of the lab is sought, `fibre`, that
+splitters, laser and camera are bolted. No start is drawn by its power. Then one goal of the lab is sought, `fibre`; it
 comes after `near` (light behind the iris, stopped down to 2 mm) and `far` (the spot in the middle of the camera).
 
 Counted is every measurement of all stages, with the first, which finds it dark. Light is found where the fibre takes at
