@@ -5,6 +5,7 @@ What it does its services do, one a noun; beside them it has the few verbs that 
 
 from __future__ import annotations
 
+import signal
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -152,8 +153,13 @@ class Bench(Opened):
 
     def optimize(self, *goal: str, algorithm: str | None = None) -> Optimized:
         """Bring light to a goal, `optimize("centred")` or `optimize("centre", "ly_150", "cam")`, and return what became
-        of it; see `Goals`. Raises PicoError for what makes no sense, and where it can't be begun."""
-        return self.goals.optimize(self.goals.plan(self.goals.chosen(goal, algorithm=algorithm)))[1]
+        of it; see `Goals`. Raises PicoError for what makes no sense, and where it can't be begun. A signal ends it at
+        the best point before it does what it would have done."""
+        came: list[int] = []
+        _, found = self.goals.optimize(self.goals.plan(self.goals.chosen(goal, algorithm=algorithm)), came=came)
+        if came:
+            signal.raise_signal(came[0])
+        return found
 
     def teleop(self, component: str, tunable: str | None = None) -> Teleoperation:
         """Return what steers a component, while it is entered: `with bench.teleop("p2", "pose") as jog:

@@ -147,10 +147,11 @@ class Goals:
         return Plans(self.opened).to_goal(chosen.one, chosen.first, absorb=absorb)
 
     def optimize(
-        self, plan: Plan, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None
-    ) -> tuple[RunReport, Optimized]:
+        self, plan: Plan, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None,
+        came: list[int] | None = None,
+    ) -> tuple[RunReport, Optimized]:  # fmt: skip
         """Run the plan of a goal, and return what became of the run and of the goal. `show` gets each event; Ctrl-C
-        ends it at the best point, of which `say` is told."""
+        ends it at the best point, of which `say` is told. `came` gets the signals that ended it."""
         from pico.bench.moves import Moves
         from pico.bench.running.attending import attend
 
@@ -160,7 +161,9 @@ class Goals:
             events.append(event)
             show(event)
 
-        attend(run, heard, say)
+        signals = attend(run, heard, say)
+        if came is not None:
+            came += signals
         return run.report, optimized(events)
 
     def plot(self, found: Optimized, out: Path) -> None:

@@ -147,6 +147,8 @@ class _Walk:
         """Return why nothing more may be tried, empty while something may: one measurement is kept for the end."""
         limits, spent = self.limits, len(self.tried)
         spends = spent + 2 if spent else 1  # the next, and one at the end
+        if self.good is not None and self._doubtful(self.tried[0], self.good):
+            spends += 2  # the start and the best again
         slow = self.now - (self.began or 0.0) + 2 * self.longest > limits.seconds
         ends = {
             self.fault: bool(self.fault),
@@ -201,45 +203,56 @@ class _Walk:
         first = self.tried[0] if self.tried else None
         if self.problem.offset is not None and self.solution is not None and not self.fault:
             return (yield from self._leave(why, self.solution, self.problem.offset))
-        stopped = self.fault
         if self.unknown and not self.fault and (self.good is None or self.lost):
             why = f"{why} ({self.unknown})"
+        if not self.fault:
+            why = yield from self._brought(first, why)
         if self.fault:  # what it set besides goes back to where it began
+            why = self.fault
             yield from self._ask(self.problem.start, measure=False, why="start")
-        elif self.good is None and first is not None:
-            yield from self._ask(_point(self.problem, first), measure=False, why="start")
-        elif self.good is not None and not self._at_best():
-            yield from self._ask(_point(self.problem, self.good), why="best")
-        if first is not None and self._doubtful(first):
-            best = dict(self.here)
-            again = yield from self._ask(_point(self.problem, first), why="check")
-            if self.problem.cost(again.result) < self.problem.cost(first.result) / 2:
-                why, self.good = f"{LIGHT_LOST} on the way: less comes now to where it began", None
-            else:
-                yield from self._ask(best, why="best")
-        if first is not None and not self.fault and self._worse(first):
-            left = len(self.tried) < self.limits.measurements
-            yield from self._ask(_point(self.problem, first), measure=left, why="start")
         last = self.tried[-1] if self.tried else None
-        believed = last is not None and self._believed(last.result) and not stopped
+        at = last is not None and all(last.result[n] == v for n, v in self.here.items())
+        believed = last is not None and at and self._believed(last.result) and not self.fault
         reached = believed and last is not None and (self.problem.aim != "reach" or self.problem.met(last.result))
         spent = ("the budget", STOPPED, "it comes no nearer", "the light", "the readings do not", "there is too little")
         met = reached and (self.problem.aim == "reach" or not why.startswith(spent))
         seen = first.result if first and self._believed(first.result) else None
         return Outcome(
-            seen, last.result if believed and last else None, tuple(self.tried), met, why, stopped,
+            seen, last.result if believed and last else None, tuple(self.tried), met, why, self.fault,
             self.now - (self.began or 0.0),
         )  # fmt: skip
 
-    def _doubtful(self, first: Tried) -> bool:
+    def _brought(self, first: Tried | None, why: str) -> Generator[Ask, Reading, str]:
+        """Bring the tunables to the best point, or to where they began; return why it ends then."""
+        if first is None:
+            return why
+        begun = _point(self.problem, first)
+        if self.good is None:
+            yield from self._ask(begun, measure=False, why="start")
+            return why
+        if not self._at_best():
+            yield from self._ask(_point(self.problem, self.good), why="best")
+        if self._doubtful(first, self.tried[-1]):
+            if len(self.tried) + 2 > self.limits.measurements:  # nobody can tell: as it was
+                yield from self._ask(begun, measure=False, why="start")
+                return f"{why}, and whether it is a null or {LIGHT_LOST} would take two more measurements"
+            best = dict(self.here)
+            again = yield from self._ask(begun, why="check")
+            if self.problem.cost(again.result) < self.problem.cost(first.result) / 2:
+                return f"{LIGHT_LOST} on the way: less comes now to where it began"
+            yield from self._ask(best, why="best")
+        if self._worse(first):
+            yield from self._ask(begun, measure=len(self.tried) < self.limits.measurements, why="start")
+        return why
+
+    def _doubtful(self, first: Tried, null: Tried) -> bool:
         """Whether what looks like a null may be a beam that was lost: where it reads as without light, though it did
         not where it began, and nothing else is measured that would tell."""
         if self.problem.aim != "minimize" or self.limits.signal or self.fault or not self._believed(first.result):
             return False
-        output, last = self.problem.outputs[0], self.tried[-1].result
+        output, last = self.problem.outputs[0], null.result
         least = {n: _SURE * r.get(f"{output}_sigma", 0.0) for n, r in (("first", first.result), ("last", last))}
-        dark = abs(last.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
-        return dark and len(self.tried) + 2 <= self.limits.measurements
+        return abs(last.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
 
     def _leave(self, why: str, solution: Solution, offset: Mapping[str, float]) -> Loop:
         """Leave the tunables by an offset from where the best is, not the best that was read, as finely as they can

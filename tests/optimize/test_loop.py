@@ -178,3 +178,16 @@ def test_too_much_light_is_not_looked_for_on_a_spiral() -> None:
     found, asks = driven(CENTRE, "centroid_newton", read, acquire="spiral")
     assert "too much light to begin with (cam.image is saturated)" in found.why
     assert all(ask.point == CENTRE.start for ask in asks)
+
+
+def test_an_axis_that_fails_on_the_way_to_the_best_is_told_too() -> None:
+    """The third reading is the best, and nobody comes back to it."""
+
+    def read(point: Point, number: int) -> Reading | dict[str, float]:
+        if number > 8:
+            return Reading(fault="m.tip does not answer; it last read 0.2", time=float(number))
+        return bump(point)
+
+    found, asks = driven(PEAK, "nelder_mead", read, Limits(measurements=9))
+    assert found.fault == found.why == "m.tip does not answer; it last read 0.2" and not found.met
+    assert asks[-1].point == PEAK.start and not asks[-1].measure
