@@ -43,6 +43,7 @@ SMALLEST = {
     "merges": "--cases 20 --git 2 --failing 2 --impossible 2 --moves 10 --moves-by-git 2",
     "motion": "--moves 4 --parts 6",
     "mutants": "--seed 1 --count 4 --rooms policy --tests tests/policy",
+    "null_of": "--seeds 1",
     "omissions": "--cases 30",
     "optics_references": "",
     "pick_and_place": "--moves 1 --sight exact",
