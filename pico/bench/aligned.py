@@ -189,12 +189,25 @@ def _alignment(
     old = bool(goal.valid_for) and _age(end.at, now) > convert(goal.valid_for or "0 s", "s")
     reasons = {
         "it was another goal then": _wanted(begun.data["arguments"].get("what", {})) != _wanted(as_json(goal)),
+        (other := _swapped(setup, seen, goal, begun.data["arguments"])): bool(other),
         f"older than {goal.valid_for}": old,
         f"{upset} was changed since": bool(upset),
         (elsewhere := _elsewhere(setup, seen, goal, last or {})): bool(elsewhere),
     }
     why = next((reason for reason, so in reasons.items() if so), "")
     return standing("stale" if why else "aligned", why, end.at, last)
+
+
+def _swapped(setup: Setup, seen: Observation, goal: Goal, arguments: Mapping[str, Any]) -> str:
+    """Return which part in its light has another specimen now, in words; empty for none, and where nobody knows."""
+    known = arguments.get("specimens")
+    if known is None:
+        return ""
+    for name in sorted(_light(setup, seen, goal)[0]):
+        was, now = str(known.get(name, "")), setup.lab.inventory[name].serial
+        if was != now:
+            return f"{name} was swapped (serial {was or 'none'} → {now or 'none'})"
+    return ""
 
 
 def _wanted(goal: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,22 +8,41 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
 from pico.bench.running.loop import LoopThread
 from pico.diagnostics import Diagnostic, PicoError
+from pico.disk import write_all
 from pico.edge import own_lab
 from pico.edge.link.opening import opened
 from pico.edge.link.opening import own_lab as kept
+from pico.edge.protocol import OwnLab
 from pico.execution.stale import edited
+from pico.model.quantities import Value
 from pico.model.record import record
 
 if TYPE_CHECKING:
     from pico.bench.importing import Imported
 
 DOING = "pico bench update"
+
+
+@dataclass(frozen=True)
+class Swap:
+    """Another specimen for a part: serials before and after, the Labs of bench and tree with it, and the tree's as a
+    unified diff. `stays`: parameters of the part's own that nobody gave anew; `same`: it is what is there already."""
+
+    name: str
+    before: str
+    after: str
+    own: OwnLab
+    tree: OwnLab
+    patch: str
+    stays: Mapping[str, Value]
+    same: bool = False
 
 
 @record
@@ -87,6 +106,41 @@ def update(root: Path, backend: str) -> None:
     finally:
         thread.wait(edge.close())
         thread.close()
+
+
+def swapped(root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value]) -> Swap:
+    """Return what exchanging the specimen of a part changes in the bench's own Lab and in the tree's files; nothing is
+    written. Raises PicoError for what would not be right in either."""
+    from pico.manifest.exchange import exchanged
+
+    tree = own_lab.proposed(root)
+    own = kept(root) or tree
+    made = []
+    for lab in (own, tree):
+        files = exchanged(lab.as_bytes(), name, serial, kind, parameters)
+        new = replace(lab, files={**lab.files, **own_lab.of_files(files).files})
+        own_lab.setup_of(new)
+        made.append(new)
+    setup = own_lab.setup_of(own)
+    before = setup.lab.inventory[name]
+    kept_as = {k: v for k, v in (before.parameters or {}).items() if k not in parameters}
+    patch = "".join(_patch(tree.files, made[1].files))
+    same = made[0].files == own.files and not patch
+    return Swap(name, before.serial, serial, made[0], made[1], patch, kept_as, same)
+
+
+def swap(root: Path, backend: str, change: Swap) -> None:
+    """Let the bench of the lab in `root` have the specimen, and write the same into the tree; raises PicoError."""
+    setup = own_lab.setup_of(kept(root) or own_lab.proposed(root))
+    thread = LoopThread()
+    edge = opened(setup, root, backend, setup.lab.sim.fidelity, kept(root))
+    try:
+        thread.wait(edge.adopt(change.own, "pico swap"))
+    finally:
+        thread.wait(edge.close())
+        thread.close()
+    now = own_lab.proposed(root).as_bytes()
+    write_all({root / path: data for path, data in change.tree.as_bytes().items() if now.get(path) != data})
 
 
 class BenchLab:

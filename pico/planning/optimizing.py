@@ -62,7 +62,7 @@ def optimizing(
     detectors = sorted({component for component, _ in measured} | {a.partition(".")[0] for a in looked})
     out.append(Operation(
         id="", primitive="optimize", component=parts[0], reason=reason, after=tuple(map(str, range(len(out)))),
-        arguments={"from": {**begin, **only}, **arguments_of(setup, one, first)},
+        arguments={"from": {**begin, **only}, "specimens": specimens(setup), **arguments_of(setup, one, first)},
         resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
         seconds=sum(seconds(setup, stage.goal, stage.algorithm) for stage in stages),
     ))  # fmt: skip
@@ -101,6 +101,11 @@ def _absorbing(setup: Setup, address: str, before: float, after: float, waits: S
         arguments={"tunable": tunable, "from": before, "to": after}, after=tuple(waits),
         resources=(address, component), seconds=set_seconds(setup.type_of(component).tunables[tunable], before, after),
     )  # fmt: skip
+
+
+def specimens(setup: Setup) -> Mapping[str, str]:
+    """Return the serial numbers of the parts that have one: what light was brought to a goal with."""
+    return {name: part.serial for name, part in sorted(setup.lab.inventory.items()) if part.serial}
 
 
 def seconds(setup: Setup, goal: Goal, algorithm: str) -> float:
