@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 VERSION = 1
 """Of the rules of the audit; a verdict by others is not believed."""
-MOST = 32
+MOST = 64
 """So many verdicts are kept, the newest."""
 
 

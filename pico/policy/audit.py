@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
@@ -20,6 +21,8 @@ from pico.optics.axis import Values, axis_of
 from pico.planning.checks.emission import SEARCHING, lets_out
 from pico.policy.beams import open_beams
 
+CORNERS = 4
+"""Of so many tunables that are searched at once the corners that they span are judged, too."""
 SCANNED = 5
 """At so many values of what a raster search scans is its light judged; mirrors over all of their range anyway."""
 
@@ -109,9 +112,13 @@ def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Judge = judge)
     if _dark(setup, plan, seen):
         return Audit(lasers={}), Lit({}, {}, ())
     lit = lit_by(setup, plan, seen)
-    verdicts = [judged(setup, one) for one in (lit, *_scans(setup, plan, lit))] if lit.lasers else []
-    known = [verdict for verdict in verdicts if verdict is not None]
-    findings = {f.branch: f for verdict in known for f in verdict.findings}
+    benches = ((lit, ""), *_scans(setup, plan, lit)) if lit.lasers else ()
+    verdicts = [(judged(setup, one), where) for one, where in benches]
+    known = [verdict for verdict, _ in verdicts if verdict is not None]
+    findings: dict[str, Finding] = {}
+    for verdict, where in verdicts:
+        for f in verdict.findings if verdict is not None else ():
+            findings.setdefault(f.branch, _where_searched(f, where))
     carried = tuple(_carried(setup, plan, seen, lit))
     classes = {n: laser_class(setup, n, lit.values.get(n, {}))[0] for n in lit.lasers}
     unsaid = sorted({name for verdict in known for name in verdict.unjudged})
@@ -143,12 +150,31 @@ def told_of(plan: Plan, audit: Audit, lit: Lit) -> tuple[Diagnostic, ...]:
     )
 
 
-def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[Lit]:
-    """Yield the bench at values over the range of each tunable that is scanned, or searched by an optimization."""
-    for component, tunable, (low, high) in _searched(setup, plan):
+def _where_searched(found: Finding, where: str) -> Finding:
+    """Return a finding that says in which direction of a search it is."""
+    if not where:
+        return found
+    text = f"a search comes there, with {where}: narrow its bounds, or end the beam in a block"
+    return replace(found, hint="; ".join(words for words in (text, found.hint) if words))
+
+
+def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[tuple[Lit, str]]:
+    """Yield the bench at values over the range of each tunable that is scanned or searched, and in the corners of what
+    several span, each with where that is, in words."""
+    searched = {(component, tunable): bounds for component, tunable, bounds in _searched(setup, plan)}
+    for one, (low, high) in searched.items():
         for n in range(SCANNED):
-            own = {**lit.values.get(component, {}), tunable: low + (high - low) * n / (SCANNED - 1)}
-            yield replace(lit, values={**lit.values, component: own})
+            yield _at(lit, {one: low + (high - low) * n / (SCANNED - 1)})
+    if 1 < len(searched) <= CORNERS:
+        for ends in product(*searched.values()):
+            yield _at(lit, dict(zip(searched, ends, strict=True)))
+
+
+def _at(lit: Lit, point: Mapping[tuple[str, str], float]) -> tuple[Lit, str]:
+    values = {name: dict(own) for name, own in lit.values.items()}
+    for (component, tunable), value in point.items():
+        values.setdefault(component, {})[tunable] = value
+    return replace(lit, values=values), ", ".join(f"{c}.{t} at {value:.4g}" for (c, t), value in point.items())
 
 
 def _searched(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float, float]]]:

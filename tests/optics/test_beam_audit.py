@@ -10,6 +10,7 @@ from dataclasses import replace
 import pytest
 from audited import Bench, carrying, plan_of, said, setting, shipped, states
 
+from pico.diagnostics import Diagnostic
 from pico.model.operation import Operation
 from pico.optics.audit.audit import audit
 from pico.optics.audit.branches import Branches
@@ -234,6 +235,20 @@ def test_a_raster_search_counts_at_every_value_that_it_takes() -> None:
     mirrors = folded(tilt=70).set("laser", emission=True, shutter="open")
     scan = setting("fold", "tilt", None, primitive="scan")
     assert any("may leave the plane" in d.summary for d in said(mirrors, scan) if d.severity == "error")
+
+
+def test_a_search_is_refused_in_a_corner_that_no_tunable_reaches_alone_and_the_direction_is_named() -> None:
+    bench = shel(p2=135).without("cam").set("laser", emission=True, shutter="open").set("p1", angle=45.0)
+
+    def search(**bounds: tuple[float, float]) -> list[Diagnostic]:
+        what = {"tunables": {name.replace("_", "."): value for name, value in bounds.items()}}
+        sought = setting("p1", "angle", None, primitive="optimize")
+        return [d for d in said(bench, replace(sought, arguments={"goal": "g", "what": what})) if d.severity == "error"]
+
+    assert not search(p1_angle=(45, 65)) and not search(p2_angle=(115, 135))
+    (found,) = search(p1_angle=(45, 65), p2_angle=(115, 135))
+    assert "p2 → leaves the table" in found.summary
+    assert "a search comes there, with p1.angle at 65, p2.angle at 115" in found.hint
 
 
 def test_what_an_optimization_may_set_counts_over_all_of_its_bounds() -> None:
