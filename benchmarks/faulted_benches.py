@@ -22,7 +22,7 @@ metadata: {name: NAME}
 table: {size: [1200, 900], beam_height: 70}
 robots:
   arm1: {model: xarm7, mount: {x: 480, y: 820, yaw: -90}}
-policy: {enclosed: true}
+policy: {enclosed: true, arming: {waived: [kinematic, physics]}}
 sim: {environment: none}
 """
 STEERED = """inventory:
