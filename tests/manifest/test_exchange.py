@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pico.diagnostics import PicoError
@@ -15,6 +15,7 @@ LAB = {"lab.yaml": (labs_dir() / "shel" / "lab.yaml").read_bytes()}
 WORDS = st.text("ABCXYZ0123456789-", min_size=1, max_size=8)
 
 
+@settings(deadline=None, max_examples=15)
 @given(first=WORDS, second=WORDS, length=st.floats(90, 110).map(lambda x: round(x, 2)))
 def test_what_is_swapped_comes_back_by_swapping_back(first: str, second: str, length: float) -> None:
     once = exchanged(LAB, "lx_100", first, "plano_convex", {"focal_length": length})
