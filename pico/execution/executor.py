@@ -13,6 +13,9 @@ ATTEMPTS = 3
 """How often an operation is tried at most: once, and twice again where that is safe."""
 PLACED_BESIDE = frozenset({"misplaced", "dropped", "missed-grasp"})
 """Failures of a move after which the part may be taken from where it stands."""
+ENDING = frozenset({"stopped", "put-back", "lost"})
+"""Failures after which nothing more is started, not even an arm that would only park: somebody asked for that, or nobody
+watches any more who steered."""
 NO_ANSWER = frozenset({"timeout", "jammed"})
 """Failures of a set-point or an axis after which it may be asked for again: its target is absolute."""
 
@@ -74,7 +77,7 @@ class Executor:
 
     def over(self, dispatch: Dispatch, result: OperationResult) -> After:
         """Take note of the end of an attempt, and return what follows from it."""
-        if result.error is not None and result.error.code in ("stopped", "put-back"):
+        if result.error is not None and result.error.code in ENDING:
             self.interrupted = True
         if not self.interrupted and (again := None if self.broken else retried(dispatch, result)):
             return After(again=again)
