@@ -14,8 +14,8 @@ ATTEMPTS = 3
 PLACED_BESIDE = frozenset({"misplaced", "dropped", "missed-grasp"})
 """Failures of a move after which the part may be taken from where it stands."""
 ENDING = frozenset({"stopped", "put-back", "lost"})
-"""Failures after which nothing more is started, not even an arm that would only park: somebody asked for that, or nobody
-watches any more who steered."""
+"""Failures after which nothing more is started, not even an arm that would only park: somebody asked for that, or
+nobody watches any more who steered."""
 NO_ANSWER = frozenset({"timeout", "jammed"})
 """Failures of a set-point or an axis after which it may be asked for again: its target is absolute."""
 
