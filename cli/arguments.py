@@ -36,6 +36,8 @@ Fidelity = Annotated[
 ]
 Yes = Annotated[bool, typer.Option("--auto-approve", "--yes", "-y", help="Do not ask.")]
 Exact = Annotated[bool, typer.Option("--exact", help="Move for less than the tolerance, too.")]
+Align = Annotated[bool, typer.Option("--align", help="Then seek the goals that are not aligned.")]
+NoAlign = Annotated[bool, typer.Option("--no-align", help="Do not, though the lab's policy says so.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write to FILE.")]
 Exclude = Annotated[
@@ -109,6 +111,14 @@ class Scoped(TyperCommand):
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         """Return the words of the usage line."""
         return [*super().collect_usage_pieces(ctx), f"[-- {self.names}]"]
+
+
+def aligning(align: bool, no_align: bool) -> bool | None:
+    """Return whether somebody wants goals to be sought, or wants them not to be; None: as the policy of the lab says.
+    Raises PicoError for both."""
+    if align and no_align:
+        raise PicoError(error("usage", "--align and --no-align contradict each other", hint="give one of them"))
+    return True if align else False if no_align else None
 
 
 def scope_of(context: typer.Context) -> tuple[str, ...]:

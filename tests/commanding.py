@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -42,6 +43,12 @@ def edit(path: Path, before: str, after: str) -> None:
     text = path.read_text()
     assert before in text
     path.write_text(text.replace(before, after, 1))
+
+
+def with_goals(lab: Path, goals: str) -> None:
+    """Give a lab other goals (a block `goals:`) than those that it comes with."""
+    text = re.sub(r"^goals:\n(?:[ #].*\n)+", "", lab.read_text(), count=1, flags=re.MULTILINE)
+    lab.write_text(text.replace("inventory:\n", goals.removesuffix("inventory:\n") + "inventory:\n", 1))
 
 
 @contextmanager

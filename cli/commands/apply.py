@@ -10,15 +10,18 @@ import typer
 from pico.diagnostics import PicoError, error
 
 from ..arguments import (
+    Align,
     Exact,
     Exclude,
     Fidelity,
     LockTimeout,
+    NoAlign,
     PlanOrRevision,
     Prefer,
     Scoped,
     StopOnError,
     Yes,
+    aligning,
     scope_of,
 )
 from ..runs.approving import approve
@@ -37,6 +40,8 @@ def apply(
     context: typer.Context,
     what: PlanOrRevision = None,
     auto_approve: Yes = False,
+    align: Align = False,
+    no_align: NoAlign = False,
     exact: Exact = False,
     fidelity: Fidelity = None,
     exclude: Exclude = None,
@@ -49,12 +54,14 @@ def apply(
     """Show the plan, ask, and move what it says.
 
     Without an argument the bench becomes equal to the manifest. With names after `--` only these components or single
-    tunables do, and the manifest stays as it is. A saved plan is refused (exit code 4) where what it stands on has
+    tunables do, and the manifest stays as it is. With --align goals of the lab that are not aligned then are sought at
+    the end; the exit code is 6 where one is not met. A saved plan is refused (exit code 4) where what it stands on has
     changed since. With --json: the plan, each event and the report, a line each.
 
     Examples:
       pico apply e1
       pico apply e1 -- p2 p1.angle
+      pico apply e1 --align
       pico apply ./e1.plan --yes --record e1.mp4
     """
     session = Session.of(context)
@@ -63,7 +70,13 @@ def apply(
 
         require_kind(session.folder / record)
     bench = session.bench(fidelity, writing=True)
-    options = {"exact": exact, "prefer": prefer, "targets": scope_of(context), "exclude": exclude or ()}
+    options = {
+        "align": aligning(align, no_align),
+        "exact": exact,
+        "prefer": prefer,
+        "targets": scope_of(context),
+        "exclude": exclude or (),
+    }
     plan = bench.plans.plan_of(what, folder=session.folder, **options)
     if what is not None and not isinstance(bench.history.find(what, session.folder), str):
         if refresh:

@@ -10,7 +10,19 @@ import typer
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import write_whole
 
-from ..arguments import DetailedExit, Exact, Exclude, Fidelity, PlanOrRevision, Prefer, Scoped, scope_of
+from ..arguments import (
+    Align,
+    DetailedExit,
+    Exact,
+    Exclude,
+    Fidelity,
+    NoAlign,
+    PlanOrRevision,
+    Prefer,
+    Scoped,
+    aligning,
+    scope_of,
+)
 from ..session import Session
 from ..views import plan as view
 
@@ -36,8 +48,9 @@ Picture = Annotated[
 
 def plan(
     context: typer.Context, what: PlanOrRevision = None, component: Explained = None, out: Out = None,
-    explain: Explain = False, graph: Graph = False, form: Format = None, picture: Picture = None, exact: Exact = False,
-    exclude: Exclude = None, prefer: Prefer = "fewest-moves", fidelity: Fidelity = None,
+    explain: Explain = False, graph: Graph = False, form: Format = None, picture: Picture = None,
+    align: Align = False, no_align: NoAlign = False,
+    exact: Exact = False, exclude: Exclude = None, prefer: Prefer = "fewest-moves", fidelity: Fidelity = None,
     detailed_exitcode: DetailedExit = False,
 ) -> int:  # fmt: skip
     """Show what would move to make the bench as wanted. Moves nothing.
@@ -59,7 +72,14 @@ def plan(
     if explain and component is None and what in bench.setup.lab.inventory:
         what, component = None, what
     named = scope_of(context)
-    options = {"exact": exact, "prefer": prefer, "targets": named, "exclude": exclude or ()}
+    seek = aligning(align, no_align)
+    options = {
+        "align": seek,
+        "exact": exact,
+        "prefer": prefer,
+        "targets": named,
+        "exclude": exclude or (),
+    }
     found = bench.plans.plan_of(what, folder=session.folder, **options)
     meanwhile = goes_on(bench)
     session.tell(meanwhile)
@@ -71,7 +91,7 @@ def plan(
         _explain(session, bench, found, component)
     elif not graph:
         saved = what is not None and found.target.revision != what
-        step = f"Apply with `pico apply {what}`." if saved else _next(what, out, _again(exclude, prefer), named)
+        step = f"Apply with `pico apply {what}`." if saved else _next(what, out, _again(exclude, prefer, seek), named)
         if meanwhile:
             step = "A run goes on: plan again when it is over."
         session.show(view, found, **_named(bench, found), next_step=step)
@@ -138,7 +158,8 @@ def _next(what: str | None, out: Path | None, options: str, named: tuple[str, ..
     return f"Apply with `pico apply{more}{last}`, or save with `pico plan{more} --out {what or 'my'}.plan{last}`."
 
 
-def _again(exclude: list[str] | None, prefer: str) -> str:
+def _again(exclude: list[str] | None, prefer: str, align: bool | None) -> str:
     """Return the options that make the same plan again."""
     words = [f" --exclude {name}" for name in exclude or ()]
+    words += [" --align" if align else " --no-align"] if align is not None else []
     return "".join([*words, *([f" --prefer {prefer}"] if prefer != "fewest-moves" else [])])

@@ -87,11 +87,23 @@ def ran(
     after = _after(plan) if after is None else after
     session.show(report_view, run.report, after=after, undoing=plan.target.cause == "undo")
     session.tell(run.report.diagnostics)
+    light_back(session, bench, plan, run.report)
     if record and recording and recording.snapshots and set(came) <= {signal.SIGINT}:  # else nobody waits for it
         from .filming import film
 
         film(session, bench, plan, recording, events, record)
     return run.report
+
+
+def light_back(session: Session, bench: Bench, plan: Plan, report: RunReport) -> None:
+    """Show whether the light is as the goal of a plan recorded it, where the plan was to bring that back."""
+    if not (plan.target.align and report.outcome == "done" and report.measurements and report.whole):
+        return
+    from ..views import light_back as view
+
+    found = bench.light.compared(plan.target.revision, report.measurements)
+    if found:
+        session.show(view, found, goal=plan.target.name)
 
 
 def _after(plan: Plan) -> str:

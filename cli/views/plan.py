@@ -114,6 +114,8 @@ def _slot(where: Any) -> str | None:
 
 def step(op: Operation, change: Change | None = None) -> str:
     """Return what an operation does: `storage/a3 → (395, 420, 0°)`, `90 → 1`, `home`."""
+    if op.primitive == "optimize":
+        return f"by {', '.join(op.arguments['what']['tunables'])}"
     if op.kind.by_hand:
         return "by hand" if "to" not in op.arguments else f"by hand to {place(op.arguments['to'])}"
     if "to" not in op.arguments:
@@ -165,7 +167,7 @@ def _why(op: Operation, change: Change | None, moving: bool, several: bool) -> s
     said = reason(op.reason, change)
     if change and op.primitive == "set" and said == change.text:
         said = ""  # it stands beside it already
-    beside = "beside the arm" if moving and not op.robot and op.reason.kind != "interlock" else ""
+    beside = "beside the arm" if moving and not op.robot and op.reason.kind not in ("interlock", "align") else ""
     beside = beside if op.kind.drives and not several else ""
     return ", ".join(part for part in (said, beside) if part)
 
@@ -227,6 +229,8 @@ def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
         parts.append(_staging(plan))
     arm = sum(op.seconds for op in plan.operations if op.robot) if len(arms(plan)) == 1 else 0.0
     parts.append(f"{seconds(plan.makespan)} in all{_bound(plan)}" + (f", arm {seconds(arm)}" if arm else ""))
+    light = [op.seconds for op in plan.operations if op.aligns]
+    parts[-1] += f", alignment {seconds(sum(light))}" if light else ""
     line = " · ".join(part for part in parts if part)
     changed = [op for op in plan.operations if op.reason.kind != "interlock" and op.kind.mutating]
     carried = {op.component for op in changed if op.kind.carries}
@@ -234,11 +238,26 @@ def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     stay = len(plan.base.state.keys() - {op.component for op in changed})
     whole = [line] if width(line) <= wide() - 2 else [" · ".join(parts[:-1]), parts[-1]]
     lines = [*whole, f"{count(stay, 'component')} of {len(known)} {'stays' if stay == 1 else 'stay'} as is"]
-    lines += policy(plan)
+    lines += [*policy(plan), *_spoils(plan)]
     if plan.target.scope:
         return [*lines, _scope(plan)]
     waiting = plan.absent or plan.unsure or any(d.code == "blocked" for d in plan.diagnostics)
     return [*lines, f"the bench will not equal {goal_name(plan)} yet: the warnings say why"] if waiting else lines
+
+
+def _spoils(plan: Plan) -> list[str]:
+    """Return which goals a plan leaves unaligned, in the order in which they are to be redone, how old they are, and
+    what redoing them takes."""
+    found = plan.spoils or ()
+    if not found:
+        return []
+    told = (f"{s.goal} ({s.why}; met {ago(s.at)}; {seconds(s.seconds)} to redo)" for s in found)
+    again = f"`pico apply {plan.target.revision} --align`" if plan.target.revision else "`pico apply --align`"
+    single = plan.target.cause == "single" or plan.target.scope
+    how = f"`pico optimize {found[0].goal}`" + (" and so on" if len(found) > 1 else "") if single else again
+    return [
+        f"spoils alignment of: {', '.join(told)}; then {how} redoes {'it' if len(found) == 1 else 'them in this order'}"
+    ]
 
 
 def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.model.expectation import Expected
 from pico.model.record import as_json
-from pico.model.report import RunReport
+from pico.model.report import GoalEnd, RunReport
 
 from .by_light import stays, unfound
 from .diff import brief
@@ -34,9 +34,21 @@ def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
     took = f"{seconds(report.seconds)} {report.clock}, {seconds(report.wall)} here"
     said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
     lines = [f"{head[report.outcome]}: {said} · {took}"]
-    lines += expectations(report.expectations)
+    lines += [*goals(report.goals or (), report.aligning), *expectations(report.expectations)]
     ending = [*_bench(report, undoing), *([after] if after and report.outcome == "done" else [])]
     return "\n".join(lines + [part for line in ending for part in wrap(line, "")])
+
+
+def goals(found: Sequence[GoalEnd], took: float | None) -> list[str]:
+    """Return `2 of 2 goals met, alignment 8.1 s.`, and why each of the others is not."""
+    if not found:
+        return []
+    lines = []
+    for one in found:
+        if not one.met:
+            lines += wrap(f"{paint('red', '✗')} {one.goal}: not met{': ' if one.why else ''}{one.why}", "  ")
+    met = sum(one.met for one in found)
+    return [*lines, f"{met} of {count(len(found), 'goal')} met, alignment {seconds(took or 0.0)}."]
 
 
 def expectations(found: Sequence[Expected]) -> list[str]:

@@ -9,7 +9,7 @@ from pico.model.plan import Plan
 
 from . import measured
 from .plan import change_of, what
-from .style import pad, paint, seconds, shorten, wide, width
+from .style import count, pad, paint, seconds, shorten, wide, width
 
 
 class Progress:
@@ -64,7 +64,7 @@ class Progress:
         if event.kind == "operation_done":
             took = f"{seconds(float(data['seconds'])):>7}" if "seconds" in data else ""
             said = measured.line(data["measurement"]) if "measurement" in data else measured.ranged(data)
-            said = placement(data) if "error_mm" in data else said
+            said = placement(data) if "error_mm" in data else sought(data) if "algorithm" in data else said
             return took + (f"   {said}" if said else "")
         if event.kind == "operation_skipped":
             because = self.operations.get(str(data.get("because", "")))
@@ -82,6 +82,12 @@ def _put_back(event: Event) -> bool:
     """Return whether a part was brought back, or left, because the run was interrupted: no failure."""
     found = event.data.get("diagnostic")
     return isinstance(found, dict) and found.get("code") == "put-back"
+
+
+def sought(data: Any) -> str:
+    """Return `met in 4 measurements`."""
+    times = count(int(data.get("measurements", 0)), "measurement")
+    return f"met in {times}" if data.get("met") else f"not met in {times}: {data.get('why', '')}"
 
 
 def placement(data: Any) -> str:

@@ -7,21 +7,21 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-from pico.diagnostics import Diagnostic
 from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.lab import Goal, Setup
 from pico.model.observation import Aligned, Observation
-from pico.model.operation import Operation, searched_by, touched_by
+from pico.model.operation import Operation, Reason, searched_by, touched_by
+from pico.model.pose import Pose
 from pico.model.primitive import primitive
 from pico.model.quantities import convert
 from pico.model.record import as_json
 from pico.model.state import LabState
-from pico.model.vocabulary import measured_in
-from pico.optics.axis import beams
 from pico.planning.by_light import sought_in, with_goals
-from pico.planning.optimizing import seconds
-from pico.planning.sought import algorithm_for
+from pico.planning.foreseen import foreseen
+from pico.planning.goal_light import goal_light
+from pico.planning.optimizing import Turn, seconds
+from pico.planning.sought import algorithm_for, before, sought
 
 if TYPE_CHECKING:
     from pico.edge.protocol import Edge
@@ -42,6 +42,8 @@ class Remembering(Protocol):
 Status = Literal["aligned", "stale", "lost", "never measured"]
 MOST = 1000
 """Runs that are looked back for the last time that a goal was sought."""
+_LIT = ("shutter", "emission", "illumination")
+"""Tunables that let light out, and leave its way as it is."""
 _ALONG = ("interlock", "parked")
 """Reasons of operations that leave light as it was when they are over."""
 
@@ -49,7 +51,8 @@ _ALONG = ("interlock", "parked")
 @dataclass(frozen=True)
 class Alignment:
     """How a goal stands: `why` where it is not aligned; `at` by the wall, and `last`, what was measured then; `order`:
-    how far along the beam its first tunable stands [mm]; `seconds` that it takes to be sought again."""
+    how far along the beam its first tunable stands [mm], None where its light does not come through all that is tuned
+    to all that is measured; `seconds` that it takes to be sought again."""
 
     goal: str
     status: Status
@@ -75,33 +78,48 @@ def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRec
 
 
 def standing(
-    opened: Remembering, seen: Observation, state: LabState | None = None, *, wanted: bool = False
+    opened: Remembering,
+    seen: Observation,
+    state: LabState | None = None,
+    *,
+    wanted: bool = False,
+    timed: bool = True,
 ) -> tuple[Alignment, ...]:
     """Return how the goals of a bench stand; see `stands`."""
-    return stands(opened.setup, opened.edge.memory, seen, state, wanted=wanted)
+    return stands(opened.setup, opened.edge.memory, seen, state, wanted=wanted, timed=timed)
 
 
 def stands(
-    bench: Setup, memory: Memory | None, seen: Observation, state: LabState | None = None, *, wanted: bool = False
+    bench: Setup,
+    memory: Memory | None,
+    seen: Observation,
+    state: LabState | None = None,
+    *,
+    wanted: bool = False,
+    timed: bool = True,
 ) -> tuple[Alignment, ...]:
     """Return how the goals of a Lab stand, and those that set-points of a `state` are which light finds; `wanted`: as
-    the light goes once its parts stand where that wants them. One that no light comes to is lost."""
+    the light goes once its parts stand where that wants them. One that no light comes to is
+    lost. `timed`: with what each takes."""
     by_light = sought_in(bench, seen, state, wanted=wanted)
     setup = with_goals(bench, by_light)
     goals, dark = setup.lab.goals or {}, [Alignment(d.address, "lost", d.summary) for d in by_light.wrong]
     if not goals:
         return tuple(dark)
-    took = {n: seconds(setup, goal, goal.algorithm or algorithm_for(setup, goal)[0]) for n, goal in goals.items()}
     records = since_last_sought(memory, goals) if memory else ()
+    took = {name: _takes(setup, name, goal, records) for name, goal in goals.items()} if timed else {}
     return (*alignments(setup, seen, records, utc_now(), took), *dark)
 
 
 def with_aligned(opened: Remembering, seen: Observation) -> Observation:
-    """Return an observation with which tunables are aligned: those with a trim of which a goal is."""
-    by_goal = trimmed(opened.setup)
-    if not by_goal:
+    """Return an observation with which tunables are aligned: those with a trim of which a goal is. Where no goal has
+    light none is, and no journal is opened."""
+    setup, by_goal = opened.setup, trimmed(opened.setup)
+    goals = setup.lab.goals or {}
+    if not any(goal_light(setup, seen, goals[name]).order is not None for name in by_goal):
         return seen
-    met = {one.goal: Aligned(goal=one.goal, at=one.at) for one in standing(opened, seen) if one.status == "aligned"}
+    alignments = standing(opened, seen, timed=False)
+    met = {one.goal: Aligned(goal=one.goal, at=one.at) for one in alignments if one.status == "aligned"}
     found = {address: met[name] for name in met for address in by_goal.get(name, ())}
     return replace(seen, aligned=found) if found else seen
 
@@ -129,6 +147,30 @@ def not_aligned_after(setup: Setup, seen: Observation, operations: Sequence[Oper
     return replace(seen, aligned=left or None)
 
 
+def experience(opened: Remembering, name: str, goal: Goal, algorithm: str) -> float | None:
+    """Return what seeking a goal took last on this bench [s]; None where nobody knows yet."""
+    memory = opened.edge.memory
+    return _took(name, goal, algorithm, since_last_sought(memory, [name])) if memory else None
+
+
+def _takes(setup: Setup, name: str, goal: Goal, records: Sequence[JournalRecord]) -> float:
+    """Return what a goal takes [s]: by experience, else what its algorithm usually needs."""
+    algorithm = goal.algorithm or algorithm_for(setup, goal)[0]
+    known = _took(name, goal, algorithm, records)
+    return seconds(setup, goal, algorithm) if known is None else known
+
+
+def _took(name: str, goal: Goal, algorithm: str, records: Sequence[JournalRecord]) -> float | None:
+    """Return what a goal took by an algorithm the last time that it was met, and not found met already [s]."""
+    sought = {r.key: r.data["arguments"] for r in records if r.kind == "intent" and _seeks(r, name)}
+    for r in reversed(records):
+        data = (r.data.get("data") or {}) if r.kind == "done" and r.key in sought else {}
+        same = data.get("met") and data.get("algorithm") == algorithm and data.get("measurements", 0) > 1
+        if same and _wanted(sought[r.key].get("what", {})) == _wanted(as_json(goal)):
+            return float(r.data.get("seconds") or 0.0) or None
+    return None
+
+
 def alignments(
     setup: Setup, seen: Observation, records: Sequence[JournalRecord], now: str, took: Mapping[str, float]
 ) -> tuple[Alignment, ...]:
@@ -141,23 +183,21 @@ def alignments(
     return tuple(sorted(found, key=lambda a: (a.order is None, a.order or 0.0, a.goal)))
 
 
-def made_stale(
+def spoiled(
     setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
-) -> Iterator[Diagnostic]:
-    """Yield a note for each goal that is aligned now and will not be after a plan."""
+) -> Iterator[tuple[Alignment, str]]:
+    """Yield each goal that is aligned now and will not be after a plan, where there still is light for it, with what
+    changes in its light; in the order along the beam."""
+    then = foreseen(seen, operations)
     for one in standing:
         wrong = _upset_by(setup, seen, one.goal, operations) if one.status == "aligned" else ""
-        if wrong:
-            text = f"{one.goal} is aligned, and will not be: {wrong} changes"
-            hint = f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s"
-            if "." in one.goal:  # a set-point of the state, which the bench will not equal then
-                yield Diagnostic("warning", "by-light", text, hint=hint, address=one.goal)
-            else:
-                yield Diagnostic("note", "goal", text, hint=hint, address=wrong.partition(".")[0])
+        if wrong and goal_light(setup, then, (setup.lab.goals or {})[one.goal]).order is not None:
+            yield one, wrong
 
 
 def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[Operation]) -> str:
-    """Return which of what operations touch a goal depends on; empty for none, and where one of them seeks it."""
+    """Return which of what operations touch a goal depends on, as its light runs before them or after; empty for none,
+    and where one of them seeks it."""
     touched = {
         one
         for op in operations
@@ -165,13 +205,44 @@ def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[O
         for one in _left_changed(op.component, op.arguments)
     }
     own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == name]
-    return "" if own else _upset(setup, seen, (setup.lab.goals or {})[name], touched)
+    goal = (setup.lab.goals or {})[name]
+    if own or not touched:
+        return ""
+    return _upset(setup, seen, goal, touched) or _upset(setup, foreseen(seen, operations), goal, touched)
+
+
+def redone(
+    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
+) -> tuple[Turn, ...]:
+    """Return which goals are to be sought when operations are done, in the order along the beam as it then runs: those
+    with light that are not aligned, that the operations spoil, or whose light comes through what another one tunes.
+
+    `standing`: as the bench is `seen` now."""
+    then = foreseen(seen, operations)
+    wrong = {one.goal: f"{what} changes" for one, what in spoiled(setup, seen, standing, operations)}
+    wrong |= {one.goal: one.why or one.status for one in standing if one.status != "aligned"}
+    found: list[tuple[float, Alignment, frozenset[str]]] = []
+    for one in (one for one in standing if one.goal in (setup.lab.goals or {})):
+        light = goal_light(setup, then, (setup.lab.goals or {})[one.goal])
+        if light.order is not None:
+            found.append((light.order, one, light.parts))
+    chosen: list[Turn] = []
+    for _, one, parts in sorted(found, key=lambda f: (f[0], f[1].goal)):
+        tuned = {a.partition(".")[0]: turn.one.name for turn in chosen for a in turn.one.goal.tunables}
+        above = next((name for part, name in sorted(tuned.items()) if part in parts), "")
+        why = wrong.get(one.goal) or (f"{above} is sought before it" if above else "")
+        if why:
+            goal = (setup.lab.goals or {})[one.goal]
+            first = before(setup, then, goal)
+            asked = sought(setup, then, one.goal, goal, [stage.goal for stage in first])
+            chosen.append(Turn(asked, first, one.seconds, Reason(kind="align", text=why)))
+    return tuple(chosen)
 
 
 def _alignment(
     setup: Setup, seen: Observation, name: str, goal: Goal, records: Sequence[JournalRecord], now: str, took: float
 ) -> Alignment:
-    order = _distance(setup, seen, goal)
+    order = goal_light(setup, seen, goal).order
 
     def standing(status: Status, why: str = "", at: str = "", last: Mapping[str, float] | None = None) -> Alignment:
         return Alignment(name, status, why, at, last, order, took)
@@ -185,7 +256,7 @@ def _alignment(
     if not data.get("met"):
         return standing("lost", str(data.get("why") or "it did not come to its end"), end.at)
     last = data.get("last")
-    upset = _upset(setup, seen, goal, _touched_since(records, end))
+    upset = _upset_since(setup, seen, goal, _begun_since(records, end))
     old = bool(goal.valid_for) and _age(end.at, now) > convert(goal.valid_for or "0 s", "s")
     reasons = {
         "it was another goal then": _wanted(begun.data["arguments"].get("what", {})) != _wanted(as_json(goal)),
@@ -203,7 +274,7 @@ def _swapped(setup: Setup, seen: Observation, goal: Goal, arguments: Mapping[str
     known = arguments.get("specimens")
     if known is None:
         return ""
-    for name in sorted(_light(setup, seen, goal)[0]):
+    for name in sorted(goal_light(setup, seen, goal).parts):
         was, now = str(known.get(name, "")), setup.lab.inventory[name].serial
         if was != now:
             return f"{name} was swapped (serial {was or 'none'} → {now or 'none'})"
@@ -212,7 +283,8 @@ def _swapped(setup: Setup, seen: Observation, goal: Goal, arguments: Mapping[str
 
 def _wanted(goal: Mapping[str, Any]) -> dict[str, Any]:
     """Return what of a goal says when it is met; not how it is sought."""
-    return {key: goal.get(key) for key in ("tunables", "reach", "minimize", "maximize", "tolerance", "offset")}
+    same = ("tunables", "reach", "minimize", "maximize", "tolerance", "during", "offset")
+    return {key: goal.get(key) for key in same}
 
 
 def _seeks(record: JournalRecord, name: str) -> bool:
@@ -223,16 +295,28 @@ def _age(then: str, now: str) -> float:
     return (datetime.fromisoformat(now) - datetime.fromisoformat(then)).total_seconds()
 
 
-def _touched_since(records: Sequence[JournalRecord], end: JournalRecord) -> set[tuple[str, str]]:
-    """Return what operations changed that began after a record."""
+def _begun_since(records: Sequence[JournalRecord], end: JournalRecord) -> list[JournalRecord]:
+    """Return the operations that began after a record and may have left light otherwise, in their order."""
     begun = {r.key for r in records if r.kind == "started" and r.seq > end.seq}
-    return {
-        one
+    return [
+        r
         for r in records
         if r.kind == "intent" and r.key in begun and primitive(str(r.data.get("primitive"))).mutating
         if (r.data.get("reason") or {}).get("kind") not in _ALONG
-        for one in _left_changed(r.component, r.data.get("arguments", {}))
-    }
+    ]
+
+
+def _upset_since(setup: Setup, seen: Observation, goal: Goal, begun: Sequence[JournalRecord]) -> str:
+    """Return which of what operations changed the light of a goal depends on: as it runs now, or as it ran before."""
+    touched = {one for r in begun for one in _left_changed(r.component, r.data.get("arguments", {}))}
+    if not touched:
+        return ""
+    before = dict(seen.components)
+    for r in reversed(begun):
+        start = (r.data.get("arguments") or {}).get("from")
+        if isinstance(start, Mapping) and "pose" in start and r.component in before:
+            before[r.component] = replace(before[r.component], presence="seen", pose=Pose(**start["pose"]))
+    return _upset(setup, seen, goal, touched) or _upset(setup, replace(seen, components=before), goal, touched)
 
 
 def _left_changed(component: str, arguments: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -246,34 +330,14 @@ def _left_changed(component: str, arguments: Mapping[str, Any]) -> Iterator[tupl
 def _upset(setup: Setup, seen: Observation, goal: Goal, touched: Collection[tuple[str, str]]) -> str:
     """Return which of what is touched its light depends on: a tunable of the goal, or a part in the beams to where it
     is measured; empty for none."""
-    on_way, detectors = _light(setup, seen, goal)
+    light = goal_light(setup, seen, goal)
     for component, tunable in sorted(touched):
         if f"{component}.{tunable}" in goal.tunables:
             return f"{component}.{tunable}"
-        shutter = tunable in ("shutter", "emission", "illumination")
-        if component in on_way and not shutter and (tunable == "pose" or component not in detectors):
+        harmless = tunable in _LIT or f"{component}.{tunable}" in (goal.during or {})
+        if component in light.parts and not harmless and (tunable == "pose" or component not in light.detectors):
             return component if tunable == "pose" else f"{component}.{tunable}"
     return ""
-
-
-def _light(setup: Setup, seen: Observation, goal: Goal) -> tuple[set[str], set[str]]:
-    """Return the parts in the beams that reach where a goal is measured, these with them; and these alone."""
-    detectors = {component for component, _ in measured_in(setup, goal.texts)}
-    found = set(detectors) | {address.partition(".")[0] for address in goal.tunables}
-    for axis in beams(setup, _poses(seen), seen.known_values):
-        for way in (w for d in detectors for w in axis.ways(d)):
-            found |= {axis.source, *(m.component for m in way)}
-    return found, detectors
-
-
-def _distance(setup: Setup, seen: Observation, goal: Goal) -> float | None:
-    first = next(iter(goal.tunables)).partition(".")[0]
-    met = (m for axis in beams(setup, _poses(seen), seen.known_values) for m in axis.meetings)
-    return min((m.length for m in met if m.component == first), default=None)
-
-
-def _poses(seen: Observation) -> dict[str, Any]:
-    return {n: p.pose for n, p in seen.components.items() if p.presence == "seen" and p.pose is not None}
 
 
 def _elsewhere(setup: Setup, seen: Observation, goal: Goal, last: Mapping[str, float]) -> str:

@@ -112,7 +112,6 @@ class Goals:
         and the algorithm, `algorithm` where that is said. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
         from pico.optimize.registry import made
-        from pico.planning.optimizing import seconds
         from pico.planning.sought import before, sought
 
         setup, seen = self.opened.setup, self.opened.observe()
@@ -123,8 +122,15 @@ class Goals:
         first = first or before(setup, seen, found.goal)
         one = sought(setup, seen, found.name, found.goal, [stage.goal for stage in first], algorithm)
         made(one.algorithm, as_problem(one), one.goal.parameters)  # raises for what it cannot, or does not have
-        took = sum(seconds(setup, stage.goal, stage.algorithm) for stage in (*first, one))
-        return Chosen(one, first, took)
+        return Chosen(one, first, self._takes(one, first))
+
+    def _takes(self, one: Sought, first: Sequence[Sought]) -> float:
+        from pico.bench.aligned import experience
+        from pico.planning.optimizing import seconds
+
+        known = experience(self.opened, one.name, one.goal, one.algorithm)
+        reckoned = sum(seconds(self.opened.setup, stage.goal, stage.algorithm) for stage in (*first, one))
+        return reckoned if known is None else known
 
     def _of(self, words: list[str]) -> Ready:
         from pico.bench.ready.registry import known, made_ready
@@ -144,7 +150,7 @@ class Goals:
     def plan(self, chosen: Chosen, *, absorb: bool = True) -> Plan:
         """Return the plan that brings light to a goal; raises PicoError. `absorb`: its tunables make up first for how
         parts were seen to stand since light was right, see `pico.optics.nominal.feeding`."""
-        return Plans(self.opened).to_goal(chosen.one, chosen.first, absorb=absorb)
+        return Plans(self.opened).to_goal(chosen.one, chosen.first, chosen.seconds, absorb=absorb)
 
     def optimize(
         self, plan: Plan, show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None,

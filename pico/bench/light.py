@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,12 +12,15 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 
 if TYPE_CHECKING:
     from pico.drawing.picture import Image
+    from pico.history.runs.recorded_light import RecordedLight
     from pico.model.lab import Setup
+    from pico.model.measurement import Measurement
     from pico.model.observation import Observation
     from pico.model.pose import Pose
     from pico.optics.axis import Values
     from pico.optics.beam_table import BeamRow
     from pico.optics.light import Light
+    from pico.runs.light_compared import Compared
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,39 @@ class Lights:
         light, dark = self._traced(setup, poses, values, source)
         unread = () if revision or manifest else _unread(light, self.opened.observe())
         return Beams(goal, rows(light), dark, (*unread, *troubles(setup, light)))
+
+    def recorded(self, revision: str | None = None) -> RecordedLight:
+        """Return what a revision recorded of its light; without one HEAD, where the manifest is as it says. Raises
+        PicoError."""
+        from pico.history.runs.recorded_light import RecordedLight, recorded_light
+
+        folder = self.folder
+        if revision:
+            return recorded_light(folder, folder.history().resolve(revision).id)
+        head, committed = folder.head(), folder.committed()
+        if head is None or head.commit is None or committed is None or committed.as_json() != folder.state.as_json():
+            return RecordedLight()
+        return recorded_light(folder, head.commit)
+
+    def compared(self, revision: str | None, now: Mapping[str, Measurement]) -> tuple[Compared, ...]:
+        """Return the light that a revision recorded (see `recorded`) against what was measured `now`, by address, of
+        the bench as it stands; raises PicoError."""
+        from pico.bench.aligned import standing
+        from pico.optics.axis import beams
+        from pico.optics.nominal.spread import spread
+        from pico.planning.goal_light import standing_poses
+        from pico.runs.light_compared import light_compared
+
+        setup, seen, before = self.opened.setup, self.opened.observe(), self.recorded(revision)
+        if not before.measured:
+            return ()
+        poses, detectors = standing_poses(seen), {one.component for one in before.measured.values()}
+        lasers = {d: axis.source for axis in beams(setup, poses, seen.known_values) for d in detectors if axis.ways(d)}
+        placed = [name for name in sorted(poses) if setup.movable(name)]
+        open_to = spread(setup, poses, seen.known_values, placed, sorted(lasers))
+        aligned = {one.goal for one in standing(self.opened, seen) if one.status == "aligned"} & before.goals.keys()
+        met = {name: goal for name, goal in (setup.lab.goals or {}).items() if name in aligned}
+        return light_compared(setup, before.measured, now, open_to, met, lasers)
 
     def picture(
         self, revision: str | None = None, *, manifest: bool = False, source: str | None = None, out: Path | None = None

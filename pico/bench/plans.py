@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 from pico.bench.auditing import with_audit
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.model.diff import Change, diff_observed, show_value
 from pico.model.drift import drift_of
 from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Base, Plan, Spoiled, Target
 from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
 from pico.model.state import LabState, place_of, references_of, state_from_json
@@ -26,6 +26,7 @@ from pico.vision.calibration import calibration_digest
 if TYPE_CHECKING:
     from pico.history.restoring.selected import SelectedParts
     from pico.manifest.load import Manifests
+    from pico.motion.types import Motion
     from pico.optics.nominal.feeding import Right
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
@@ -48,15 +49,17 @@ class Plans:
         exclude: Collection[str] = (),
         manifests: Manifests | None = None,
         expecting: bool = True,
+        align: bool | None = None,
     ) -> Plan:
         """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
 
         The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
         `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what must make way
         for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. `expecting`: whether
-        the expectations of the state count; those of single components never do. Raises PicoError for a revision that
-        can't be read, for a component that there is not, and for an expectation that makes no sense; what is physically
-        impossible is in the plan's diagnostics.
+        the expectations of the state count; those of single components never do. `align`: seek the goals that are not
+        aligned when all stands, or that the plan spoils, at its end; None: as the policy of the lab says. Raises
+        PicoError for a revision that can't be read, for a component that there is not, and for an expectation that
+        makes no sense; what is physically impossible is in the plan's diagnostics.
         """
         from pico.history.merge.doubts import require_settled
 
@@ -80,6 +83,7 @@ class Plans:
             exclude=tuple(sorted(exclude)) or None,
             state=wanted.as_json(),
             expect=wanted.expect or None,
+            align=self.aligns(align) or None,
         )
         seen = self.opened.observe()
         told = (*cut_short(self.opened, seen), *_strangers(seen), *manifests.told)
@@ -87,6 +91,10 @@ class Plans:
             seen, wanted, target, told=told, calibration=calibration_digest(folder.root), exact=exact,
             source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,
         )  # fmt: skip
+
+    def aligns(self, asked: bool | None = None) -> bool:
+        """Return whether a plan is to redo goals: as somebody asked, else as the policy of the lab says."""
+        return self.opened.setup.lab.policy.align == "always" if asked is None else asked
 
     def _goal(self, manifests: Manifests, revision: str | None, targets: Collection[str]) -> LabState:
         from pico.history.restoring.selected import state_for
@@ -118,7 +126,32 @@ class Plans:
             found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
         if told or calibration:
             found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
-        return self.judged(found, seen)
+        return self.judged(self._realigned(found, seen, motion) if target.align else found, seen)
+
+    def _realigned(self, plan: Plan, seen: Observation, motion: Motion) -> Plan:
+        """Return the plan with the goals sought at its end that are not aligned then, and with what its goal recorded
+        of its light measured again."""
+        if plan.errored:
+            return plan
+        from pico.bench.aligned import redone, standing
+        from pico.planning.by_light import sought_in, with_goals
+        from pico.planning.realigning import realigned
+
+        setup, state = self.opened.setup, state_from_json(plan.lab.name, plan.target.state)
+        goals = with_goals(setup, sought_in(setup, seen, state, wanted=True))
+        sought = redone(goals, seen, standing(self.opened, seen, state, wanted=True), plan.operations)
+        measured = () if plan.target.scope else self._recorded(plan.target)
+        return realigned(setup, seen, plan, sought, motion, measured) if sought or measured else plan
+
+    def _recorded(self, target: Target) -> tuple[tuple[str, str], ...]:
+        """Return what was measured when the goal of a plan was committed, as far as this bench can measure it."""
+        from pico.bench.light import Lights
+
+        if target.title:
+            return ()
+        able = self.opened.wait(self.opened.edge.describe()).measurables
+        recorded = Lights(self.opened).recorded(target.revision).measured
+        return tuple((one.component, one.measurable) for address, one in sorted(recorded.items()) if address in able)
 
     def start_of(self, seen: Observation) -> dict[str, Any]:
         """Return what a plan from this observation starts from, and on what it is to run."""
@@ -131,8 +164,9 @@ class Plans:
         """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
         stale."""
         plan = with_audit(self.opened, plan, seen)
-        if told := self._of_light(plan, seen):
-            plan = replace(plan, diagnostics=(*plan.diagnostics, *told)).sealed()
+        told, lost = self._of_light(plan, seen)
+        if told or lost:
+            plan = replace(plan, spoils=lost or None, diagnostics=(*plan.diagnostics, *told)).sealed()
         if not self.opened.setup.lab.policy.rules:
             return plan
         from pico.policy.rules import judged
@@ -143,22 +177,33 @@ class Plans:
             _require_sense(check_rules(self.opened.folder.manifests))
         return judged(self.opened.setup, plan, seen)
 
-    def _of_light(self, plan: Plan, seen: Observation) -> tuple[Diagnostic, ...]:
-        """Return which set-points of its goal light has yet to find, and which goals the plan makes stale."""
+    def _of_light(
+        self, plan: Plan, seen: Observation
+    ) -> tuple[tuple[Diagnostic, ...], tuple[Spoiled, ...]]:  # fmt: skip
+        """Return which set-points of its goal light has yet to find, and which goals of the Lab the plan spoils."""
         opened, setup = self.opened, self.opened.setup
         state = wanted = state_from_json(plan.lab.name, plan.target.state)
         if not references_of(wanted):
             state = opened.folder.state_now() or wanted
         if not (references_of(state) or (setup.lab.goals and plan.operations)):
-            return ()
-        from pico.bench.aligned import made_stale, standing
+            return (), ()
+        from pico.bench.aligned import spoiled, standing
         from pico.bench.by_light import staying, told
         from pico.planning.by_light import sought_in, with_goals
 
         stands = standing(opened, seen, state, wanted=True)
         sought = with_goals(setup, sought_in(setup, seen, state, wanted=True))
         unmet = told(stands, state) if references_of(wanted) else staying(plan, state)
-        return (*unmet, *made_stale(sought, seen, [one for one in stands if one.status == "aligned"], plan.operations))
+        found = [*spoiled(sought, seen, stands, plan.operations)]
+        stale = tuple(
+            warning(
+                "by-light", f"{one.goal} is aligned, and will not be: {why} changes",
+                hint=f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s", address=one.goal,
+            )
+            for one, why in found if "." in one.goal  # a set-point of the state, which the bench will not equal then
+        )  # fmt: skip
+        lost = (Spoiled(goal=o.goal, why=f"{w} changes", at=o.at, seconds=o.seconds) for o, w in found)
+        return (*unmet, *stale), tuple(one for one in lost if "." not in one.goal)
 
     def leaves_manifest(self, plan: Plan) -> bool:
         """Whether a plan leads the whole bench to a revision, and away from what the manifest says."""
@@ -175,9 +220,14 @@ class Plans:
         found = self.opened.history.find(word, folder) if word else None
         if not isinstance(found, Plan):
             return self.plan(found, **options)
-        if any(options.get(k) for k in ("exact", "targets", "exclude")) or options.get("prefer") == "shortest-time":
+        if (
+            any(options.get(k) for k in ("exact", "targets", "exclude", "align"))
+            or options.get("prefer") == "shortest-time"
+        ):
             text = f"{word} is a saved plan, and is taken as it is"
-            raise PicoError(error("usage", text, hint="names, --exact, --exclude and --prefer go with `pico plan`"))
+            raise PicoError(
+                error("usage", text, hint="names, --align, --exact, --exclude and --prefer go with `pico plan`")
+            )
         return self._still_let_out(found)
 
     def _still_let_out(self, plan: Plan) -> Plan:
@@ -188,7 +238,8 @@ class Plans:
 
     def refreshed(self, plan: Plan) -> Plan:
         """Return a new plan from the bench as it stands to the goal of a saved one, for the same components."""
-        return self.plan(plan.target.revision, targets=plan.target.only or (), exclude=plan.target.exclude or ())
+        target = plan.target
+        return self.plan(target.revision, targets=target.only or (), exclude=target.exclude or (), align=target.align)
 
     def require_fresh(self, plan: Plan) -> None:
         """Look, and raise PicoError (exit code STALE) where the bench, the commit, the goal, the lab or the calibration
@@ -282,15 +333,17 @@ class Plans:
         told = cut_short(self.opened, seen)
         return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
 
-    def to_goal(self, one: Sought, first: Sequence[Sought] = (), *, absorb: bool = True) -> Plan:
+    def to_goal(
+        self, one: Sought, first: Sequence[Sought] = (), took: float | None = None, *, absorb: bool = True
+    ) -> Plan:  # fmt: skip
         """Return the plan that brings light to a goal, by those that are sought `first` where it is dark; see
-        `pico.bench.goals`; raises PicoError."""
+        `pico.bench.goals`. `took`: the seconds that it is reckoned with. Raises PicoError."""
         from pico import planning
         from pico.execution.checks import require_able
 
         setup, seen = self.opened.setup, self.opened.observe()
         found = planning.optimize_one(
-            setup, seen, one, first=first, motion=DeferredMotion(setup),
+            setup, seen, one, first=first, took=took, motion=DeferredMotion(setup),
             right=[*self._right(one.name, one.goal, seen)] if absorb else (), **self.start_of(seen),
         )  # fmt: skip
         require_able(found, self.opened.wait(self.opened.edge.describe()))

@@ -57,6 +57,8 @@ class Recovery:
         if began.asked and not (target.revision or target.title):
             target = replace(target, title=f"what run {last.run} was to lead to")
         plan = Plans(self.opened).to_state(seen, wanted, target, targets=only or (), exclude=target.exclude or ())
+        anew = {op.address for op in plan.operations if op.primitive == "optimize"}  # it aligns all the same
+        sought = {key: op for key, op in sought.items() if op.address not in anew}
         plan = Plans(self.opened).with_goals_again(plan, seen, sought)
         left = tuple(_left_out(began, memory, last.run, sought))
         if left and not plan.operations:

@@ -66,6 +66,7 @@ class Aligning:
         if operation.primitive != "optimize":
             return await self._device.execute(operation, key, began)
         seen = await self._device.observe()
+        begun = seen.time
         before = seen.components.get(operation.component)
         began(before)
         try:
@@ -76,7 +77,7 @@ class Aligning:
         seen = await self._device.observe()
         result = OperationResult(
             key=key, outcome="done", before=before, after=seen.components.get(operation.component),
-            seconds=outcome.seconds, ended=seen.time, data=self._data(run, outcome, former),
+            seconds=seen.time - begun, ended=seen.time, data=self._data(run, outcome, former),
         )  # fmt: skip
         if outcome.fault:
             return replace(result, outcome="failed", error=error("axis", outcome.fault, address=operation.component))

@@ -13,9 +13,10 @@ from pico.model.event import Event
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement, measurement_from_json
-from pico.model.observation import Observation, ObservedComponent
+from pico.model.observation import Aligned, Observation, ObservedComponent
+from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan
-from pico.model.report import RunReport
+from pico.model.report import GoalEnd, RunReport
 from pico.model.state import place_of, references_of, state_from_json
 
 
@@ -24,10 +25,14 @@ def run_report(
 ) -> RunReport:
     """Return the report of a run with these `events`, the last of which ended it, after which `seen` was observed.
 
-    What a plan left within its trim is right where it is.
+    What a plan left within its trim is right where it is, and so is what a goal found that was met.
     """
-    seen = replace(seen, aligned={f"{c.component}.{c.tunable}": c.aligned for c in plan.changes if c.aligned})
-    asked = plan.asked
+    asked, goals = plan.asked, tuple(_goals(plan, events))
+    right = {f"{c.component}.{c.tunable}": c.aligned for c in plan.changes if c.aligned}
+    for goal, op in goals:
+        tuned = [f"{component}.{tunable}" for component, tunable in touched_by(op.component, op.arguments)]
+        right |= dict.fromkeys(tuned if goal.met else (), Aligned(goal=goal.goal))
+    seen = replace(seen, aligned=right)
     whole = not asked and not plan.target.scope
     return RunReport(
         run=events[-1].run,
@@ -45,6 +50,8 @@ def run_report(
         expectations=_expectations(setup, plan, seen, able) if whole else (),
         measurements=seen.measurements,
         by_light=_by_light(plan, events) or None,
+        goals=tuple(goal for goal, _ in goals) or None,
+        aligning=_aligning(plan, events),
         diagnostics=tuple(_diagnostics(events)),
     )
 
@@ -61,6 +68,27 @@ def measured(plan: Plan, events: Sequence[Event]) -> dict[str, Measurement]:
         elif op is not None and event.kind == "operation_done" and "measurement" in event.data:
             found[op.address] = measurement_from_json(event.data["measurement"])
     return found
+
+
+def _goals(plan: Plan, events: Sequence[Event]) -> Iterator[tuple[GoalEnd, Operation]]:
+    """Yield how each goal of a plan ended that was sought for its alignment, with its operation."""
+    sought = {op.id: op for op in plan.operations if op.primitive == "optimize" and op.reason.kind == "align"}
+    for event in events:
+        op, data = sought.get(event.operation or ""), event.data
+        if op is None or event.kind not in ("operation_done", "operation_failed", "operation_unknown"):
+            continue
+        why = data.get("why") or (data.get("diagnostic") or {}).get("summary", "")
+        yield GoalEnd(
+            goal=str(op.arguments["goal"]), met=bool(data.get("met")), why=str(why), last=data.get("last"),
+            measurements=int(data.get("measurements", 0)), seconds=float(data.get("seconds", 0.0)),
+        ), op  # fmt: skip
+
+
+def _aligning(plan: Plan, events: Sequence[Event]) -> float | None:
+    """Return how long the operations took that were there to bring light back [s]; None where there were none."""
+    there = {op.id for op in plan.operations if op.aligns}
+    ended = [e for e in events if e.operation in there and e.kind in ("operation_done", "operation_failed")]
+    return sum(float(e.data.get("seconds", 0.0)) for e in ended) if ended else None
 
 
 def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tuple[Change, ...]:

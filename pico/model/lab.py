@@ -290,6 +290,7 @@ class Goal:
     measured too, below whose `least` nothing is believed. `algorithm`: one by name, with its `parameters`; without, one
     is chosen. `valid_for`: how long it counts as aligned once it was met (`12 h`). `offset`: how far from the best, in
     its unit, its one tunable is left, as from a null; counted from where the model of the algorithm has the best.
+    `during`: tunables that are set to values while it is sought, and set back (`p1.angle: 90`).
 
     `looks`: what is set while it is measured, and set back at the end: settings by name, each with its tunables. What
     is measured is then spoken of with the name of its look: `near.meter.power`. `after`: goals of the Lab that are
@@ -308,6 +309,7 @@ class Goal:
     budget: Budget = Budget()
     valid_for: str | None = None
     offset: float | None = None
+    during: Mapping[str, Value] | None = None
     description: str = ""
     looks: Mapping[str, Mapping[str, Value]] | None = None
     after: tuple[str, ...] | None = None
@@ -377,7 +379,9 @@ class Policy:
     `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
     a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam
     leaves; what the beam audit finds is then only told. `arming`: who may let lasers above class 2 emit; nobody,
-    without it."""
+    without it. `align`: whether an
+    apply redoes the goals whose light it changes, or that are not aligned: `always`, or only where it is `asked` with
+    --align."""
 
     open_beam: bool = False
     enclosed: bool | None = None
@@ -386,6 +390,7 @@ class Policy:
     ignore: tuple[str, ...] = ()
     merge: Literal["warn", "strict"] = "warn"
     arming: ArmingPolicy | None = None
+    align: Literal["always", "asked"] | None = None
 
 
 @record

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field, fields
+from types import MappingProxyType
 from typing import Any, Literal, get_args
 
 from pico.model.quantities import Value
@@ -66,16 +67,25 @@ class Measurement:
         return "; ".join(f"{condition}: {why}" for condition, why in self.not_assured.items())
 
 
-def incomparable(a: Measurement, b: Measurement) -> tuple[str, ...]:
+def incomparable(a: Measurement, b: Measurement, within: Mapping[str, float] = MappingProxyType({})) -> tuple[str, ...]:
     """Return why two measurements must not be compared, a reason each; none where they may.
 
     They must be of the same thing, in the same unit, by the same kernel, with the same settings, and the same must
-    have been assured of both: what was not is never compared as if it were.
+    have been assured of both: what was not is never compared as if it were. `within`: by how much a setting may differ,
+    in its unit, and is the same nevertheless.
     """
-    return tuple(_differing(a, b))
+    return tuple(_differing(a, b, within))
 
 
-def _differing(a: Measurement, b: Measurement) -> Iterator[str]:
+def _same(one: Value | None, other: Value | None, within: float) -> bool:
+    """Whether two settings are the same; documents hold numbers rounded to a millionth."""
+    numbers = all(isinstance(v, int | float) and not isinstance(v, bool) for v in (one, other))
+    if not numbers:
+        return one == other
+    return abs(float(one or 0) - float(other or 0)) <= max(within, 2e-6, 1e-6 * abs(float(one or 0)))
+
+
+def _differing(a: Measurement, b: Measurement, within: Mapping[str, float]) -> Iterator[str]:
     if a.address != b.address:
         yield f"one is of {a.address}, the other of {b.address}"
     for name in ("unit", "kernel", "kernel_version"):
@@ -84,7 +94,7 @@ def _differing(a: Measurement, b: Measurement) -> Iterator[str]:
             yield f"{name.replace('_', ' ')}: {one or 'none'}, then {other or 'none'}"
     for name in sorted(a.settings.keys() | b.settings.keys()):
         one, other = a.settings.get(name), b.settings.get(name)
-        if one != other:
+        if not _same(one, other, within.get(name, 0.0)):
             yield f"{name}: {_said(one)}, then {_said(other)}"
     for which, measured in (("first", a), ("second", b)):
         for condition, why in measured.not_assured.items():

@@ -12,7 +12,18 @@ from pico.model.primitive import Primitive, primitive
 from pico.model.record import record
 
 Outcome = Literal["done", "failed", "unknown"]
-ReasonKind = Literal["changed", "in_the_way", "staged", "stowed", "operator", "asked", "parked", "interlock", "held"]
+ReasonKind = Literal[
+    "changed",
+    "in_the_way",
+    "staged",
+    "stowed",
+    "operator",
+    "asked",
+    "parked",
+    "interlock",
+    "held",
+    "align",
+]
 
 
 @record
@@ -24,7 +35,8 @@ class Reason:
     in a ring of components that block one another (`of`), and is put down in storage on its way. `operator`: only a
     person can do it. `asked`: somebody asked for this one operation (`pico do`).
     `parked`: a robot leaves the beam when the last of its work is done. `interlock`: a laser's shutter is closed while
-    somebody works in its beam, and set as wanted afterwards. `held`: a hand that was stopped still holds it, and sets
+    somebody works in its beam, and set as wanted afterwards; or what the goals in `of` need while they are sought.
+    `held`: a hand that was stopped still holds it, and sets
     it down before anything else.
     """
 
@@ -78,6 +90,12 @@ class Operation:
         """Whether it is done whatever became of what it comes after: an arm parks, and a shutter closes."""
         closes = self.primitive == "set" and self.arguments.get("tunable") == "shutter"
         return self.kind.parks or (closes and self.arguments.get("to") == "closed")
+
+    @property
+    def aligns(self) -> bool:
+        """Whether it is there to bring light back: a goal is sought, what that needs is set and set back, and what a
+        commit recorded is measured."""
+        return self.reason.kind == "align" or (self.reason.kind == "interlock" and bool(self.reason.of))
 
     @property
     def address(self) -> str:

@@ -45,7 +45,8 @@ class Target:
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
     is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
     `heal`; `single`: for one operation that somebody asked for; `teleoperation`), and `of` which run; `recipe`: of
-    which run of a recipe (`NAME@ID`) it is a `step`.
+    which run of a recipe (`NAME@ID`) it is a `step`. `align`: goals that are not aligned then
+    are sought at its end.
     """
 
     revision: str | None = None
@@ -59,6 +60,7 @@ class Target:
     of: str | None = None
     recipe: str | None = None
     step: str | None = None
+    align: bool | None = None
 
     @property
     def name(self) -> str:
@@ -87,11 +89,23 @@ class Staging:
 
 
 @record
+class Spoiled:
+    """A goal that is aligned, and will not be after a plan: `why`; when it was met (`at`, by the wall); the `seconds`
+    that it takes to be sought again."""
+
+    goal: str
+    why: str
+    at: str = ""
+    seconds: float = 0.0
+
+
+@record
 class Plan:
     """Operations that make the live state equal to the target's, in an order that never collides.
 
     `operations` is sorted by start; arms take theirs in this order. `makespan` [s]; `bound`: before that no order of
-    these operations ends [s], where the arms tell how long they take. `errored` where the diagnostics hold an error:
+    these operations ends [s], where the arms tell how long they take. `spoils`: goals that it leaves unaligned, in the
+    order along the beam in which they are to be redone. `errored` where the diagnostics hold an error:
     then the plan must not be applied.
     """
 
@@ -109,6 +123,7 @@ class Plan:
     makespan: float = 0.0
     bound: float | None = None
     policy: tuple[Mapping[str, Any], ...] = ()
+    spoils: tuple[Spoiled, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property

@@ -18,6 +18,19 @@ from pico.model.state import LabState, place_of
 
 
 @record
+class GoalEnd:
+    """How a goal stood when it had been sought in a run: `met` or not and `why` it ended; how often it was measured and
+    how long that took [s]; `last`: what was measured at the end, with `<number>_sigma`, by address."""
+
+    goal: str
+    met: bool
+    why: str = ""
+    measurements: int = 0
+    seconds: float = 0.0
+    last: Mapping[str, float] | None = None
+
+
+@record
 class RunReport:
     """The end of a run.
 
@@ -25,7 +38,8 @@ class RunReport:
     tolerance, observed after the run; `absent`: components that are missing, held or toppled; `held`: what each robot
     still has in its gripper. `whole`: the plan was for the whole bench, not for one operation or for some components;
     `scope`: for which (`only p2`), and `left`: what else differs from the goal. `expectations`: of the goal, against
-    the bench after a whole run. `measurements`: what was measured, by address. `evidence`: what the run counts as.
+    the bench after a whole run. `measurements`: what was measured, by address; `goals`: those that were sought,
+    `aligning`: what all that was there to bring light back took [s]. `evidence`: what the run counts as.
     `by_light`: set-points that light has yet to find.
     """
 
@@ -50,6 +64,8 @@ class RunReport:
     expectations: tuple[Expected, ...] = ()
     measurements: Mapping[str, Measurement] = field(default_factory=dict)
     by_light: tuple[str, ...] | None = None
+    goals: tuple[GoalEnd, ...] | None = None
+    aligning: float | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -65,7 +81,8 @@ class RunReport:
             return ExitCode.INTERRUPTED
         if self.outcome != "done" or not self.reached:
             return ExitCode.ERROR
-        return ExitCode.EXPECTATION if any(e.failed for e in self.expectations) else ExitCode.DONE
+        missed = any(not goal.met for goal in self.goals or ())
+        return ExitCode.EXPECTATION if missed or any(e.failed for e in self.expectations) else ExitCode.DONE
 
 
 @record

@@ -1,77 +1,200 @@
-"""An optimization as an operation: what its measurements need is set first, and set back when it is done."""
+"""Optimizations as operations: what their measurements need is set first, and set back when they are done."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.model.lab import EXPOSURE, Goal, Setup
 from pico.model.observation import Observation, astray
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, touched_by
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
 from pico.optimize.registry import algorithm_file
-from pico.planning.measuring import granted, kept_shut, needed, setting
+from pico.planning.checks.interlocks import LAMP
+from pico.planning.foreseen import foreseen
+from pico.planning.goal_light import goal_light
+from pico.planning.measuring import Need, granted, kept_shut, needed, setting
 from pico.planning.parts.setdown import park_operation
 from pico.planning.sought import Sought, arguments_of
 
 if TYPE_CHECKING:
     from pico.optics.nominal.feeding import Right
 
-TAKES = 0.6
+TAKES = 0.5
 """What a measurement takes, with the table at rest [s]."""
 ASKED = Reason(kind="asked")
 
 
-def optimizing(
-    setup: Setup, seen: Observation, one: Sought, motion: Motion | None, first: Sequence[Sought] = (),
-    reason: Reason = ASKED, right: Sequence[Right] = (),
-) -> list[Operation]:  # fmt: skip
-    """Return the operations that bring light to a goal: arms that stand out park, what is measured gets what it needs,
-    its tunables make up for how parts stand otherwise than where light was `right`, in the first of these that is this
-    bench still, the optimization, and all is set back. `after` holds indices as text. `first`: goals that are sought
-    before it where it is dark, in the same operation.
+@dataclass(frozen=True)
+class Turn:
+    """A goal whose turn it is, those that are sought `first` where it is dark, in the same operation; what it `took`
+    before [s], None where nobody knows; and why it is sought. `right`: benches with the light that it is to have: its
+    tunables make up first for how parts stand otherwise than in the first of these that is this bench still."""
 
-    Raises PicoError where a tunable of a goal is not known, so that nobody could go back to it.
+    one: Sought
+    first: tuple[Sought, ...] = ()
+    took: float | None = None
+    reason: Reason = ASKED
+    right: tuple[Right, ...] = ()
+
+    @property
+    def stages(self) -> tuple[Sought, ...]:
+        """All that is sought, in order."""
+        return (*self.first, self.one)
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """What is measured for it."""
+        return tuple(text for stage in self.stages for text in stage.goal.texts)
+
+
+def optimizing(
+    setup: Setup, seen: Observation, turns: Sequence[Turn], motion: Motion | None, before: Sequence[Operation] = ()
+) -> list[Operation]:
+    """Return the operations that bring light to goals, one after the other: arms that stand out park, what is measured
+    gets what it needs, an optimization for each, and all is set back at the end; what a goal wants only during its own
+    is set back before one that does not want it.
+
+    `before`: operations that come first, after which the bench will be as `seen`. `after` holds indices as text, into
+    `before` and what is returned. Each comes only after those of `before` and of the earlier goals that its light
+    depends on. Raises PicoError where a tunable of a goal is not known, so that nobody could go back to it.
     """
-    name, stages = one.name, (*first, one)
-    begin = {a: v for stage in stages for a, v in _from(setup, seen, stage.name, stage.goal).items()}
-    only = {a: v for stage in stages for a, v in _to_measure(setup, seen, stage.goal).items() if a not in begin}
-    out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
-    parks = [*map(str, range(len(out)))]
-    measured = dict.fromkeys(m for stage in stages for m in measured_in(setup, stage.goal.texts))
-    wants = {
-        need.address: need
-        for component, measurable in measured
-        for need in granted(setup, seen, needed(setup, seen, component, setup.measurables_of(component)[measurable]))
-        if need.live != need.value or (parks and need.opens)
-    }
-    for need in wants.values():
-        waits = parks if need.opens else []
-        out.append(setting(setup, need, need.live, need.value, waits, f"to measure for {name}"))
-    made_up = (absorbed(setup, seen, one.goal, bench) for bench in right)
-    fed = next((found for found in made_up if found is not None), {})
-    for address, value in fed.items():
-        out.append(_absorbing(setup, address, begin[address], value, parks))
-    begin |= fed
-    parts = sorted({address.partition(".")[0] for address in begin})
-    looked = {a for stage in stages for settings in (stage.goal.looks or {}).values() for a in settings}
-    detectors = sorted({component for component, _ in measured} | {a.partition(".")[0] for a in looked})
-    out.append(Operation(
-        id="", primitive="optimize", component=parts[0], reason=reason, after=tuple(map(str, range(len(out)))),
-        arguments={"from": {**begin, **only}, "specimens": specimens(setup), **arguments_of(setup, one, first)},
-        resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
-        seconds=sum(seconds(setup, stage.goal, stage.algorithm) for stage in stages),
-    ))  # fmt: skip
-    done = str(len(out) - 1)
-    for need in wants.values():
-        if need.live is not None and need.live != need.value and not kept_shut(setup, seen, need):
-            text = f"as it was before {name}"
-            out.append(setting(setup, need, need.value, need.live, [done], text))
-    return out
+    return _Block(setup, seen, turns, motion, before).made()
+
+
+class _Block:
+    """Optimizations one after the other, while they are put together."""
+
+    def __init__(
+        self, setup: Setup, seen: Observation, turns: Sequence[Turn], motion: Motion | None,
+        before: Sequence[Operation],
+    ) -> None:  # fmt: skip
+        self.setup, self.seen, self.turns, self.motion, self.before = setup, seen, turns, motion, before
+        self.out: list[Operation] = []
+        self.arms = [n for n, op in enumerate(before) if op.robot or op.kind.by_hand]
+        self.latest: dict[str, int] = {}
+        """Which operation of the block set a tunable last, by address."""
+        self.now: dict[str, Need] = {}
+        """What is set otherwise than it was, by address, as the need that wants it so."""
+        self.made_of: list[tuple[int, Turn]] = []
+
+    def made(self) -> list[Operation]:
+        working = {op.robot for op in self.before}
+        for robot in astray(self.setup, self.seen):
+            if robot not in working:
+                self.arms.append(self._add(park_operation(self.setup, self.seen, robot, (), self.motion)))
+        names = ", ".join(turn.one.name for turn in self.turns)
+        for need in self._needs():
+            self._set(need, f"to measure for {names}", self.arms if need.opens else [])
+        lasting = {*self.now}
+        for turn in self.turns:
+            during = {need.address: need for need in self._during(turn.one.goal)}
+            for address in [a for a in self.now if a not in lasting and a not in during]:
+                self._set_back(address, "as it was before that")
+            for need in during.values():
+                self._set(need, f"while {turn.one.name} is sought", self.arms)
+            self._optimize(turn)
+        for address in [*self.now]:
+            self._set_back(address, f"as it was before {names}")
+        return self.out
+
+    def _needs(self) -> Iterator[Need]:
+        """Yield what the measurements of all goals need, and is not so, or not for sure while arms park."""
+        texts = [text for turn in self.turns for text in turn.texts]
+        known = {
+            need.address: need
+            for component, measurable in measured_in(self.setup, texts)
+            for need in granted(self.setup, self.seen, self._wants(component, measurable))
+        }
+        parks = any(op.kind.parks for op in self.out)
+        yield from (n for n in known.values() if n.live != n.value or (parks and n.opens))
+
+    def _wants(self, component: str, measurable: str) -> Iterator[Need]:
+        return needed(self.setup, self.seen, component, self.setup.measurables_of(component)[measurable])
+
+    def _during(self, goal: Goal) -> Iterator[Need]:
+        for address, value in (goal.during or {}).items():
+            component, _, tunable = address.partition(".")
+            part = self.seen.components.get(component)
+            live = part.values.get(tunable) if part is not None else None
+            known = live.value if live is not None and live.status == "known" else None
+            yield Need(component=component, tunable=tunable, value=value, live=known)
+
+    def _set(self, need: Need, text: str, waits: Sequence[int]) -> None:
+        """Set what is needed, where it is not so already."""
+        live = self.now[need.address].value if need.address in self.now else need.live
+        if live == need.value and not (need.address not in self.now and need.opens and waits):
+            return
+        after = [*waits, *self._after(need.address), *(n for n, _ in self.made_of)]
+        self.latest[need.address] = self._add(setting(self.setup, need, live, need.value, _texts(after), text))
+        self.now[need.address] = replace(need, live=self.now.get(need.address, need).live)
+
+    def _set_back(self, address: str, text: str) -> None:
+        """Set a tunable back to what it was before the block, after the optimizations that wanted it."""
+        need = self.now.pop(address)
+        if need.live is None or need.live == need.value or kept_shut(self.setup, self.seen, need):
+            return
+        after = [*self._after(address), *(n for n, _ in self.made_of)]
+        self.latest[address] = self._add(setting(self.setup, need, need.value, need.live, _texts(after), text))
+
+    def _optimize(self, turn: Turn) -> None:
+        setup, here = self.setup, foreseen(self.seen, self.out)
+        begin = {a: v for stage in turn.stages for a, v in _from(setup, here, stage.name, stage.goal).items()}
+        only = {a: v for stage in turn.stages for a, v in _to_measure(setup, here, stage.goal).items()}
+        light = goal_light(setup, self.seen, turn.one.goal).parts
+        own = [n for n, op in enumerate(self.before) if _touches(op, light)]
+        own += [n for n, made in self.made_of if any(a.partition(".")[0] in light for a in made.one.goal.tunables)]
+        made_up = (absorbed(setup, here, turn.one.goal, bench) for bench in turn.right)
+        for address, value in next((found for found in made_up if found is not None), {}).items():
+            self.latest[address] = self._add(_absorbing(setup, address, begin[address], value, _texts(self.arms)))
+            begin = {**begin, address: value}
+        parts = sorted({address.partition(".")[0] for address in begin})
+        looked = {a for stage in turn.stages for found in (stage.goal.looks or {}).values() for a in found}
+        measured = {component for component, _ in measured_in(setup, turn.texts)}
+        detectors = sorted(measured | {a.partition(".")[0] for a in looked})
+        reckoned = sum(seconds(setup, stage.goal, stage.algorithm) for stage in turn.stages)
+        index = self._add(Operation(
+            id="", primitive="optimize", component=parts[0], reason=turn.reason,
+            arguments={
+                "from": {**only, **begin}, "specimens": specimens(setup), **arguments_of(setup, turn.one, turn.first),
+            },
+            after=_texts([*self.arms, *own, *self.latest.values()]),
+            seconds=reckoned if turn.took is None else turn.took,
+            resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
+        ))  # fmt: skip
+        self.made_of.append((index, turn))
+
+    def _after(self, address: str) -> list[int]:
+        """Return what set a tunable last: of this block, else of what comes before it."""
+        if address in self.latest:
+            return [self.latest[address]]
+        return [n for n, op in enumerate(self.before) if address in {f"{c}.{t}" for c, t in _sets(op)}]
+
+    def _add(self, operation: Operation) -> int:
+        if operation.reason.kind == "interlock":
+            names = tuple(turn.one.name for turn in self.turns if turn.reason.kind == "align")
+            operation = replace(operation, reason=replace(operation.reason, of=names))
+        self.out.append(operation)
+        return len(self.before) + len(self.out) - 1
+
+
+def _texts(indices: Sequence[int]) -> tuple[str, ...]:
+    return tuple(str(n) for n in sorted(set(indices)))
+
+
+def _sets(op: Operation) -> tuple[tuple[str, str], ...]:
+    return touched_by(op.component, op.arguments) if op.kind.mutating else ()
+
+
+def _touches(op: Operation, light: Collection[str]) -> bool:
+    """Whether light is another by an operation: a part in it moves or is set, a lamp goes out."""
+    lamp = op.arguments.get("tunable") == LAMP
+    return op.kind.mutating and (lamp or any(component in light for component, _ in _sets(op)))
 
 
 def absorbed(setup: Setup, seen: Observation, goal: Goal, right: Right) -> dict[str, float] | None:

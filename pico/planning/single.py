@@ -23,7 +23,7 @@ from pico.planning.checks.emission import left_shut, refused
 from pico.planning.checks.interlocks import policy_rules, stay_shut, unguarded, with_interlocks
 from pico.planning.compile import compiled_plan
 from pico.planning.measuring import measuring, unlit
-from pico.planning.optimizing import optimizing
+from pico.planning.optimizing import Turn, optimizing
 from pico.planning.parts.setdown import parked_first
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
@@ -145,16 +145,18 @@ def measure(
 
 def optimize_one(
     setup: Setup, seen: Observation, one: Sought, *, motion: Motion | None, first: Sequence[Sought] = (),
-    backend: str = "sim", fidelity: str = "kinematic", base: Base | None = None, right: Sequence[Right] = (),
+    took: float | None = None, backend: str = "sim", fidelity: str = "kinematic", base: Base | None = None,
+    right: Sequence[Right] = (),
 ) -> Plan:  # fmt: skip
     """Return the plan that brings light to a goal, by those that are sought `first` where it is dark, and leaves all
     else as it is. `right`: benches with the light that it is to have; what is seen to stand otherwise is made up for.
+    `took`: the seconds that it is reckoned with, where that is known.
 
     Raises PicoError for a component that is not seen, and for tunables of which nobody knows where they stand.
     """
     for component in {address.partition(".")[0] for address in tunables_of(one, first)}:
         _part(setup, seen, component)
-    operations = optimizing(setup, seen, one, motion, first, right=right)
+    operations = optimizing(setup, seen, [Turn(one, tuple(first), took, right=tuple(right))], motion)
     texts = [text for stage in (*first, one) for text in stage.goal.texts]
     notes = [*left_shut(seen, unlit(setup, seen, measured_in(setup, texts)))]
     return _sealed(setup, seen, operations, notes, backend, fidelity, base, live_state(setup, seen), ())
@@ -209,12 +211,10 @@ def again(
             after = with_value(after, op.component, str(op.arguments["tunable"]), op.arguments["to"])
     for key, cut in sought.items():
         one, stages = sought_by(cut.arguments)
-        begun = len(out)
-        waits = tuple(map(str, range(begun)))
-        for op in optimizing(setup, after, one, motion, stages):
+        waits = tuple(map(str, range(len(out))))
+        for op in optimizing(setup, after, [Turn(one, stages)], motion, out):
             given = {**op.arguments, "again": key} if op.primitive == "optimize" else op.arguments
-            own = tuple(str(int(a) + begun) for a in op.after)
-            out.append(replace(op, arguments=given, after=own or waits))
+            out.append(replace(op, arguments=given, after=tuple(dict.fromkeys((*waits, *op.after)))))
     timed, tuned = schedule(out), {address for cut in sought.values() for address in searched_by(cut.arguments)}
     wanted = _without(state_from_json(plan.lab.name, plan.target.state), tuned)  # these have their last word by light
     return replace(

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import cv2
 import pytest
-from commanding import Pico, edit
+from commanding import Pico, edit, with_goals
 
 GOALS = """goals:
   centred:
@@ -33,7 +33,7 @@ inventory:
 def placed(shel: Path, pico: Pico) -> Path:
     """The case study with its light on the camera, in a world that stands still."""
     edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
-    edit(shel / "lab.yaml", "inventory:\n", GOALS)
+    with_goals(shel / "lab.yaml", GOALS)
     assert pico("apply", "e1", "--yes").code == 0
     return shel
 
@@ -276,11 +276,11 @@ def test_a_goal_that_is_not_met_is_lost_and_an_edited_one_stale(placed: Path, pi
 
 def test_a_plan_says_which_goals_it_makes_stale(placed: Path, pico: Pico) -> None:
     assert pico("optimize", "centred", "--yes").code == 0
-    told = " ".join(pico("move", "p2", "x=530", "--dry-run").err.split())
-    assert "note[goal]: centred is aligned, and will not be: p2 changes" in told
-    assert "then `pico optimize centred`, about" in told
-    assert "note[goal]" not in pico("optimize", "centred", "--dry-run").err
-    assert "note[goal]" not in pico("set", "cam.exposure", "12", "--dry-run").err
+    told = " ".join(pico("move", "p2", "x=530", "--dry-run").out.split())
+    assert "spoils alignment of: centred (p2 changes; met just now;" in told
+    assert "then `pico optimize centred` redoes it" in told
+    assert "spoils" not in pico("optimize", "centred", "--dry-run").out
+    assert "spoils" not in pico("set", "cam.exposure", "12", "--dry-run").out
 
 
 def test_a_wave_plate_is_turned_to_the_most_light(placed: Path, pico: Pico) -> None:

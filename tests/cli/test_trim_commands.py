@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from commanding import Pico, edit
+from commanding import Pico, edit, with_goals
 from test_optimize_command import GOALS
 
 
@@ -17,7 +17,7 @@ def aligned(shel: Path, pico: Pico) -> Path:
     """The case study in a world that errs, its spot centred by the goal of the lab."""
     subprocess.run(["git", "checkout", "-q", "e1"], cwd=shel, check=True)
     edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  errors: {seat: 1}\n")
-    edit(shel / "lab.yaml", "inventory:\n", GOALS)
+    with_goals(shel / "lab.yaml", GOALS)
     assert pico("apply", "--yes").code == 0
     assert pico("optimize", "centred", "--yes").code == 0
     return shel
@@ -99,7 +99,7 @@ def test_of_a_set_point_the_value_counts(aligned: Path, pico: Pico) -> None:
     ],
 )
 def test_what_a_part_says_of_its_own_is_checked(shel: Path, pico: Pico, own: str, said: str) -> None:
-    edit(shel / "lab.yaml", "inventory:\n", GOALS)
+    with_goals(shel / "lab.yaml", GOALS)
     part = "laser:\n" if "shutter" in own else "ly_150:\n"
     edit(shel / "lab.yaml", part, f"{part}    restore: {own}\n")
     answer = pico("validate")

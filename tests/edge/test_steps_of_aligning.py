@@ -15,7 +15,7 @@ from pico.manifest.load import load_folder
 from pico.model.lab import Setup
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.setpoint import set_seconds
-from pico.planning.optimizing import optimizing
+from pico.planning.optimizing import Turn, optimizing
 from pico.planning.sought import Sought
 
 LAB = """apiVersion: pico/v1
@@ -84,7 +84,9 @@ def sought(setup: Setup, root: Path, algorithm: str, faults: Faults = NONE) -> t
         save_faults(root, faults)
         await told.device.take(2, lambda _: None)
         goals = setup.lab.goals or {}
-        (operation,) = optimizing(setup, await told.device.observe(), Sought("null", goals["null"], algorithm), None)
+        (operation,) = optimizing(
+            setup, await told.device.observe(), [Turn(Sought("null", goals["null"], algorithm))], None
+        )
         doing = Aligning(setup, root, told, lambda: "", lambda _: None)  # type: ignore[arg-type]
         result = await doing.execute(operation, "r1/op1/1", lambda _: None)
         await told.device.leave()

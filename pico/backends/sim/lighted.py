@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from pico.backends.sim.cameras import lamps
 from pico.backends.sim.readings import Table
 from pico.backends.sim.world import WorldBody
 from pico.geometry.seat import Seat
 from pico.model.lab import Setup
+from pico.model.pose import Pose
 from pico.optics.unseen import SEEN, Unseen
 
 if TYPE_CHECKING:
@@ -31,16 +33,26 @@ def alone(arrivals: tuple[Arrival, ...]) -> str:
 
 def light_on(table: Table) -> Light:
     """Return the light on the table now."""
-    from pico.optics.environment import in_the_world
     from pico.optics.light import light_of
 
-    world = table.world
-    standing = {n: b for n, b in world.components.items() if n in table.setup.lab.inventory and b.presence == "seen"}
+    standing = _standing(table)
+    unseen = {name: found for name, body in standing.items() if (found := unseen_of(table.setup, name, body))}
+    return light_of(table.setup, *standing_on(table), unseen=unseen)
+
+
+def standing_on(table: Table) -> tuple[dict[str, Pose], dict[str, Mapping[str, Any]]]:
+    """Return where parts stand now and what they are truly set to, with what the world does to them."""
+    from pico.optics.environment import in_the_world
+
+    standing = _standing(table)
     poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
     values = {n: b.true_values for n, b in standing.items()}
-    unseen = {name: found for name, body in standing.items() if (found := unseen_of(table.setup, name, body))}
-    disturbed = in_the_world(table.setup, poses, values, world.seed, world.clock)
-    return light_of(table.setup, *disturbed, unseen=unseen)
+    return in_the_world(table.setup, poses, values, table.world.seed, table.world.clock)
+
+
+def _standing(table: Table) -> dict[str, WorldBody]:
+    parts = table.world.components.items()
+    return {n: b for n, b in parts if n in table.setup.lab.inventory and b.presence == "seen"}
 
 
 def unseen_of(setup: Setup, name: str, body: WorldBody) -> Unseen | None:

@@ -53,6 +53,11 @@ def runs_added(
     return read_carried(repository, added, diagnostics)
 
 
+def places_added(repository: Repository, commit: str, folder: str | Path = "") -> tuple[RunPlace, ...]:
+    """Return where the runs lie that a commit (its id) has and none of its parents."""
+    return _Trees(repository, repository.relative(folder)).added(repository.handle[commit])
+
+
 def places_at(repository: Repository, commit: str, folder: str | Path = "") -> dict[str, RunPlace]:
     """Return where the runs are whose files a commit (its id) holds, by id, whichever commit added them."""
     return _Trees(repository, repository.relative(folder)).places(repository.handle[commit])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from difflib import get_close_matches
 
@@ -15,6 +16,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import (
     RunPlace,
     files_at,
+    places_added,
     places_folded,
     places_in_history,
     read_carried,
@@ -46,6 +48,16 @@ def load_run(folder: LabFolder, word: str | None = None) -> tuple[RecordedRun, C
     store, wanted = store_of(folder.root), {a.sha256 for a in run.document.artifacts}
     stored = {one: os.path.relpath(store.path(one), folder.root) for one in wanted if store.has(one)}
     return replace(run, stored=stored, missing=frozenset(wanted - stored.keys())), commit
+
+
+def runs_in(folder: LabFolder, commit: str) -> tuple[RecordedRun, ...]:
+    """Return the runs that a commit (its id) brought, in the order in which they started; what can't be read is left
+    out."""
+    found = []
+    for place in places_added(folder.history(), commit, folder.root):
+        with suppress(PicoError):
+            found.append(_carried(folder, place, [])[0])
+    return tuple(sorted(found, key=lambda run: run.document.order))
 
 
 def _loaded(folder: LabFolder, word: str | None) -> tuple[RecordedRun, Commit | None]:

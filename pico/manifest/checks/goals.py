@@ -21,6 +21,9 @@ def goal_errors(setup: Setup, goals: Mapping[str, Goal]) -> Iterator[tuple[tuple
                 yield (name, "tunables", tunable), wrong
         if wrong := _after(goals, setup, name):
             yield (name, "after"), wrong
+        for address, value in (goal.during or {}).items():
+            if wrong := _setting(setup, goal, address, value):
+                yield (name, "during", address), wrong
         for key, wrong in (*_looks(setup, goal), *_outputs(setup, goal)):
             yield (name, *key), wrong
         if goal.algorithm is not None and goal.algorithm not in known():

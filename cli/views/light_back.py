@@ -1,0 +1,41 @@
+"""The light that a commit recorded, against the light now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from pico.model.record import as_json
+from pico.runs.light_compared import Compared
+
+from .style import columns, count, paint
+
+
+def text(found: Sequence[Compared], *, goal: str = "", suspects: Sequence[str] = ()) -> str:
+    """Return each number as the commit recorded it and as it is now, those that differ marked; `goal`: the commit as a
+    person calls it; `suspects`: what may be the cause, the likeliest first, each in words."""
+    rows = [[paint("dim", cell) for cell in ("", "light", goal or "recorded", "now", "")]]
+    for one in found:
+        if one.why:
+            rows.append([paint("yellow", "?"), one.address, "", "", f"not compared: {one.why}"])
+            continue
+        mark = paint("red", "✗") if one.differs else paint("green", "✓")
+        share = f"{100 * one.share:.1f} %" if one.reference and one.share is not None else ""
+        against = f"{share} against {one.reference}" if share else ""
+        near = f"± {one.sigma:.3g} {one.unit}".rstrip()
+        rows.append([mark, one.address, f"{one.before:.5g}", f"{one.now:.5g}", f"{near}  {against}".rstrip()])
+    off = sum(one.differs for one in found)
+    verb = "differs" if off == 1 else "differ"
+    compared = sum(not one.why for one in found)
+    as_it_was = (
+        f"{compared} of {count(len(found), 'number')} of the light compared: as {goal or 'the commit'} recorded."
+    )
+    said = f"{count(off, 'number')} of the light {verb} from what {goal or 'the commit'} recorded."
+    lines = [*columns(rows, indent="  "), said if off else as_it_was]
+    return "\n".join([*lines, *(f"  {n}. {who}" for n, who in enumerate(suspects, 1))])
+
+
+def data(found: Sequence[Compared], *, goal: str = "", suspects: Sequence[str] = ()) -> dict[str, Any]:
+    """Return schema `pico.light-compared/v1`: `numbers` with `before`, `now`, `sigma`, and whether each `differs`."""
+    numbers = [{**as_json(one), "differs": one.differs} for one in found]
+    return {"schema": "pico.light-compared/v1", "goal": goal, "numbers": numbers, "suspects": list(suspects)}

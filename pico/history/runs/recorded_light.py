@@ -1,0 +1,61 @@
+"""What a commit recorded of its light: what was measured in its runs when the bench stood as it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+from pico.history.lab.folder import LabFolder
+from pico.history.runs.loading import runs_in
+from pico.model.measurement import Measurement, measurement_from_json
+from pico.model.primitive import primitive
+from pico.model.run import TraceEvent
+from pico.runs.trace import measurement_in
+
+_ALONG = ("interlock", "parked")
+"""Reasons of operations that leave the bench as it was when they are over."""
+
+
+@dataclass(frozen=True)
+class RecordedLight:
+    """What a commit recorded: measurements by address, all of which was assured; and the goals that were met, by name
+    with what was measured then."""
+
+    measured: Mapping[str, Measurement] = field(default_factory=dict)
+    goals: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+
+def recorded_light(folder: LabFolder, commit: str) -> RecordedLight:
+    """Return what the runs recorded that a commit (its id) brought: the last of each measurable and goal. What the
+    bench was changed after counts no more."""
+    measured: dict[str, Measurement] = {}
+    goals: dict[str, Mapping[str, float]] = {}
+    for run in runs_in(folder, commit):
+        _follow(run.trace, measured, goals)
+    sure = {address: one for address, one in measured.items() if not one.not_assured and not one.unknown}
+    return RecordedLight(sure, goals)
+
+
+def _follow(
+    trace: Iterable[TraceEvent], measured: dict[str, Measurement], goals: dict[str, Mapping[str, float]]
+) -> None:  # fmt: skip
+    begun: dict[tuple[str | None, str | None], Mapping[str, Any]] = {}
+    for event in trace:
+        key = (event.run, event.operation)
+        if event.kind == "intent":
+            begun[key] = event.data
+        elif event.kind == "started" and (operation := begun.get(key)):
+            kind = (operation.get("reason") or {}).get("kind")
+            if primitive(str(operation.get("primitive"))).mutating and kind not in _ALONG:
+                measured.clear()
+        elif data := measurement_in(event):
+            with suppress(ValueError):
+                taken = measurement_from_json(data)
+                measured[taken.address] = taken
+        elif event.kind == "done" and (found := event.data.get("data") or {}).get("goal"):
+            if found.get("met"):
+                goals[str(found["goal"])] = found.get("last") or {}
+            else:
+                goals.pop(str(found["goal"]), None)

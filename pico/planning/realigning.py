@@ -1,0 +1,54 @@
+"""A plan that brings light back as well: the goals that its moves spoil, or that are not met, sought at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pico.diagnostics import PicoError
+from pico.model.lab import Setup
+from pico.model.observation import Observation
+from pico.model.operation import Operation, Reason
+from pico.model.plan import Plan
+from pico.motion.types import Motion
+from pico.planning.foreseen import foreseen
+from pico.planning.measuring import measuring
+from pico.planning.optimizing import Turn, optimizing
+from pico.planning.schedule import makespan, schedule
+
+
+def realigned(
+    setup: Setup, seen: Observation, plan: Plan, sought: Sequence[Turn], motion: Motion | None,
+    measured: Sequence[tuple[str, str]] = (),
+) -> Plan:  # fmt: skip
+    """Return the plan, sealed, with an optimization for each goal that is `sought`, in this order, and after them
+    measurements of what is to be `measured`; `seen`: the bench that it starts from. A goal that cannot be begun then is
+    an error of the plan."""
+    number = {op.id: str(n) for n, op in enumerate(plan.operations)}
+    before = [replace(op, after=tuple(number[e] for e in op.after)) for op in plan.operations]
+    then = foreseen(seen, before)
+    try:
+        whole = [*before, *optimizing(setup, then, sought, motion, before)] if sought else before
+    except PicoError as exc:
+        return replace(plan, operations=(), diagnostics=(*plan.diagnostics, *exc.diagnostics)).sealed()
+    operations = schedule([*whole, *_measuring(setup, then, measured, motion, whole)])
+    took = makespan(operations)
+    bound = None if plan.bound is None else round(plan.bound + took - plan.makespan, 6)
+    return replace(plan, operations=operations, makespan=took, bound=bound).sealed()
+
+
+def _measuring(
+    setup: Setup, then: Observation, measured: Sequence[tuple[str, str]], motion: Motion | None,
+    whole: Sequence[Operation],
+) -> list[Operation]:  # fmt: skip
+    """Return the operations that measure when all else is done; an arm of which something comes before parks then."""
+    working = {op.robot for op in whole}
+    parked = replace(then, robots={name: robot for name, robot in then.robots.items() if name not in working})
+    made, all_before = measuring(setup, parked, measured, _RECORDED, motion), tuple(str(n) for n in range(len(whole)))
+    return [
+        replace(op, after=tuple(str(int(e) + len(whole)) for e in op.after) or all_before)
+        for op in made
+    ]  # fmt: skip
+
+
+_RECORDED = Reason(kind="align", text="the commit recorded it")

@@ -1,0 +1,146 @@
+"""The light that was recorded against the light now: like with like, powers by the laser's own monitor, and places by
+what the goals hold and the placement of parts leaves open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from pico.kernels.pipeline import parsed
+from pico.model.lab import Goal, Setup
+from pico.model.measurement import Measurement, incomparable
+from pico.model.record import record
+from pico.model.vocabulary import numbers_of
+from pico.optics.nominal.spread import Spread
+
+SURE = 3.0
+"""Standard deviations from which two numbers differ."""
+
+
+@record
+class Compared:
+    """A number by address (`cam.fit.x`) `before` and `now`, in `unit`; None where there is none. `sigma`: one standard
+    deviation of their difference, with what the placement of parts makes of it. A power is compared as a share of what
+    the `reference` of its laser told both times; `now` is then what it would be at the laser's power of before. `why`:
+    why the two must not be compared; empty where they may be."""
+
+    address: str
+    before: float | None = None
+    now: float | None = None
+    unit: str = ""
+    sigma: float = 0.0
+    reference: str = ""
+    why: str = ""
+
+    @property
+    def differs(self) -> bool:
+        """Whether it is another now, by more than can be chance."""
+        known = self.before is not None and self.now is not None and not self.why
+        return known and abs((self.now or 0.0) - (self.before or 0.0)) > SURE * self.sigma
+
+    @property
+    def share(self) -> float | None:
+        """What it is of what it was."""
+        return self.now / self.before if self.before and self.now is not None and not self.why else None
+
+
+POWERS = ("power", "light", "voltage")
+"""Numbers that follow the power of the laser."""
+MONITOR = "monitor"
+"""The measurable of a laser that tells its power before anything on the table does something to it."""
+_PLACES = {"x": "left", "y": "up"}
+_SHARE = {"power": 0.01, "other": 0.05, "reference": 0.05}
+"""What two measurements of the same light may differ by, of themselves: of kernels, sensors, dust. One standard
+deviation, as a share of the number: of a power, of other numbers, of a power without a reference."""
+_LEAST = 1.0
+"""The same of a place [um]."""
+
+
+def light_compared(
+    setup: Setup, before: Mapping[str, Measurement], now: Mapping[str, Measurement], spreads: Mapping[str, Spread],
+    met: Mapping[str, Goal], sources: Mapping[str, str],
+) -> tuple[Compared, ...]:  # fmt: skip
+    """Return the numbers of measurements, by address, before and now, in order. `spreads`: by detector, of one
+    placement of what was put down; `met`: goals that are met both times; `sources`: the laser whose light a detector
+    takes."""
+    found = list[Compared]()
+    for address in sorted(before):
+        one, other = before[address], now.get(address)
+        if other is None:
+            found.append(Compared(address=address, why="it was not measured now"))
+        elif reasons := incomparable(one, other, _tolerances(setup, one.component)):
+            found.append(Compared(address=address, why="; ".join(reasons)))
+        else:
+            monitor = f"{sources.get(one.component, '')}.{MONITOR}"
+            pair = (before[monitor], now[monitor]) if monitor in before and monitor in now else None
+            found += _numbers(setup, one, other, spreads.get(one.component, Spread()), met, pair)
+    return tuple(found)
+
+
+def _tolerances(setup: Setup, component: str) -> dict[str, float]:
+    """Return within what the settings of a component are the same, as its tunables say."""
+    kinds = setup.type_of(component).tunables if component in setup.lab.inventory else {}
+    return {name: kind.tolerance for name, kind in kinds.items() if kind.datatype == "float"}
+
+
+def _numbers(
+    setup: Setup, one: Measurement, other: Measurement, spread: Spread, met: Mapping[str, Goal],
+    monitor: tuple[Measurement, Measurement] | None,
+) -> Iterator[Compared]:  # fmt: skip
+    units = _units(setup, one)
+    for name, before in _values(one).items():
+        address, unit = f"{one.component}.{name}", units.get(name, one.unit)
+        now = _values(other).get(name)
+        if now is None:
+            continue
+        noise = math.hypot(_sigma(one, name), _sigma(other, name))
+        kind = name.rpartition(".")[2]
+        made = Compared(address=address, before=before, now=now, unit=unit, sigma=noise)
+        if kind in POWERS or one.measurable == MONITOR:
+            yield _power(made, spread, monitor if one.measurable != MONITOR else None)
+        elif kind in _PLACES and unit == "um":
+            open_to = 1e3 * getattr(spread, _PLACES[kind]) * math.sqrt(2)
+            held = [goal.near(address) for goal in met.values() if address in (goal.reach or {})]
+            yield replace(made, sigma=math.hypot(noise, _LEAST, min(held) if held else open_to))
+        elif f"{one.measurable}.{kind}" in numbers_of(setup, one.component):
+            yield replace(made, sigma=math.hypot(noise, _SHARE["other"] * abs(before)))
+
+
+def _units(setup: Setup, found: Measurement) -> dict[str, str]:
+    """Return the units of the numbers of a measurement, where a kernel gives several."""
+    kernel = setup.measurables_of(found.component)[found.measurable].kernel
+    return {f"{found.measurable}.{k}": unit for k, unit in parsed(kernel).last.units.items()} if kernel else {}
+
+
+def _power(made: Compared, spread: Spread, monitor: tuple[Measurement, Measurement] | None) -> Compared:
+    before, now = made.before or 0.0, made.now or 0.0
+    open_to = math.hypot(_SHARE["power"], spread.power * math.sqrt(2))
+    if monitor is None:
+        return replace(made, sigma=math.hypot(made.sigma, before * math.hypot(open_to, _SHARE["reference"])))
+    first, last = (float(m.value) if isinstance(m.value, int | float) else 0.0 for m in monitor)
+    if first <= 0 or last <= 0:
+        return replace(made, why=f"{monitor[0].address} told no light")
+    noise = sum((_sigma(m, MONITOR) / v) ** 2 for m, v in zip(monitor, (first, last), strict=True))
+    scale = first / last
+    return replace(
+        made, now=now * scale, reference=monitor[0].address,
+        sigma=math.hypot(made.sigma, before * math.hypot(open_to, math.sqrt(noise))),
+    )  # fmt: skip
+
+
+def _values(found: Measurement) -> dict[str, float]:
+    """Return the numbers of a measurement, `fit.x` or the measurable itself."""
+    if isinstance(found.value, Mapping):
+        return {f"{found.measurable}.{k}": float(v) for k, v in found.value.items() if _number(v)}
+    return {found.measurable: float(found.value)} if _number(found.value) else {}  # type: ignore[arg-type]
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _sigma(found: Measurement, name: str) -> float:
+    if isinstance(found.sigma, Mapping):
+        return float(found.sigma.get(name.rpartition(".")[2], 0.0))
+    return float(found.sigma or 0.0)
