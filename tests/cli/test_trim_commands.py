@@ -104,3 +104,10 @@ def test_what_a_part_says_of_its_own_is_checked(shel: Path, pico: Pico, own: str
     edit(shel / "lab.yaml", part, f"{part}    restore: {own}\n")
     answer = pico("validate")
     assert answer.code == 1 and said in " ".join(answer.err.split()) and "lab.yaml:" in answer.err
+
+
+@pytest.mark.parametrize("branch", ["main", "e1", "e2", "e3"])
+def test_goals_of_lenses_in_storage_are_no_error_of_a_shipped_state(shel: Path, pico: Pico, branch: str) -> None:
+    subprocess.run(["git", "checkout", "-q", branch], cwd=shel, check=True)
+    answer = pico("validate")
+    assert answer.code == 0, answer.err

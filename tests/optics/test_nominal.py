@@ -105,6 +105,15 @@ def test_a_state_without_the_light_says_nothing() -> None:
     assert [*missing(FOLDED.setup, state, "g", goal({"m1.tip": (-12, 12)}))] == []
 
 
+def test_a_state_without_what_is_tuned_says_nothing() -> None:
+    """A goal of a lens that is in storage is one of other states."""
+    setup = bench({**LENS, "other": kind("plano_convex_150_stage", radius_of_curvature=None)}, ROW)
+    away = {"other.stage_y": (-1.5, 1.5), "other.stage_z": (-1.5, 1.5)}
+    aside = standing({**ROW, "other": Pose(300, 700)})
+    assert [*missing(setup, aside, "g", goal(away))] == []
+    assert [*missing(setup, aside, "g", goal({"lens.stage_y": (-1.5, 1.5)}))] != []
+
+
 @given(low=st.floats(-12, 0), high=st.floats(0, 12), more=st.floats(0, 5))
 @settings(max_examples=25, deadline=None)
 def test_wider_bounds_lead_as_far_and_further(low: float, high: float, more: float) -> None:

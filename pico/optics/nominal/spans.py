@@ -46,7 +46,7 @@ class Span:
 
 def check_spans(read: Manifests) -> tuple[Diagnostic, ...]:
     """Return the goals of a lab whose tunables do not span what placing parts may do to them, each at its place; of a
-    state in which light does not come to where a goal is measured nothing is said."""
+    state in which light does not come through what a goal tunes to where it is measured nothing is said."""
     setup, state = read.require()
     lab = read.documents.get("Lab", ())
     found = []
@@ -86,9 +86,12 @@ def nominal_of(setup: Setup, state: LabState) -> Nominal:
 
 def span_of(nominal: Nominal, name: str, goal: Goal) -> Span | None:
     """Return what placing parts may do to a goal that is to be reached, and what its tunables do; None where no light
-    comes there, or the model cannot tell its numbers."""
+    comes there through all that it tunes (a lens in storage: the goal is one of other states), or the model cannot tell
+    its numbers."""
     numbers = tuple(goal.reach or ())
     if not numbers or nominal.numbers(numbers) is None:
+        return None
+    if not {address.partition(".")[0] for address in goal.tunables} <= set(nominal.on_the_way(numbers)):
         return None
     spread = [sigma * column for column, sigma in _spread(nominal, numbers)]
     tuned = [nominal.by_tunable(numbers, address) for address in goal.tunables]
