@@ -100,7 +100,7 @@ def remove(context: typer.Context, name: Component) -> None:
     _act(context, lambda sim: sim.remove(name), f"{name} is off the table{hand}; `pico sim nudge {name}` puts it home")
 
 
-@app.command(context_settings={"ignore_unknown_options": True})
+@app.command("slip", context_settings={"ignore_unknown_options": True})
 def slip(
     context: typer.Context,
     address: Annotated[str, typer.Argument(metavar="COMPONENT.TUNABLE", help="For example p1.angle.")],

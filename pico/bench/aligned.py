@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
+from pico.diagnostics import PicoError
 from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.lab import Goal, Setup
@@ -118,7 +119,10 @@ def with_aligned(opened: Remembering, seen: Observation) -> Observation:
     goals = setup.lab.goals or {}
     if not any(goal_light(setup, seen, goals[name]).order is not None for name in by_goal):
         return seen
-    alignments = standing(opened, seen, timed=False)
+    try:
+        alignments = standing(opened, seen, timed=False)
+    except PicoError:  # a journal that can't be read: nothing counts as aligned, and who needs it says why
+        return seen
     met = {one.goal: Aligned(goal=one.goal, at=one.at) for one in alignments if one.status == "aligned"}
     found = {address: met[name] for name in met for address in by_goal.get(name, ())}
     return replace(seen, aligned=found) if found else seen

@@ -426,6 +426,8 @@ _THRESHOLDS: Mapping[str, Mapping[str, Value]] = {
 """Damage thresholds that the types of the catalog give since beams are audited, by element and type."""
 _DECLARED = ("beam_camera", "photodiode", "power_meter", "shutter")
 """Types of the catalog that are declared to end beams since beams are audited."""
+_MEASURED_SINCE = ("dark", "monitor")
+"""Measurables that types of the catalog have since then, besides those that are computed of others."""
 _TRIMS: Mapping[str, float] = {"mirror_tip_tilt": 2, "mirror_fixed": 5, "mirror_flip": 5}
 """What trims of mirrors in the catalog were before they had to take in how mirrors are placed, by type; 12 since."""
 _SCALES = {"nW": 1e-6}  # to mW
@@ -467,10 +469,10 @@ def as_first_written(kind: ComponentType) -> ComponentType:
     threshold, known = own.get("damage_threshold"), _THRESHOLDS.get(element, {})
     if threshold is not None and threshold.value == known.get(kind.name, known.get("")):
         own.pop("damage_threshold")
-    measured = {n: m for n, m in kind.measurables.items() if m.kernel is None and n != "dark"}  # the rest is computed
+    measured = {n: m for n, m in kind.measurables.items() if m.kernel is None and n not in _MEASURED_SINCE}
     for name, one in measured.items():  # a lab without a lamp has nothing to switch
         measured[name] = replace(one, needs={k: v for k, v in one.needs.items() if k != "illumination"})
-    can = tuple(p for p in kind.primitives if p != "auto_range")
+    can = tuple(p for p in kind.primitives if p != "auto_range" and not (element == "source" and p == "measure"))
     repeats = replace(kind.repeatability, pitch=None, roll=None, height=None)
     usual = SEATINGS[kind.seating]
     if (kind.repeatability.pitch, kind.repeatability.roll, kind.repeatability.height) not in (usual, (None,) * 3):

@@ -42,7 +42,24 @@ def _priorities(operations: Sequence[Operation]) -> list[int]:
         for e in operations[n].after:
             if int(e) in tails:
                 tails[int(e)] = max(tails[int(e)], operations[int(e)].seconds + tails[n])
-    return turns + sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
+    ordered = sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
+    return turns + _each_after(operations, ordered)
+
+
+def _each_after(operations: Sequence[Operation], ordered: Sequence[int]) -> list[int]:
+    """Return operations in an order, but none before what it waits for among them."""
+    found: dict[int, None] = {}
+    wanted = set(ordered)
+
+    def put(n: int) -> None:
+        for e in operations[n].after:
+            if int(e) in wanted and int(e) not in found:
+                put(int(e))
+        found.setdefault(n)
+
+    for n in ordered:
+        put(n)
+    return list(found)
 
 
 def _in_turn(operations: Sequence[Operation]) -> list[int]:

@@ -23,7 +23,7 @@ metadata: {name: small}
 table: {size: [1500, 900], beam_height: 70}
 robots: {arm1: {model: xarm7, mount: {x: 750, y: 850, yaw: -90}}}
 sim: {fidelity: kinematic, seed: 3, environment: none}
-policy: {enclosed: true}
+policy: {enclosed: true, arming: {waived: [kinematic]}}
 inventory:
   laser: {type: hene_laser_expanded, pose: {x: 120, y: 260, yaw: 0}}
   weak: {type: neutral_density_filter, pose: {x: 260, y: 260, yaw: 0}}

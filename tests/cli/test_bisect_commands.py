@@ -148,7 +148,7 @@ def test_what_the_policy_denies_is_skipped_but_somebody_at_the_table_stops_the_s
     assert pico("bisect", "step", "-y", "--expect", LIMIT).code == 135
     pico("sim", "person", "away")
     rule = "plan.target.state.p1.pose.x < 300 || plan.target.state.p1.pose.x > 312"
-    edit(Path("lab.yaml"), "policy:\n  rules:", f"policy:\n  rules:\n    - {{name: not_there, that: {rule}}}")
+    edit(Path("lab.yaml"), "  rules:", f"  rules:\n    - {{name: not_there, that: {rule}}}")
     answer = pico("bisect", "continue", "--json", *YES)
     skipped = [t for t in events(answer, "tried") if t["verdict"] == "skip"]
     assert [t["commit"] for t in skipped] == [history["break"]] and "not_there" in skipped[0]["why"]

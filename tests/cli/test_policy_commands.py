@@ -7,7 +7,7 @@ from pathlib import Path
 
 from commanding import Pico, edit
 
-NEVER = "policy:\n  rules:\n    - {name: never, that: size(operations) > 1000, message: not today}\n"
+NEVER = "  rules:\n    - {name: never, that: size(operations) > 1000, message: not today}\n"
 EXPECT = 'expect:\n  - {that: "distance(p1, p2) > 200", message: too near}\n  - {that: "p2.angle < 80"}\n'
 
 
@@ -41,7 +41,7 @@ def test_a_saved_plan_is_judged_again_by_the_bench_as_it_is(shel: Path, pico: Pi
 
 
 def test_the_verdicts_are_in_the_plan_as_json(shel: Path, pico: Pico) -> None:
-    edit(shel / "lab.yaml", "policy:\n  rules:", NEVER.rstrip("\n"))
+    edit(shel / "lab.yaml", "  rules:", NEVER.rstrip("\n"))
     found = pico("plan", "e1", "--json")
     assert found.code == 7
     assert {"rule": "never", "level": "mandatory", "holds": False, "text": "not today"} in found.data["policy"]

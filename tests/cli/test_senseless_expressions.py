@@ -13,7 +13,7 @@ from pico.diagnostics import PicoError
 from pico.model.state import Expectation
 
 SENSELESS = ["p22.pose.yaw < 3", "cam.exposre < 20", "p2.pose.yaw < 'three'", "p2.pose.yaw", "p2.pose.yaw <"]
-RULE = "policy:\n  rules:\n    - {name: typo, that: p22.angle < 400}"
+RULE = "  rules:\n    - {name: typo, that: p22.angle < 400}"
 
 
 def expect(folder: Path, that: str) -> None:
@@ -62,7 +62,7 @@ def test_a_plan_in_memory_that_expects_nonsense_moves_nothing(shel: Path) -> Non
 
 
 def test_a_rule_that_makes_no_sense_is_refused_with_its_place(shel: Path, pico: Pico) -> None:
-    edit(shel / "lab.yaml", "policy:\n  rules:", RULE)
+    edit(shel / "lab.yaml", "  rules:", RULE)
     for words in (("plan", "e1"), ("apply", "e1", "--auto-approve")):
         answer = pico(*words)
         assert answer.code == 1 and "this rule can't be told" in answer.err and "--> lab.yaml:" in answer.err
