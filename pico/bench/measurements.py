@@ -123,6 +123,7 @@ class Measurements:
         from pico.bench.by_light import unaligned, unfound
         from pico.history import runs as recording
         from pico.model.expectation import Verified
+        from pico.model.state import references_of
         from pico.policy.expectations import check_expectations
         from pico.runs.evidence import stands
 
@@ -130,7 +131,8 @@ class Measurements:
         wanted = folder.state_at(revision) if revision else folder.state
         seen = replace(self.opened.observe(), measurements=measurements)
         committed = wanted if revision else folder.committed()
-        memory = self.opened.edge.memory
+        asked = references_of(wanted) or (committed is not None and references_of(committed))
+        memory = self.opened.edge.memory if asked else None  # else a damaged journal hides nothing
         changes = (*drift_of(setup, seen, wanted), *unfound(setup, memory, seen, wanted))
         left = committed is not None and (
             not stands(setup, seen, committed) or bool(unaligned(setup, memory, seen, committed))
