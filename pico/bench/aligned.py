@@ -229,7 +229,7 @@ def redone(
     for one in (one for one in standing if one.goal in (setup.lab.goals or {})):
         light = goal_light(setup, then, (setup.lab.goals or {})[one.goal])
         if light.order is not None:
-            found.append((light.order, one, light.parts))
+            found.append((light.order, one, light.parts - light.beyond))
     chosen: list[Turn] = []
     for _, one, parts in sorted(found, key=lambda f: (f[0], f[1].goal)):
         tuned = {a.partition(".")[0]: turn.one.name for turn in chosen for a in turn.one.goal.tunables}
@@ -338,7 +338,7 @@ def _upset(setup: Setup, seen: Observation, goal: Goal, touched: Collection[tupl
     for component, tunable in sorted(touched):
         if f"{component}.{tunable}" in goal.tunables:
             return f"{component}.{tunable}"
-        harmless = tunable in _LIT or f"{component}.{tunable}" in (goal.during or {})
+        harmless = tunable in _LIT or f"{component}.{tunable}" in (goal.during or {}) or component in light.beyond
         if component in light.parts and not harmless and (tunable == "pose" or component not in light.detectors):
             return component if tunable == "pose" else f"{component}.{tunable}"
     return ""

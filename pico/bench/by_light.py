@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic, warning
 from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.observation import Observation
-from pico.model.operation import touched_by
+from pico.model.operation import Operation, touched_by
 from pico.model.state import LabState, references_of
 
 if TYPE_CHECKING:
@@ -39,13 +39,18 @@ def unfound(setup: Setup, memory: Memory | None, seen: Observation, state: LabSt
     return tuple(changes)
 
 
-def told(standing: Sequence[Alignment], state: LabState) -> Iterator[Diagnostic]:
-    """Yield for each reference of a state that is not aligned what it is to be, why it is not, and what that takes."""
+def told(standing: Sequence[Alignment], state: LabState, operations: Sequence[Operation] = ()) -> Iterator[Diagnostic]:
+    """Yield for each reference of a state that is not aligned what it is to be, why it is not, and what that takes; a
+    note where one of the operations of a plan seeks it."""
+    sought = {str(op.arguments.get("goal")) for op in operations if op.primitive == "optimize"}
     names = references_of(state)
     for one in standing:
         if one.goal not in names or one.status == "aligned":
             continue
         text = f"{one.goal} is to stand {names[one.goal].text}: {said(one)}"
+        if one.goal in sought:
+            yield Diagnostic("note", "by-light", text, hint="this plan finds it", address=one.goal)
+            continue
         hint = f"`pico optimize {one.goal}` finds it, about {one.seconds:.0f} s" if one.seconds else ""
         yield warning("by-light", text, hint=hint, address=one.goal)
 

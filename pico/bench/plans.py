@@ -193,7 +193,7 @@ class Plans:
 
         stands = standing(opened, seen, state, wanted=True)
         sought = with_goals(setup, sought_in(setup, seen, state, wanted=True))
-        unmet = told(stands, state) if references_of(wanted) else staying(plan, state)
+        unmet = told(stands, state, plan.operations) if references_of(wanted) else staying(plan, state)
         found = [*spoiled(sought, seen, stands, plan.operations)]
         stale = tuple(
             warning(

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.lab import Goal, Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.vocabulary import measured_in
-from pico.optics.axis import beams
+from pico.optics.axis import Meeting, beams
+from pico.optimize.choosing import CYCLES
 
 
 @dataclass(frozen=True)
 class GoalLight:
     """The `parts` in the beams that reach where a goal is measured, with these and with what is tuned; the `detectors`
     alone; the `sources` of the beams. `order`: how far along its beam the first part that is tuned stands [mm]; None
-    where light does not come through all that is tuned to all that is measured: then nothing is to be aligned."""
+    where light does not come through all that is tuned to all that is measured: then nothing is to be aligned.
+    `beyond`: parts behind the last polarizer, where the angle of a polarizer or wave plate is sought: how much light
+    they let through turns no null."""
 
     parts: frozenset[str]
     detectors: frozenset[str]
     sources: frozenset[str]
     order: float | None
+    beyond: frozenset[str] = frozenset()
 
 
 def goal_light(setup: Setup, seen: Observation, goal: Goal) -> GoalLight:
@@ -29,17 +33,40 @@ def goal_light(setup: Setup, seen: Observation, goal: Goal) -> GoalLight:
     detectors = frozenset(component for component, _ in measured_in(setup, goal.texts))
     tuned = frozenset(address.partition(".")[0] for address in goal.tunables)
     met, sources, reached, lengths = set[str](), set[str](), set[str](), list[float]()
+    counting = set[str]()
+    turned = tuned if _turns(setup, goal) else frozenset[str]()
     for axis in beams(setup, standing_poses(seen), seen.known_values):
         for detector in detectors:
             for way in axis.ways(detector):
                 met |= {m.component for m in way}
+                counting |= _counting(setup, way, turned)
                 sources.add(axis.source)
                 reached.add(detector)
                 lengths += [m.length for m in way if m.component in tuned]
     there = bool(lengths) and reached == detectors and tuned <= met | sources
     return GoalLight(
-        frozenset(met | sources | detectors | tuned), detectors, frozenset(sources), min(lengths) if there else None
+        frozenset(met | sources | detectors | tuned), detectors, frozenset(sources), min(lengths) if there else None,
+        frozenset(met - counting - detectors),
+    )  # fmt: skip
+
+
+def _turns(setup: Setup, goal: Goal) -> bool:
+    """Return whether a goal is one of polarization: as much or as little light as can be, by one angle."""
+    kinds = [setup.type_of(address.partition(".")[0]).optics.element for address in goal.tunables]
+    return (
+        goal.aim != "reach" and len(kinds) == 1 and kinds[0] in CYCLES and next(iter(goal.tunables)).endswith(".angle")
     )
+
+
+def _counting(setup: Setup, way: Sequence[Meeting], turned: Collection[str]) -> set[str]:
+    """Return the parts on a way that count for a goal: all, or those up to the last polarizer behind what is turned."""
+    last = [n for n, m in enumerate(way) if setup.lab.inventory.get(m.component) and _polarizes(setup, m.component)]
+    within = bool(last) and any(m.component in turned for m in way[: last[-1] + 1])
+    return {m.component for m in (way[: last[-1] + 1] if within else way)}
+
+
+def _polarizes(setup: Setup, name: str) -> bool:
+    return setup.type_of(name).optics.element == "polarizer"
 
 
 def standing_poses(seen: Observation) -> Mapping[str, Pose]:

@@ -110,3 +110,15 @@ def test_what_a_commit_recorded_of_its_light_is_measured_again_and_compared(benc
     pico("sim", "nudge", "lx_100", "--dy", "0.4")
     again = pico("apply", "one", "--align", "--yes")
     assert "✗  cam.centroid.x" not in again.out, "the goal was sought again"
+
+
+def test_a_null_and_the_lens_behind_it_are_both_aligned_afterwards(bench: Path, pico: Pico) -> None:
+    subprocess.run(["git", "checkout", "-q", "E1-3"], cwd=bench, check=True)
+    table = bench / "state" / "table.yaml"
+    table.write_text(table.read_text()[::-1].replace("09 :elgna", "}]2p ,1p[ :fo_llun{ :elgna", 1)[::-1])
+    plan = pico("plan", "--align", "--json").data
+    assert optimizations(plan) == ["p2.angle", "ly_150_centred"]
+    assert "this plan finds it" in pico("plan", "--align").err
+    answer = pico("apply", "--align", "--yes")
+    assert answer.code == 0 and "2 of 2 goals met" in answer.out and "The bench equals the manifest." in answer.out
+    assert pico("verify").code == 0 and optimizations(pico("plan", "--align", "--json").data) == []
