@@ -69,8 +69,11 @@ def _by_arm(session: Session, bench: Bench, goal: list[str], dry_run: bool, auto
         raise PicoError(error("usage", "--by-arm goes with `centre PART CAMERA`"))
     placing = bench.placing
     plan = placing.plan(goal[1])  # what each try is like
-    if code := show(session, bench, plan, auto_approve or dry_run, single=True):
+    told = plan.operations or plan.errored or session.json
+    if told and (code := show(session, bench, plan, auto_approve or dry_run, single=True)):
         return int(code)
+    if dry_run or not plan.operations:
+        session.say(placed_view.ahead(goal[1], goal[2]))
     if dry_run:
         return 0
     if code := declined(session, bench, plan, auto_approve):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from pico.bench.placing import MOST, NEAR
 from pico.model.record import as_json
 
 from .style import columns, count, paint, wrap
@@ -18,14 +19,23 @@ def line(one: Try) -> str:
     return f"  {'as it stood' if one.sent is None else f'put down at {one.sent:+.3f} mm'}: {off}"
 
 
+def ahead(component: str, detector: str) -> str:
+    """Return what the arm is about to do."""
+    asked = f"centre {component} {detector}: the light is measured; while it is more than {NEAR:g} mm off by it, the arm"
+    return "\n".join(wrap(f"{asked} puts {component} down anew, {MOST} times at most, the laser shut meanwhile.", "  "))
+
+
 def text(found: Placed) -> str:
     """Return the outcome in a line, the tries, and how to go back."""
     times, said = len(found.tries) - 1, paint("green", "met") if found.met else paint("yellow", "not met")
     lines = wrap(f"centre {found.component} {found.detector}: {said}, put down {count(times, 'time')}", "  ")
     lines += wrap(f"It ended because {found.why}.", "  ") if not found.met else []
     rows = [[paint("dim", cell) for cell in ("sent to", "off by the light", "run")]]
-    rows += [[_mm(t.sent) or "as it stood", _mm(t.off) or t.why, t.run] for t in found.tries]
+    seen = [_mm(t.off) or ("not measured" if t.why == found.why else t.why) for t in found.tries]
+    rows += [[_mm(t.sent) or "as it stood", off, t.run] for t, off in zip(found.tries, seen, strict=True)]
     lines += [f"  {row}" for row in columns(rows)]
+    if not times:
+        return "\n".join(lines)
     pose = found.first
     back = f"`pico move {found.component} x={pose.x:.3f} y={pose.y:.3f} yaw={pose.yaw:.2f}`"
     return "\n".join([*lines, *(wrap(f"Each try is a run of its own; {back} goes back to where it stood.", "  "))])

@@ -127,8 +127,10 @@ class Placing:
     ) -> Try:  # fmt: skip
         found = self._taken(detector, show, say)
         if found is not None and "not saturated" in found.not_assured and self.opened.setup.ranges(detector):
-            self._run(Plans(self.opened).single(detector, "auto_range", {"tunable": EXPOSURE}), show, say)
+            suited, _ = self._run(Plans(self.opened).single(detector, "auto_range", {"tunable": EXPOSURE}), show, say)
             found = self._taken(detector, show, say)
+            if wrong := next((d for d in suited.diagnostics if d.severity == "error"), None):
+                return Try(sent, None, f"{wrong.summary}: {wrong.hint}" if wrong.hint else wrong.summary)
         if found is None or not isinstance(found.value, dict):
             return Try(sent, None, (found.unknown if found else None) or f"{detector} was not measured")
         return Try(sent, float(found.value["x"]) * 1e-3 / slope)

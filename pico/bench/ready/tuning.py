@@ -20,11 +20,18 @@ def tuned(asked: Asked, *usual: Sequence[str]) -> dict[str, tuple[float, float]]
     return found
 
 
+def _instead(asked: Asked, component: str, kinds: Sequence[str]) -> str:
+    """Return what a part has that is of no use here; of one without any, that an arm may put it down by the light."""
+    if not kinds and asked.what == "centre" and asked.setup.movable(component):
+        return f"`pico optimize centre {component} {asked.words[-1]} --by-arm`: the arm puts it down anew"
+    return f"it has: {', '.join(kinds) or 'none'}"
+
+
 def _of(asked: Asked, word: str, usual: Sequence[Sequence[str]]) -> dict[str, tuple[float, float]]:
     component, _, one = word.partition(".")
     kinds = asked.setup.type_of(asked.part(component)).tunables
     groups = ((one,),) if one else (*usual, (*TURNED, *ALONG))
     names = next((own for group in groups if (own := [n for n in group if n in kinds])), None)
     if names is None:
-        raise asked.refused(f"{word} has nothing to tune for it", f"it has: {', '.join(kinds) or 'none'}")
+        raise asked.refused(f"{word} has nothing to tune for it", _instead(asked, component, list(kinds)))
     return dict(asked.bounds(component, *names))
