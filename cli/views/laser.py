@@ -39,6 +39,7 @@ def _lets(row: LaserRow) -> str:
         armed = paint("red", f"its arming can't be read, and does not count: {row.broken}")
     waived = {"low": "nobody has to arm class 1 and 2", "waived": "the lab waives it: nothing is emitted here"}
     said = waived.get(row.lets, "" if armed else f"nothing: `pico laser arm {row.laser}`")
+    said += "; `pico apply` lets it out" if row.lets in waived and not row.emits else ""
     return "; ".join(part for part in (said, armed) if part)
 
 

@@ -21,8 +21,11 @@ def line(one: Try) -> str:
 
 def ahead(component: str, detector: str) -> str:
     """Return what the arm is about to do."""
-    asked = f"centre {component} {detector}: the light is measured; while it is more than {NEAR:g} mm off by it, the arm"
-    return "\n".join(wrap(f"{asked} puts {component} down anew, {MOST} times at most, the laser shut meanwhile.", "  "))
+    asked = (
+        f"centre {component} {detector}: the light is measured; while it is more than {NEAR:g} mm off by it, the arm"
+    )
+    tries = f"puts {component} down anew, {MOST} times at most, the laser shut meanwhile."
+    return "\n".join(wrap(f"{asked} {tries}", "  "))
 
 
 def text(found: Placed) -> str:

@@ -95,10 +95,12 @@ class Lasers:
         if laser not in policy.lasers(setup):
             hint = did_you_mean(laser, policy.lasers(setup)) or f"here: {', '.join(policy.lasers(setup)) or 'none'}"
             raise PicoError(error("unknown-component", f"there is no laser `{laser[:40]}`", hint=hint))
-        of, who = laser_class or self._row(seen, laser).laser_class, person or person_of(self.opened)
+        now = self._row(seen, laser)
+        of, who = laser_class or now.laser_class, person or person_of(self.opened)
         role = role or policy.role_for(setup, who, of, hours)
         if role is None:
-            raise PicoError(policy.nobody(setup, who, laser, of, hours), ExitCode.DENIED)
+            why = policy.needless if now.lets in ("low", "waived") else policy.nobody
+            raise PicoError(why(setup, who, laser, of, hours), ExitCode.DENIED)
         start = begins or datetime.now(UTC).replace(microsecond=0)
         given = Arming(
             laser=laser, by=who, role=role, laser_class=of, begins=_text(start),

@@ -52,6 +52,12 @@ def nobody(setup: Setup, person: str, laser: str, of: LaserClass, hours: float) 
     return error(UNARMED, text, detail=detail, hint=hint, address=laser)
 
 
+def needless(setup: Setup, person: str, laser: str, of: LaserClass, hours: float) -> Diagnostic:
+    """Return the same of a laser that nobody has to arm: what lets its light out instead."""
+    hint = f"nobody has to arm it here: `pico apply` lets its light out, or `pico set {laser} shutter=open`"
+    return replace(nobody(setup, person, laser, of, hours), hint=hint)
+
+
 def refusal(setup: Setup, arming: Arming, now: str) -> Diagnostic | None:
     """Return why an arming must not be given, None where it may."""
     if arming.laser not in lasers(setup):

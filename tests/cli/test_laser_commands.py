@@ -50,6 +50,14 @@ def test_a_lab_may_waive_it_where_nothing_is_emitted_and_light_comes_last(shel: 
     assert pico("apply", "--yes").code == 0 and row(pico)["emits"] and row(pico)["lets"] == "waived"
 
 
+def test_where_nobody_has_to_arm_what_lets_light_out_is_said(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "--yes").code == 0 and "lets it out" not in pico("laser").out
+    assert "`pico apply` lets it out" in pico("laser", "disarm", "laser").out
+    told = pico("laser", "arm", "laser", "-y")
+    assert told.code == 7 and "nobody has to arm it here" in told.err and "`pico apply`" in told.err
+    assert pico("set", "laser", "shutter=open", "--yes").code == 0 and row(pico)["emits"]
+
+
 def test_a_laser_of_class_1_or_2_needs_nobody(guarded: Path, pico: Pico) -> None:
     edit(
         guarded / "lab.yaml",
