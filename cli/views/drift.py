@@ -7,6 +7,7 @@ from typing import Any
 
 from pico.bench.drift import Drift, Drifted
 from pico.model.record import as_json
+from pico.model.state import is_reference
 
 from .diff import lines
 from .style import count, listed, paint, wrap
@@ -30,7 +31,11 @@ def _hint(found: Drifted) -> str:
     unseen = [d.change.component for d in beyond if d.change.tunable == "pose" and d.change.after is None]
     lost = [name for name in unseen if name not in held]
     by_hand = {d.change.component: d.by_hand for d in beyond if d.by_hand and d.change.component not in unseen}
+    by_light = [
+        f"`pico optimize {d.change.component}.{d.change.tunable}`" for d in beyond if is_reference(d.change.before)
+    ]
     rest = len([d for d in beyond if not d.by_hand]) - len([name for name in unseen if name not in by_hand])
+    rest -= len(by_light)
     hints = []
     if by_hand:
         why = ", ".join(f"{name} ({said})" for name, said in by_hand.items())
@@ -38,8 +43,10 @@ def _hint(found: Drifted) -> str:
         if rest > 0:
             hints.append(f"`pico apply {head}` brings back the rest after that.")
     elif rest > 0:
-        them = "it" if len(beyond) == 1 else "them"
+        them = "it" if len(beyond) == 1 else "the rest" if by_light else "them"
         hints.append(f"`pico apply {head}` brings {them} back; `pico capture` keeps what is.")
+    if by_light:
+        hints.append(f"{listed(by_light)} finds what is to stand where light says.")
     if held:
         hints.append(f"`pico recover` sets down what a gripper holds: {listed(held)}.")
     if lost:

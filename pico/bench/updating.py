@@ -119,7 +119,7 @@ def swapped(root: Path, name: str, serial: str, kind: str | None, parameters: Ma
     for lab in (own, tree):
         files = exchanged(lab.as_bytes(), name, serial, kind, parameters)
         new = replace(lab, files={**lab.files, **own_lab.of_files(files).files})
-        own_lab.setup_of(new)
+        own_lab.setup_of(replace(new, at=""))  # what it would be: nothing that is kept is wrong
         made.append(new)
     setup = own_lab.setup_of(own)
     before = setup.lab.inventory[name]

@@ -224,7 +224,11 @@ def refuse_unapplied(
     if edits:
         shown = [f"{row.address}{_why(unsure, row)}" for row in edits[:6]]
         names = ", ".join(shown) + (" and others" if len(edits) > 6 else "")
-        hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the edit is committed, unproven"
+        light = [f"`pico optimize {row.address}`" for row in edits if row.address in unaligned]
+        first = light if len(light) == len(edits) else ["`pico apply`", *light]
+        hint = (
+            f"{', '.join(first)} first; or `--capture`: the bench wins; or `--planned`: the edit is committed, unproven"
+        )
         raise PicoError(error("unapplied", f"the manifest holds edits that were never applied: {names}", hint=hint))
 
 

@@ -41,7 +41,7 @@ def searched(problem: Problem, places: Iterator[tuple[float, float]], parameters
         result = yield at
         if bright(problem, result, parameters["least"]):
             return "there is light"
-    return f"it is dark at {tried} places"
+    return f"it is dark at {tried} place{'s' if tried != 1 else ''}"
 
 
 def spiral() -> Iterator[tuple[float, float]]:

@@ -116,9 +116,16 @@ def test_a_null_and_the_lens_behind_it_are_both_aligned_afterwards(bench: Path, 
     subprocess.run(["git", "checkout", "-q", "E1-3"], cwd=bench, check=True)
     table = bench / "state" / "table.yaml"
     table.write_text(table.read_text()[::-1].replace("09 :elgna", "}]2p ,1p[ :fo_llun{ :elgna", 1)[::-1])
+    told = pico("commit", "-m", "by light").err
+    assert "never applied: p2.angle" in told and "`pico optimize p2.angle` first" in told
     plan = pico("plan", "--align", "--json").data
     assert optimizations(plan) == ["p2.angle", "ly_150_centred"]
     assert "this plan finds it" in pico("plan", "--align").err
     answer = pico("apply", "--align", "--yes")
     assert answer.code == 0 and "2 of 2 goals met" in answer.out and "The bench equals the manifest." in answer.out
     assert pico("verify").code == 0 and optimizations(pico("plan", "--align", "--json").data) == []
+    assert pico("commit", "-m", "by light").code == 0 and pico("swap", "p2", "--serial", "B7", "-y").code == 0
+    told = pico("drift").out
+    assert "`pico optimize p2.angle` finds" in told and "brings the rest back" in told
+    wrong = pico("swap", "ly_150", "--serial", "L9", "--focal-length", "151.2 V", "-y")
+    assert wrong.code == 1 and "151.2 V" in wrong.err and "what the bench keeps" not in wrong.err, "nothing was kept"

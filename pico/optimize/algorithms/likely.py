@@ -54,7 +54,7 @@ def _steps(problem: Problem, nominal: Nominal, parameters: Mapping[str, float]) 
         result = yield point
         if bright(problem, result, 0.0):
             return "there is light"
-    return f"it is dark at {tried} places"
+    return f"it is dark at {tried} place{'s' if tried != 1 else ''}"
 
 
 def _moves(nominal: Nominal, sigmas: float, overlap: float) -> Iterator[Array]:
