@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pico.model.lab import Goal
 from pico.model.record import as_json
 
-from .style import ago, columns, paint
+from .style import ago, columns, paint, wrap
 
 if TYPE_CHECKING:
     from pico.bench.aligned import Alignment
@@ -18,17 +18,24 @@ _STYLES = {"aligned": "green", "stale": "yellow", "lost": "red"}
 
 def text(goals: Mapping[str, Goal], standing: Sequence[Alignment], ready: Mapping[str, str]) -> str:
     """Return the goals of the lab in the order along the beam, with how they stand, and those that are ready made."""
-    rows = [[paint("dim", cell) for cell in ("goal", "stands", "what it is", "by")]]
+    rows = [[paint("dim", cell) for cell in ("goal", "stands", "by")]]
+    below: list[list[str]] = [[]]
     for one in standing:
         goal = goals[one.goal]
         said = paint(_STYLES[one.status], one.status) if one.status in _STYLES else one.status
         when = f", {ago(one.at)}" if one.at else ""
         aim = ", ".join(goal.reach or ()) or goal.expressions[0]
-        rows.append([one.goal, f"{said}{when}", goal.description or f"{goal.aim} {aim}", ", ".join(goal.tunables)])
-        rows += [["", f"  {one.why}", "", ""]] if one.why else []
-    own = columns(rows) if goals else ["The lab has no goals of its own: `goals:` in lab.yaml."]
-    made = [[f"pico optimize {name}", what] for name, what in ready.items()]
-    return "\n".join([*own, "", "Ready made:", *(f"  {row}" for row in columns(made))])
+        rows.append([one.goal, f"{said}{when}", ", ".join(goal.tunables)])
+        why = wrap(one.why, "  ") if one.why else []
+        below.append([*why, *(paint("dim", row) for row in wrap(goal.description or f"{goal.aim} {aim}", "  "))])
+    own = [line for row, more in zip(columns(rows), below, strict=True) for line in (row, *more)]
+    left = max(map(len, ready), default=0) + len("  pico optimize   ")
+    made = []
+    for name, what in ready.items():
+        first, *rest = wrap(what, " " * left)
+        made += [f"  pico optimize {name}".ljust(left) + first[left:], *rest]
+    none = ["The lab has no goals of its own: `goals:` in lab.yaml."]
+    return "\n".join([*(own if goals else none), "", "Ready made:", *made])
 
 
 def data(goals: Mapping[str, Goal], standing: Sequence[Alignment], ready: Mapping[str, str]) -> dict[str, Any]:

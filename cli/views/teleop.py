@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.model.record import as_json
 
 from .measured import value
-from .style import columns, count, paint, shorten, wide
+from .style import columns, count, paint, shorten, wide, width
 
 if TYPE_CHECKING:
     from pico.bench.teleoperation import Teleoperation
@@ -22,6 +22,7 @@ KEYS = {
 }
 """What keys do: with a part in hand, and for tunables."""
 HELD = "hold a key to go on; let go to stop"
+PEEKED = " (peeked: not assured)"
 TAPPED = "this terminal reports no releases: each press, and each repeat, is one step"
 
 
@@ -40,7 +41,13 @@ def line(
     step = f"step {steps[chosen]:g} {one.unit}".rstrip()
     bounds = f"{one.range[0]:g} to {one.range[1]:g}" if one.range else ""
     rest = [paint("yellow", limit) if limit else "", step, bounds, shown]
-    return shorten("  ".join([f"{name}: {', '.join(parts)}", *(f"| {text}" for text in rest if text)]), wide())
+    if width(whole := _joined(name, parts, rest)) > wide():
+        whole = _joined(name, parts, [*rest[:2], shown.removesuffix(PEEKED)])  # what is measured before all else
+    return shorten(whole, wide())
+
+
+def _joined(name: str, parts: list[str], rest: list[str]) -> str:
+    return "  ".join([f"{name}: {', '.join(parts)}", *(f"| {text}" for text in rest if text)])
 
 
 def _told(known: Mapping[str, Jogged], chosen: str) -> list[str]:
@@ -62,8 +69,8 @@ def shown(found: Measurement | None, why: str = "") -> str:
         return f"{found.address} {found.unknown or 'unknown'} (peeked)"
     said = found.value if isinstance(found.value, Mapping) else {"": found.value}
     numbers = [f"{n} {v:.4g}".strip() if isinstance(v, int | float) else f"{n} {v}" for n, v in said.items()]
-    unit = found.unit if isinstance(found.unit, str) else ""
-    return f"{found.address} {', '.join(numbers)} {unit}".rstrip() + " (peeked: not assured)"
+    unit = ", ".join(dict.fromkeys(found.unit.split(", "))) if isinstance(found.unit, str) else ""
+    return f"{found.address} {', '.join(numbers)} {unit}".rstrip() + PEEKED
 
 
 def text(jog: Teleoperation, *, code: int) -> str:

@@ -304,3 +304,25 @@ def test_what_cannot_be_begun_is_refused_before_it_is_a_run(placed: Path, pico: 
     answer = pico("optimize", "centred", "--yes")
     assert answer.code == 1 and "centroid_newton has no parameter `foo`" in answer.err
     assert len(pico("runs", "list", "--json").data["runs"]) == before
+
+
+def test_the_list_of_goals_and_the_line_of_a_teleoperation_fit_a_narrow_terminal(
+    placed: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from cli.views import goals, style, teleop
+    from pico.bench.ready.registry import takes
+    from pico.model.lab import Goal
+    from pico.teleop.steps import Jogged
+
+    for view in (goals, style, teleop):
+        monkeypatch.setattr(view, "wide", lambda *_: 80, raising=False)
+    one = Goal(tunables={"ly_150.stage_y": (-1, 1), "ly_150.stage_z": (-1, 1)}, minimize="cam.power",
+               description="the spot in the middle of the camera, by the stages of ly_150 and no other")  # fmt: skip
+    from pico.bench.aligned import Alignment
+
+    text = goals.text({"ly_150_centred": one}, [Alignment("ly_150_centred", "never measured")], takes())
+    assert all(len(style.plain(line)) <= 80 for line in text.splitlines()) and "ly_150 and no other" in text
+    shown = "cam.centroid x -0.706, y 57.64 um" + teleop.PEEKED
+    jogged = {"angle": Jogged(unit="deg", longest=100.0, range=(0.0, 360.0))}
+    line = teleop.line("p1", jogged, {"angle": 1.0}, "angle", {"angle": 0.2}, "", shown)
+    assert "y 57.64 um" in line and "step 0.2 deg" in line and len(line) <= 80
