@@ -23,7 +23,6 @@ MOVED = {
 }
 RESERVED = {
     "budget": "error budgets",
-    "morning": "the check of a morning",
     "devices": "the instruments of a bench",
     "commission": "taking a real bench into use",
     "serve": "serving a bench to others",

@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDER = (
     "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "teleop",
     "content", "geometry",
-    "manifest", "optics", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
+    "manifest", "optics", "diagnosis", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
     "backends", "policy", "execution", "runs", "edge", "history", "bench", "recipes",
 )  # fmt: skip
 LOOSE = 6

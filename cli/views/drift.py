@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.bench.drift import Drift, Drifted
+from pico.bench.drifting.drift import Drift, Drifted
 from pico.model.record import as_json
 from pico.model.state import is_reference
 

@@ -45,6 +45,8 @@ MOST = 1000
 """Runs that are looked back for the last time that a goal was sought."""
 _LIT = ("shutter", "emission", "illumination")
 """Tunables that let light out, and leave its way as it is."""
+_PUT_BACK = ("survey",)
+"""Primitives that leave their tunables as they were."""
 _ALONG = ("interlock", "parked")
 """Reasons of operations that leave light as it was when they are over."""
 
@@ -205,7 +207,7 @@ def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[O
     touched = {
         one
         for op in operations
-        if op.reason.kind not in _ALONG and op.kind.mutating
+        if op.reason.kind not in _ALONG and op.kind.mutating and op.primitive not in _PUT_BACK
         for one in _left_changed(op.component, op.arguments)
     }
     own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == name]
@@ -306,6 +308,7 @@ def _begun_since(records: Sequence[JournalRecord], end: JournalRecord) -> list[J
         r
         for r in records
         if r.kind == "intent" and r.key in begun and primitive(str(r.data.get("primitive"))).mutating
+        if r.data.get("primitive") not in _PUT_BACK
         if (r.data.get("reason") or {}).get("kind") not in _ALONG
     ]
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pico.bench.lasers import Lasers
     from pico.bench.light import Lights
     from pico.bench.measurements import Measurements
+    from pico.bench.mornings import Morning, Mornings
     from pico.bench.moves import Moves
     from pico.bench.pictures import Pictures
     from pico.bench.placing import Placing
@@ -89,6 +90,13 @@ class Bench(Opened):
         from pico.bench.lasers import Lasers
 
         return Lasers(self)
+
+    @cached_property
+    def mornings(self) -> Mornings:
+        """What light has done overnight, and which part that tells of."""
+        from pico.bench.mornings import Mornings
+
+        return Mornings(self)
 
     @cached_property
     def pictures(self) -> Pictures:
@@ -167,6 +175,16 @@ class Bench(Opened):
         from pico.bench.teleoperation import Teleoperation
 
         return Teleoperation(self, self.plans.to_steer(component, tunable))
+
+    def morning(self, *, accept: bool = False) -> Morning:
+        """Read what a morning reads, with the arms still, and return what it tells; see `Mornings`. `accept`: it is the
+        reference from now on. Raises PicoError where nothing can be read. A signal ends it, with all set back, before
+        it does what it would have done."""
+        came: list[int] = []
+        found = self.mornings.read(self.mornings.survey(), accept=accept, came=came)[1]
+        if came:
+            signal.raise_signal(came[0])
+        return found
 
     def status(self) -> Status:
         """Return committed, desired and live side by side."""

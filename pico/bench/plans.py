@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from pico.planning.explaining.explain import Explanation
     from pico.planning.request import Preference
     from pico.planning.sought import Sought
+    from pico.planning.surveying import Shots
 
 
 class Plans:
@@ -393,6 +394,18 @@ class Plans:
             live = seen.known_values
             parts = {n: replace(p, values={**live.get(n, {}), **p.values}) for n, p in wanted.components.items()}
             yield Right(replace(wanted, components=parts), met=False)
+
+    def to_survey(self, seen: Observation, shots: Shots, dark: Sequence[str]) -> Plan:
+        """Return the plan that reads `shots` and frames in the `dark` of cameras; see `pico.bench.mornings`. Raises
+        PicoError."""
+        from pico import planning
+        from pico.execution.checks import require_able
+
+        setup = self.opened.setup
+        found = planning.survey(setup, seen, shots, dark, motion=DeferredMotion(setup), **self.start_of(seen))
+        require_able(found, self.opened.wait(self.opened.edge.describe()))
+        judged, told = self.judged(found, seen), cut_short(self.opened, seen)
+        return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
 
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError

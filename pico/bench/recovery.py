@@ -218,7 +218,9 @@ def _asked(plan: Plan, sought: Mapping[str, Operation]) -> tuple[str, ...]:
     if sought:
         own = {f"{c}.{t}" for op in sought.values() for c, t in touched_by(op.component, op.arguments)}
         return tuple(sorted(own | {op.address for op in plan.operations if op.primitive == "set"}))
-    own = {op.component for op in plan.operations if op.reason.kind == "asked"}
+    own = {op.component for op in plan.operations if op.reason.kind == "asked" and op.primitive != "survey"}
+    surveys = [op for op in plan.operations if op.primitive == "survey"]
+    own |= {f"{c}.{t}" for op in surveys for c, t in touched_by(op.component, op.arguments)}
     along = {f"{op.component}.{op.arguments['tunable']}" for op in plan.operations if op.primitive == "set"}
     return tuple(sorted({*own, *(one for one in along if one.partition(".")[0] not in own)}))
 
@@ -245,6 +247,8 @@ def _left_out(
                 command = f"pico measure {op.component}.{op.arguments['measurable']}"
             if op.primitive == "optimize":
                 command = f"pico optimize {op.address}"
+            if op.primitive == "survey":
+                command = "pico morning"
             text = f"`{command}` did not come to its end, and is not taken up again"
             yield Diagnostic("note", "left-out", text, hint=f"`{command}` does it anew", address=op.component)
 

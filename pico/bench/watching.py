@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.by_light import unaligned, unfound
 from pico.bench.cut_short import told_first
-from pico.bench.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
+from pico.bench.drifting.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
 from pico.bench.in_use import moved_by
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened

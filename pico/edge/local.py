@@ -101,7 +101,7 @@ class LocalEdge:
 
         able = await self.device.describe()
         whole = {"set", "measure"} <= able.primitives
-        primitives = able.primitives | ({"optimize"} if whole else set())
+        primitives = able.primitives | ({"optimize", "survey"} if whole else set())
         if able.primitives >= STEPS:
             primitives = primitives - STEPS | {"teleoperate"}
         return replace(able, primitives=primitives, kept=self.device.kept())
@@ -293,6 +293,7 @@ class LocalEdge:
         from pico.edge.attempts import Attempts
         from pico.edge.emission import Guarded
         from pico.edge.recovery import open_questions, settle
+        from pico.edge.surveying import Surveying
         from pico.edge.teleoperating import Teleoperating
 
         self._halted &= self._lease is not None  # what is halted stays so for who has the bench
@@ -308,8 +309,9 @@ class LocalEdge:
                     raise
             prepare()
             await self.device.take(lease.token, self._heard)
-            inner = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
-            doing = Teleoperating(self.setup, inner, self.device, lambda: self._stopping, self._heard)
+            aligning = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
+            surveying = Surveying(self.setup, aligning, self.device, lambda: self._stopping, self._heard)
+            doing = Teleoperating(self.setup, surveying, self.device, lambda: self._stopping, self._heard)
             self._steering = doing
             guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None)
             self._attempts, self._lease = Attempts(self.journal, guarded, lease.token), lease

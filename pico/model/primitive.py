@@ -83,6 +83,7 @@ OWN: Mapping[str, Primitive] = {
             name="teleoperate", changes="tunable", repeatable=True, seconds=30.0,
             counted=("teleoperation", "teleoperations"),
         ),
+        Primitive(name="survey", changes="tunable", repeatable=True, seconds=60.0, counted=("survey", "surveys")),
         Primitive(name="operator", changes="anything", by="person", counted=("step by hand", "steps by hand")),
     )
 }  # fmt: skip

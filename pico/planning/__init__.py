@@ -10,10 +10,11 @@ from pico.planning.single import (
     move_one,
     optimize_one,
     set_one,
+    survey,
     teleoperate_one,
 )
 
 __all__ = [
-    "again", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "plan", "set_one",
+    "again", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "plan", "set_one", "survey",
     "teleoperate_one",
 ]  # fmt: skip

@@ -28,6 +28,7 @@ from pico.planning.parts.setdown import parked_first
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.sought import Sought, sought_by, tunables_of
+from pico.planning.surveying import Shots, surveying
 from pico.planning.teleoperating import kept_dark, steered, teleoperating
 from pico.planning.values import home_operation, value_operations
 
@@ -246,6 +247,18 @@ def teleoperate_one(
     return _sealed(
         setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), (), cause="teleoperation"
     )
+
+
+def survey(
+    setup: Setup, seen: Observation, shots: Shots, dark: Sequence[str], *, motion: Motion | None, backend: str = "sim",
+    fidelity: str = "kinematic", base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that reads all `shots`, and frames in the dark of some cameras, and leaves all as it is.
+
+    Raises PicoError for tunables of which nobody knows where they stand.
+    """
+    operations = surveying(setup, seen, shots, dark, motion)
+    return _sealed(setup, seen, operations, [], backend, fidelity, base, live_state(setup, seen), ())
 
 
 def _sealed(

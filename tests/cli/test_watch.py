@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from commanding import Pico, a_run_goes_on, edit
 
-from pico.bench.drift import Drift, calibration_drift, news, require_heal
+from pico.bench.drifting.drift import Drift, calibration_drift, news, require_heal
 from pico.diagnostics import PicoError
 from pico.edge.lease import BenchLock
 from pico.manifest.load import load_folder

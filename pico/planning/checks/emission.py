@@ -19,7 +19,7 @@ from pico.model.plan import UNARMED
 from pico.optics.audit.lasers import laser_class
 from pico.optics.audit.limits import above_class_2
 
-SEARCHING = ("optimize", "teleoperate")
+SEARCHING = ("optimize", "teleoperate", "survey")
 """Primitives that set the tunables which they name, within bounds."""
 DARK = ("closed", False, 0)
 """What a tunable of a source or a shutter is at where it lets no light out."""

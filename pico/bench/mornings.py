@@ -1,0 +1,210 @@
+"""The check of a morning: what a bench's light has done since it was good, and which part that tells of.
+
+The arm stays parked; motors go to a few set-points and back. What is read is compared with the reference: the last
+morning that somebody accepted, of the bench as it stands now.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
+
+from pico.bench.drifting.readings import DARK, NOT_ASKED, Readings, readings_of
+from pico.bench.drifting.references import Reference, keep, reference_for
+from pico.bench.opened import Opened
+from pico.bench.plans import Plans
+from pico.diagnosis.quantities import Got, Quantity, Shot
+from pico.diagnostics import PicoError, error
+from pico.edge.lease import utc_now
+
+if TYPE_CHECKING:
+    from pico.diagnosis.choosing import Chosen
+    from pico.diagnosis.nominal import Nominal
+    from pico.diagnosis.suspects import Suspect, Verdict
+    from pico.model.event import Event
+    from pico.model.observation import Observation
+    from pico.model.plan import Plan
+    from pico.model.report import RunReport
+
+UNUSUAL = 0.5
+"""The probability that something happened from which a morning says so."""
+
+
+@dataclass(frozen=True)
+class Read:
+    """One quantity of a morning: `then` and `now` in its coordinate (a logarithm for a share, see `law`), one standard
+    deviation of what was read now, and the `change` in those of what is usual from day to day; `unknown`: why it could
+    not be read."""
+
+    name: str
+    law: str
+    unit: str
+    then: float | None
+    now: float | None
+    sigma: float | None
+    change: float | None = None
+    unknown: str = ""
+
+
+@dataclass(frozen=True)
+class Morning:
+    """What a morning found, in a `run` that took `seconds` of the bench. `reference`: when what it is compared with was
+    read, empty where there was nothing, and its `age` [s]; `why`: why there was none. `unusual`: whether something
+    happened; `repair`: the shortest, in words. `accepted`: it is the reference from now on."""
+
+    run: str
+    at: str
+    seconds: float
+    reference: str = ""
+    age: float = 0.0
+    why: str = ""
+    readings: tuple[Read, ...] = ()
+    suspects: tuple[Suspect, ...] = ()
+    unusual: bool = False
+    repair: str = ""
+    lacks: tuple[str, ...] = ()
+    cut_short: bool = False
+    accepted: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """What a morning is going to read: `quantities` of `shots` and of frames in the `dark`, by the `plan`."""
+
+    plan: Plan
+    nominal: Nominal
+    chosen: Chosen
+    quantities: tuple[Quantity, ...]
+    shots: tuple[Shot, ...]
+    dark: tuple[str, ...]
+    reference: Reference | None = None
+    why: str = ""
+
+
+class Mornings:
+    """Mornings of one bench."""
+
+    def __init__(self, opened: Opened) -> None:
+        self.opened = opened
+        self._nominals: dict[str, Nominal] = {}
+
+    def survey(self) -> Survey:
+        """Return what is going to be read; raises PicoError where that can't be."""
+        from pico.diagnosis.choosing import chosen, darks
+
+        opened, seen = self.opened, self.opened.observe()
+        nominal = self._nominal(seen)
+        what = nominal.kept("chosen", "", lambda: chosen(nominal))
+        cameras = tuple(n for n in sorted(nominal.poses) if "dark" in opened.setup.measurables_of(n))
+        reference, why = reference_for(opened.folder.root, nominal)
+        quantities = reference.quantities if reference else (*what.quantities, *darks(nominal, cameras))
+        if not quantities:
+            hint = "; ".join(what.lacks) or "no detector stands in a beam"
+            raise PicoError(error("morning", "nothing of this bench tells how its light is", hint=hint))
+        every = tuple({s.key: s for q in quantities for s in q.shots}.values())
+        shots = tuple(s for s in every if not s.address.endswith(DARK))
+        dark = tuple(s.address for s in every if s.address.endswith(DARK))
+        plan = Plans(opened).to_survey(seen, [(s.address, s.at) for s in shots], [d.partition(".")[0] for d in dark])
+        return Survey(plan, nominal, what, quantities, shots, dark, reference, why)
+
+    def read(
+        self, survey: Survey, show: Callable[[Event], None] = lambda _: None,
+        say: Callable[[str], None] = lambda _: None, *, accept: bool = False, came: list[int] | None = None,
+    ) -> tuple[RunReport, Morning]:  # fmt: skip
+        """Run a survey and judge what was read. `show` gets each event; a signal ends it, and sets all back, and is put
+        into `came`. `accept`: this morning is the reference from now on."""
+        from pico.bench.moves import Moves
+        from pico.bench.running.attending import attend
+
+        run, events = Moves(self.opened).run(survey.plan, holder="pico morning"), list[Any]()
+
+        def heard(event: Event) -> None:
+            events.append(event)
+            show(event)
+
+        signals = attend(run, heard, say)
+        if came is not None:
+            came += signals
+        return run.report, self.judged(survey, run.report, events, accept=accept)
+
+    def judged(self, survey: Survey, report: RunReport, events: Sequence[Event], *, accept: bool = False) -> Morning:
+        """Return what the run of a survey tells."""
+        root = self.opened.folder.root
+        read = readings_of(root, survey.shots, survey.dark, report, events)
+        got = tuple(read.got(q) for q in survey.quantities)
+        took = sum(e.data.get("seconds") or 0.0 for e in events if e.kind == "operation_done")
+        found = Morning(
+            report.run or "", utc_now(), took, lacks=survey.chosen.lacks, cut_short=read.cut_short, why=survey.why
+        )
+        found = self._compared(survey, survey.reference, found, read, got)
+        lit = bool(survey.chosen.quantities) and any(got)
+        if lit and not read.cut_short and (accept or survey.reference is None):
+            nominal = survey.nominal
+            keep(root, Reference(found.at, found.run, nominal.poses, nominal.values, survey.quantities, got))
+            found = replace(found, accepted=True)
+        return found
+
+    def _compared(
+        self, survey: Survey, reference: Reference | None, found: Morning, read: Readings, got: Sequence[Got | None]
+    ) -> Morning:  # fmt: skip
+        """Return a morning with its readings beside those of a reference, and who is suspected; of one that was cut
+        short nothing is judged."""
+        from pico.diagnosis.repairs import repair
+        from pico.diagnosis.suspects import NOTHING
+
+        then = reference.got if reference else (None,) * len(got)
+        verdict = self._verdict(survey, then, got) if reference and not read.cut_short else None
+        changes = list(verdict.changes) if verdict else []
+        reads = tuple(
+            _read(q, a, b, changes.pop(0) if verdict and a and b else math.nan, read.why(q))
+            for q, a, b in zip(survey.quantities, then, got, strict=True)
+        )
+        if reference is None or read.cut_short:
+            return replace(found, readings=reads)
+        lost = [r for r in reads if r.then is not None and r.now is None and r.unknown != NOT_ASKED]
+        suspects = verdict.suspects if verdict else ()
+        unusual = bool(lost) or (verdict is not None and verdict.quiet < 1 - UNUSUAL)
+        first = next((s for s in suspects if s.kind != NOTHING), None) if unusual else None
+        return replace(
+            found, reference=reference.at, age=_age(reference.at, found.at), readings=reads, suspects=suspects,
+            unusual=unusual, repair=repair(self.opened.setup, first, survey.nominal.values) if first else "",
+        )  # fmt: skip
+
+    def _verdict(
+        self, survey: Survey, then: Sequence[Got | None], got: Sequence[Got | None]
+    ) -> Verdict | None:  # fmt: skip
+        from pico.diagnosis.causes import causes
+        from pico.diagnosis.suspects import Compared, suspects
+
+        both = zip(survey.quantities, then, got, strict=True)
+        compared = [Compared(q, a, b) for q, a, b in both if a is not None and b is not None]
+        read = sorted({s.address.partition(".")[0] for q in survey.quantities for s in q.shots})
+        parts = tuple(dict.fromkeys((*survey.chosen.parts, *read)))
+        return suspects(survey.nominal, compared, causes(self.opened.setup, parts)) if compared else None
+
+    def _nominal(self, seen: Observation) -> Nominal:
+        """Return the ray model of the bench as it was seen; the last one is kept with what it has traced."""
+        from pico.diagnosis.nominal import Nominal
+
+        setup = self.opened.setup
+        parts = {n: p for n, p in seen.components.items() if n in setup.lab.inventory and p.presence == "seen"}
+        poses = {n: p.pose for n, p in parts.items() if p.pose is not None}
+        values = {n: dict(seen.known_values.get(n, {})) for n in poses}
+        key = repr((sorted(poses.items()), sorted((n, sorted(v.items())) for n, v in values.items())))
+        if key not in self._nominals:
+            self._nominals = {key: Nominal(setup, poses, values)}
+        return self._nominals[key]
+
+
+def _read(wanted: Quantity, then: Got | None, now: Got | None, change: float, why: str) -> Read:
+    return Read(
+        wanted.name, wanted.law, wanted.unit, then.value if then else None, now.value if now else None,
+        now.sigma if now else None, None if math.isnan(change) else change, "" if now else why,
+    )  # fmt: skip
+
+
+def _age(then: str, now: str) -> float:
+    return (datetime.fromisoformat(now) - datetime.fromisoformat(then)).total_seconds()

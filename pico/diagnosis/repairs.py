@@ -1,0 +1,51 @@
+"""The shortest repair of what is suspected, in words: a command where one helps, else what a hand does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from pico.model.lab import Setup
+
+if TYPE_CHECKING:
+    from pico.diagnosis.suspects import Suspect
+
+_STEERS = ("stage_y", "stage_z", "tip", "tilt")
+
+
+def repair(setup: Setup, suspect: Suspect, values: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return what brings a suspect back; `values`: of what stands, by component."""
+    part, kind = suspect.part, suspect.kind
+    if not part:
+        return "`pico look` and `pico drift` show what a camera over the bench sees"
+    if kind.startswith("zero of "):
+        tunable = kind.removeprefix("zero of ")
+        axis = setup.type_of(part).tunables[tunable].axis
+        if axis is not None and axis.kind == "homed":
+            return f"`pico do {part} home {tunable}`; where that does not help its mount slipped: turn it back by hand"
+        return f"turn {part} back in its mount"
+    hands = {
+        "power": f"look at the supply of {part}, and let it warm up",
+        "dirt": f"clean {part}",
+        "extinction": f"clean {part}; where that does not help it is worn: put in another",
+        "gain": f"check the gain of {part}, and the filter before it",
+        "dark level": f"close {part} to light of the room, and let it cool; `pico measure {part}.dark` shows a frame",
+        "moved along": f"put {part} back where its beam is collimated: `pico look` shows where it stands",
+    }
+    if kind in hands:
+        return hands[kind]
+    if kind == "moved across" and setup.type_of(part).optics.element == "detector":
+        return f"fasten {part} and put it back; where it may stay, `pico morning --accept`"
+    return _by_light(setup, part, values) or f"put {part} back by hand"
+
+
+def _by_light(setup: Setup, part: str, values: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return the command that takes out by motors what a part does to the beam; empty where none can."""
+    goals = setup.lab.goals or {}
+    steering = [n for n in values if any(t in setup.type_of(n).tunables for t in _STEERS)]
+    for name, goal in goals.items():
+        if goal.reach and any(address.partition(".")[0] in (part, *steering) for address in goal.tunables):
+            return f"`pico optimize {name}`"
+    mover = part if part in steering else next(iter(sorted(steering)), "")
+    cameras = [n for n in sorted(values) if "centroid" in setup.measurables_of(n)]
+    return f"`pico optimize centre {mover} {cameras[0]}`" if mover and cameras else ""
