@@ -3,6 +3,7 @@ a camera of its own, and an iris with a motor stands before the other camera."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from pico.bench.bench import new_lab
@@ -69,6 +70,8 @@ def make(folder: Path, seed: int) -> None:
     new_lab(folder, "shel")
     lab = folder / "lab.yaml"
     text = lab.read_text()
-    text = text[: text.index("inventory:\n")].replace("  seed: 1\n", f"  seed: {seed}\n") + "inventory:\n" + _PARTS
-    lab.write_text(text)
+    kept = [
+        section for section in re.split(r"(?m)^(?=[a-z])", text) if not section.startswith(("goals:", "inventory:"))
+    ]
+    lab.write_text("".join(kept).replace("  seed: 1\n", f"  seed: {seed}\n") + "inventory:\n" + _PARTS)
     (folder / "state" / "table.yaml").write_text(_STATE)

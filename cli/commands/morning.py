@@ -10,6 +10,7 @@ import typer
 from ..arguments import DetailedExit, DryRun, Fidelity, LockTimeout, Yes
 from ..session import Session
 from ..views import morning as view
+from ..views import optimizing as live
 from ..views import survey as ahead_view
 
 if TYPE_CHECKING:
@@ -59,7 +60,9 @@ def morning(
     terminal = sys.stdout.isatty() and not session.json
 
     def heard(event: Event) -> None:
-        if terminal and (line := view.line(event)):
+        if session.json:
+            session.document(live.data(event))
+        elif terminal and (line := view.line(event)):
             write(sys.stdout, line, end="", over=True)
 
     report, found = bench.mornings.read(survey, heard, say, accept=accept)

@@ -1,0 +1,126 @@
+"""`pico morning`: recorded, quiet, what befell a part; interrupted, killed, in the dark, without a word to compare."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from commanding import Pico, edit
+
+STANDING = {"p1.angle": 1.0, "p2.angle": 90.0, "hwp.angle": 22.75, "cam.exposure": 10.0}
+
+
+@pytest.fixture
+def lit(shel: Path, pico: Pico) -> Path:
+    """The case study with its light on the camera."""
+    assert pico("apply", "e1", "--yes").code == 0
+    return shel
+
+
+def stands(pico: Pico) -> dict[str, float]:
+    """Return what a morning sets, as it reads now."""
+    found = {}
+    for address in STANDING:
+        tunable = address.partition(".")[2]
+        found[address] = pico("get", address, "--json").data["values"][tunable]["value"]
+    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "open"
+    return found
+
+
+def last(out: str) -> dict[str, object]:
+    found: dict[str, object] = json.loads(out.splitlines()[-1])
+    return found
+
+
+def test_nothing_is_read_and_nothing_set_by_a_dry_run(lit: Path, pico: Pico) -> None:
+    dry = pico("morning", "--dry-run")
+    assert dry.code == 0 and "p1 null" in dry.out and "sets p1.angle" in dry.out
+    assert "no morning was recorded before" in dry.out and "second camera" in " ".join(dry.out.split())
+    found = pico("morning", "--dry-run", "--json").data
+    assert found["schema"] == "pico.survey/v1" and found["seconds"] < 180 and not found.get("reference")
+    assert stands(pico) == pytest.approx(STANDING)
+
+
+def test_a_bench_in_the_dark_is_no_reference(shel: Path, pico: Pico) -> None:
+    answer = pico("morning", "--yes")
+    assert answer.code == 0 and "It is no reference" in answer.out and "no light comes to a detector" in answer.out
+    assert not (shel / ".pico" / "mornings.json").exists()
+
+
+def test_a_damaged_file_of_references_is_told_and_kept(lit: Path, pico: Pico) -> None:
+    (lit / ".pico" / "mornings.json").write_text("{")
+    answer = pico("morning", "--yes")
+    assert answer.code == 1 and "mornings.json cannot be read" in answer.err and "Traceback" not in answer.err
+    assert (lit / ".pico" / "mornings.json").read_text() == "{"
+
+
+@pytest.mark.slow
+def test_what_befell_a_mount_overnight_is_told_with_the_part_and_a_repair(lit: Path, pico: Pico) -> None:
+    first = pico("morning", "--yes")
+    assert first.code == 0 and "This morning is the reference from now on" in first.out and "p1 null" in first.out
+    assert stands(pico) == pytest.approx(STANDING)
+    assert pico("sim", "wait", "9 h").code == 0
+    quiet = pico("morning", "--yes", "--detailed-exitcode")
+    assert quiet.code == 0 and "Nothing unusual since" in quiet.out
+    pico("sim", "slip", "p1.angle", "0.6")
+    found = pico("morning", "--yes", "--detailed-exitcode")
+    assert found.code == 2 and "Something happened since" in found.out
+    assert "p1: zero of angle, +0.6" in found.out and "`pico do p1 home angle`" in found.out
+    answer = pico("morning", "--yes", "--json")
+    told = last(answer.out)
+    assert told["schema"] == "pico.morning/v1" and told["unusual"] and told["suspects"][0]["part"] == "p1"  # type: ignore[index]
+    assert any('"operation_progress"' in line for line in answer.out.splitlines()[:-1])
+    accepted = pico("morning", "--yes", "--accept")
+    assert "This morning is the reference from now on" in accepted.out
+    assert "Nothing unusual" in pico("morning", "--yes").out
+    assert "survey" in pico("runs", "show", str(told["run"])).out
+    pico("set", "p2.angle", "80", "--yes")
+    other = pico("morning", "--dry-run")
+    assert "p2.angle was 90" in other.out
+
+
+def started(folder: Path) -> subprocess.Popen[str]:
+    """Begin a morning in a process of its own, and come back in the midst of it."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "cli", "-C", str(folder), "morning", "--yes", "--json"], cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    )  # fmt: skip
+    assert process.stdout
+    for line in process.stdout:
+        if '"operation_progress"' in line and "p1.angle" in json.loads(line)["data"]["point"]:
+            break
+    return process
+
+
+@pytest.mark.slow
+def test_ctrl_c_sets_all_back_and_keeps_no_reference(lit: Path, pico: Pico) -> None:
+    process = started(lit)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert process.returncode == 130 and last(out)["cut_short"]
+    assert stands(pico) == pytest.approx(STANDING)
+    assert not (lit / ".pico" / "mornings.json").exists()
+
+
+@pytest.mark.slow
+def test_a_killed_one_is_told_and_undone(lit: Path, pico: Pico) -> None:
+    process = started(lit)
+    process.kill()
+    process.communicate(timeout=60)
+    assert "was killed" in pico("status").err
+    assert pico("undo", "--yes").code == 0
+    assert stands(pico) == pytest.approx(STANDING)
+
+
+@pytest.mark.slow
+def test_a_laser_that_nobody_lets_emit_again_is_not_shut_for_a_dark_frame(lit: Path, pico: Pico) -> None:
+    edit(lit / "lab.yaml", "waived: [kinematic, physics, emulated]", "waived: []")
+    assert pico("bench", "update", "--yes").code == 0
+    answer = pico("morning", "--yes")
+    assert "cam dark level  not read" in answer.out and "nobody lets emit" in " ".join(answer.out.split())
+    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "open"
