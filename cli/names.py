@@ -36,7 +36,7 @@ RESERVED = {
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
-    "stash",
+    "stash", "swap",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 
