@@ -16,7 +16,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
 from pico.planning.checks.beams import shutter_of
-from pico.planning.checks.emission import lets_out, may_shine, refused
+from pico.planning.checks.emission import lets_out, may_shine, refused, uncovers
 from pico.policy import arming
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Guarded:
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that lets light out and must not fails, and nothing moves."""
-        if not lets_out(self._setup, operation):
+        if not (lets_out(self._setup, operation) or uncovers(self._setup, operation)):
             return await self._inner.execute(operation, key, began)
         seen = await self._look()
         wrong: Sequence[Diagnostic] = refused(self._setup, seen, [operation])

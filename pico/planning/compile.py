@@ -16,7 +16,7 @@ from pico.model.state import LabState
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
 from pico.planning.checks.clearance import beams_in_the_way
-from pico.planning.checks.emission import lets_out
+from pico.planning.checks.emission import lets_out, uncovered
 from pico.planning.checks.interlocks import policy_rules, stay_shut, unguarded, with_interlocks
 from pico.planning.checks.target import Source, check_target, no_source
 from pico.planning.checks.tethers import check_tethers
@@ -94,6 +94,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         guarded = with_interlocks(setup, request.seen, ordered)
         operations = schedule(guarded)
         diagnostics = (*diagnostics, *unguarded(setup, request.seen, operations))
+        diagnostics = (*diagnostics, *uncovered(setup, request.seen, operations))
         diagnostics = (*diagnostics, *left_standing(setup, request.seen, {o.robot for o in operations}))
     changes = situation.changes
     if not request.only.everything and operations:

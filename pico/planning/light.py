@@ -12,7 +12,7 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import UNARMED, Plan
-from pico.planning.checks.emission import left_shut, lets_out, unlicensed
+from pico.planning.checks.emission import left_shut, lets_out, refused, unlicensed
 from pico.planning.request import Request
 from pico.planning.values import value_operations
 
@@ -59,7 +59,9 @@ def without_light(setup: Setup, seen: Observation, plan: Plan) -> Plan:
     kept = [op for op in plan.operations if op.id not in gone]
     waits = [[w for a in op.after for w in gone.get(a, (a,)) if w not in gone] for op in kept]
     operations = tuple(replace(op, after=tuple(dict.fromkeys(w))) for op, w in zip(kept, waits, strict=True))
-    return replace(plan, operations=operations, diagnostics=(*plan.diagnostics, *left_shut(seen, shut))).sealed()
+    still = refused(setup, seen, operations)  # a shutter that is moved away is not left out
+    told = still or left_shut(seen, shut)
+    return replace(plan, operations=operations, diagnostics=(*plan.diagnostics, *told)).sealed()
 
 
 def light_last(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:

@@ -41,6 +41,15 @@ def lets_out(setup: Setup, op: Operation) -> bool:
     return gates and op.kind.mutating and op.kind.by == "device"
 
 
+def uncovers(setup: Setup, op: Operation) -> bool:
+    """Return whether an operation moves a shutter that stands on the table: out of a beam that it may be all that
+    closes."""
+    if op.component not in setup.lab.inventory or not (op.kind.carries or (op.kind.by_hand and "to" in op.arguments)):
+        return False
+    kind = setup.type_of(op.component)
+    return kind.optics.element == "shutter" and "shutter" in kind.tunables and "tunable" not in op.arguments
+
+
 def _searched(setup: Setup, op: Operation) -> Iterator[tuple[str, str, float]]:
     """Yield the tunables of sources and shutters that are searched or steered, each with the most that it is set to."""
     for address, bounds in searched_by(op.arguments).items():
@@ -53,10 +62,14 @@ def _searched(setup: Setup, op: Operation) -> Iterator[tuple[str, str, float]]:
 def let_out(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> dict[str, LaserClass]:
     """Return the lasers that operations let light out of, at some time, each with the class of what it then emits. What
     nobody knows counts as open and on, and a power as the highest that it has or gets."""
-    opening = [op for op in operations if lets_out(setup, op)]
+    opening = [op for op in operations if lets_out(setup, op) or uncovers(setup, op)]
     if not opening:
         return {}
     values = seen.known_values
+    if not any(lets_out(setup, op) for op in opening):  # what is shut for the while that a shutter is moved stays so
+        for op in operations:
+            if op.primitive == "set" and op.arguments.get("to") in DARK:
+                values.setdefault(op.component, {})[str(op.arguments.get("tunable"))] = op.arguments["to"]
     for op in opening:
         for component, tunable, to in _settings(setup, op):
             own = values.setdefault(component, {})
@@ -77,6 +90,8 @@ def _settings(setup: Setup, op: Operation) -> Iterator[tuple[str, str, Any]]:
         yield from _searched(setup, op)
         return
     kind = setup.type_of(op.component).tunables.get(str(op.arguments.get("tunable")))
+    if uncovers(setup, op):
+        return
     if op.primitive in ("set", "operator"):
         yield op.component, str(op.arguments.get("tunable")), op.arguments.get("to")
     elif kind is not None:  # where it ends nobody knows beforehand
@@ -132,6 +147,11 @@ def refused(setup: Setup, seen: Observation, operations: Sequence[Operation]) ->
               address=name)
         for name, of in unlicensed(setup, seen, operations).items()
     ]  # fmt: skip
+
+
+def uncovered(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Diagnostic]:
+    """Return an error for each laser that nobody lets emit and that is shut by a shutter alone which is moved."""
+    return refused(setup, seen, [op for op in operations if not lets_out(setup, op)])
 
 
 def require_licensed(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> None:

@@ -14,7 +14,9 @@ from planning_benches import TALL, TYPES, bench, part, planned, see, want
 from random_labs import random_case
 
 from examples import examples
+from pico.diagnostics import PicoError
 from pico.execution.graph import Graph
+from pico.model.arming import Licence
 from pico.model.catalog import ComponentType, OpticalElement, Parameter, Tunable
 from pico.model.lab import Mount, Policy, Robot, Setup
 from pico.model.observation import Observation, ObservedRobot
@@ -23,6 +25,7 @@ from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.state import LabState
 from pico.planning import home_one, move_one, set_one
+from pico.planning.checks.emission import require_licensed
 
 SHUTTER = Tunable(datatype="choice", choices=("open", "closed"), settle=50)
 LASER = ComponentType(
@@ -237,6 +240,21 @@ def test_a_shutter_that_is_moved_does_not_count() -> None:
     setup, seen = gated((300, 420, 0))
     made = move_one(setup, seen, "gate", Pose(400, 420), motion=None)
     assert [d.code for d in made.diagnostics] == ["open-beam"]
+
+
+def test_a_shutter_that_is_all_that_closes_an_unarmed_laser_is_not_moved_out_of_its_beam() -> None:
+    setup, seen = gated((300, 420, 0))
+    strong = {"power": Parameter(value=500, unit="mW"), "wavelength": Parameter(value=800, unit="nm")}
+    kinds = {**setup.catalog, "laser": replace(setup.catalog["laser"], parameters=strong)}
+    for enclosed in (None, True):
+        lab = replace(setup.lab, policy=replace(setup.lab.policy, enclosed=enclosed))
+        unarmed = Setup(lab=lab, catalog=kinds)
+        made = move_one(unarmed, seen, "gate", Pose(400, 200), motion=None)
+        assert "unarmed" in [d.code for d in made.diagnostics if d.severity == "error"]
+        with pytest.raises(PicoError, match="nobody has armed it"):
+            require_licensed(unarmed, seen, made.operations)
+    armed = replace(seen, licences={"laser0": Licence(laser_class="3B", by="Ann", ends="2027-01-01T00:00:00Z")})
+    require_licensed(Setup(lab=setup.lab, catalog=kinds), armed, made.operations)
 
 
 def run(made: Plan, fails: str) -> dict[str, str]:
