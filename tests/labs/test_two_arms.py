@@ -18,6 +18,7 @@ from pico.backends.sim.kinematic import KinematicWorld
 from pico.bench.bench import Bench
 from pico.history.examples.example import make_example
 from pico.manifest.load import load_files, load_folder
+from pico.model.arming import Licence
 from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation
@@ -52,7 +53,8 @@ def observed(setup: Setup, state: LabState) -> Observation:
         values = state.components[name].values if name in state.components else {}
         known = {k: ObservedValue(value=v) for k, v in values.items()}
         seen[name] = ObservedComponent(pose=place_of(setup, state, name)[1], values=known)
-    return Observation(backend="sim", components=seen)
+    waived = {name: Licence(laser_class="3B") for name in seen if setup.type_of(name).optics.element == "source"}
+    return Observation(backend="sim", components=seen, licences=waived)
 
 
 def planned(lab: tuple[Setup, States, ArmMotion], a: str, b: str) -> Plan:

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_nominal import ALONG, FOLDED, POSES, ROW, SPOT, goal, standing
+from test_nominal_bench import ALONG, FOLDED, POSES, ROW, SPOT, goal, standing
 
 from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, Uncertainty

@@ -49,9 +49,17 @@ def test_there_is_something_to_find() -> None:
     assert {path.name for path in keeping.LABS} >= {"shel", "crowded"}
 
 
+def requested(facts: dict[str, Any]) -> dict[str, Any]:
+    """Return what was told of a status, with light that is asked for as the request that it is since: it never counts
+    as off or drifted."""
+    light = {address for address in facts if address.endswith((".shutter", ".emission"))}
+    return {address: [*row[:-2], False, False] if address in light else row for address, row in facts.items()}
+
+
 @SMALL
 def test_it_is_told_as_the_version_that_made_it_told_it(kept: Path, lab: Path, pico: Pico) -> None:
     now, then = json.loads(keeping.written(keeping.facts(pico, lab))), known(kept)
+    then["status"] = requested(then["status"])
     for section, facts in then.items():
         assert now[section] == facts, section
 
