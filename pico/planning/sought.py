@@ -3,6 +3,7 @@ sought before it where it is dark."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +15,9 @@ from pico.model.vocabulary import measured_in
 from pico.optimize.choosing import Tuned, choose, usual_parameters
 from pico.optimize.problem import Nominal, nominal_from_json
 from pico.planning.nominal import nominal
+
+_NUMBER = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
+"""One number of what is measured, and nothing else."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,8 @@ def algorithm_for(setup: Setup, goal: Goal, *, known: bool = False) -> tuple[str
     """Return the algorithm that suits a goal, and why; `known`: whether `nominal` tells how its tunables move light."""
     kernels = []
     for text in goal.reach or (goal.texts[0],):
-        of = measured_in(setup, [goal.plain(text)])
+        # what is composed of numbers does not follow the law of one of them
+        of = measured_in(setup, [plain]) if _NUMBER.fullmatch(plain := goal.plain(text).strip()) else []
         kernel = setup.measurables_of(of[0][0])[of[0][1]].kernel if of else None
         kernels.append((kernel or "").rpartition("|")[2].strip().partition("(")[0])
     return choose(tuned(setup, goal), kernels, goal.aim, known=known)
