@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 import pico
 from pico.backends.sim.lighted import unseen_of
@@ -48,11 +49,13 @@ def bench(folder: Path, parts: str, **tunables: Mapping[str, Any]) -> Bench:
 
 
 def truth(opened: Bench, folder: Path) -> Light:
-    """The light as it truly is, irises open."""
+    """The light as it truly is, irises and shutters open."""
     world = load_world(opened.setup, folder)[0]
     standing = {n: b for n, b in world.components.items() if b.pose is not None}
     unseen = {n: one for n, b in standing.items() if (one := unseen_of(opened.setup, n, b))}
-    values = {n: {k: v for k, v in b.true_values.items() if k != "opening"} for n, b in standing.items()}
+    values = {
+        n: {k: v for k, v in b.true_values.items() if k not in ("opening", "shutter")} for n, b in standing.items()
+    }
     return light_of(opened.setup, {n: b.pose for n, b in standing.items() if b.pose}, values, unseen=unseen)
 
 
@@ -145,3 +148,50 @@ def test_a_fibre_takes_what_two_mirrors_and_a_focus_bring(tmp_path: Path) -> Non
         found = it.optimize("fibre", "coupler")
         assert found.met and beside(truth(it, tmp_path), "coupler") < 0.1, found
         assert "more must be said" in refused(it, "fibre")
+
+
+INTERFEROMETER = Path(__file__).parents[2] / "labs" / "mach_zehnder"
+
+
+def two_arms(folder: Path, *shutters: str) -> Bench:
+    """Open the Mach-Zehnder example, its parts put down, with shutters in its arms, a far camera at its other port."""
+    lab = yaml.safe_load((INTERFEROMETER / "lab.yaml").read_text())
+    table = yaml.safe_load((INTERFEROMETER / "state" / "table.yaml").read_text())
+    parts, own = lab["inventory"], table["components"]
+    for name in own.keys() & parts.keys():
+        if "pose" in own[name]:
+            parts[name] = {"type": parts[name]["type"], "pose": own[name].pop("pose")}
+    for name in ("meter", "stop"):
+        del parts[name], own[name]
+    places = {"over": {"x": 560, "y": 320, "yaw": 0}, "up": {"x": 320, "y": 420, "yaw": 90}}
+    parts |= {name: {"type": "shutter", "pose": places[name]} for name in shutters}
+    parts["far"] = {"type": "beam_camera", "pose": {"x": 470, "y": 150, "yaw": -90}}
+    own |= {"far": {"exposure": 1}, **{name: {"shutter": "open"} for name in shutters}}
+    own["m2"] |= {"tip": 0.4, "tilt": -0.3}
+    own["m3"] |= {"tip": -0.3, "tilt": 0.2}
+    lab["sim"]["environment"] = "none"
+    (folder / "lab.yaml").write_text(yaml.safe_dump(lab))
+    (folder / "table.yaml").write_text(yaml.safe_dump(table))
+    opened = pico.open(folder)
+    assert opened.apply().outcome == "done"
+    return opened
+
+
+def apart(light: Light, camera: str) -> float:
+    """How far apart the two beams on a camera are [mm]."""
+    one, other = (a.beam.at for a in light.at(camera))
+    return float(abs(one - other).max())
+
+
+@pytest.mark.slow
+def test_two_arms_of_an_interferometer_are_brought_one_on_the_other(tmp_path: Path) -> None:
+    with two_arms(tmp_path, "over", "up") as it:
+        assert min(apart(truth(it, tmp_path), camera) for camera in ("cam", "far")) > 0.3
+        found = it.optimize("overlap", "cam", "far")
+        assert found.met, found
+        assert max(apart(truth(it, tmp_path), camera) for camera in ("cam", "far")) < 0.01
+
+
+def test_arms_that_nothing_can_stop_are_not_told_apart(tmp_path: Path) -> None:
+    with two_arms(tmp_path, "over") as it:
+        assert "a shutter in each arm" in refused(it, "overlap", "cam", "far")
