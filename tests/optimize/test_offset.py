@@ -74,3 +74,19 @@ def test_an_algorithm_without_a_model_is_refused() -> None:
     with pytest.raises(PicoError, match="does not tell where the best is") as refused:
         made("nelder_mead", problem)
     assert "malus" in refused.value.diagnostics[0].hint
+
+
+@pytest.mark.parametrize("null", [0.0, 0.4, 179.8])
+@pytest.mark.parametrize("start", [1.0, 3.0, 175.0])
+def test_a_polarizer_between_polarizers_is_crossed_too_though_its_law_is_another(null: float, start: float) -> None:
+    """The first of two polarizers behind a plate that turns the light to 45.5 deg: a product of two laws."""
+    rng = np.random.default_rng([round(100 * null), round(100 * start)])
+
+    def read(angle: float) -> float | None:
+        power = law(null, angle) * math.cos(math.radians(angle - 45.5)) ** 2
+        return None if power > 0.2 else power * (1 + 1e-3 * rng.normal())
+
+    found = run(read, 0.0, start=start)
+    assert found.met and found.last is not None
+    assert abs((found.last["angle"] - null + 90) % 180 - 90) < 0.02
+    assert len(found.tried) <= 12

@@ -1,13 +1,16 @@
 """The null or the peak of a polarizer or a wave plate: y = a - b cos(k x) - c sin(k x), in k of one period.
 
 Two readings tell where it may be if the floor is 0; the third is taken there, and each next where it tells most about
-the place of the extremum, by the noise of the readings.
+the place of the extremum, by the noise of the readings. What is read at the extremum must be what the others had said.
+Where it is not, other parts have a law of their own (a polarizer between polarizers): then a reading counts the less
+the farther it is from the extremum, near which each law is this one.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +33,11 @@ _NEARBY = (1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64)
 """Where the second is sought, from the first one."""
 _NOISE = 0.005
 _FLOOR = 1e-6
-_AGREES, _SHARE = 8.0, 0.01
-"""Standard deviations, and share of the brightest reading, by which a reading may be off the law."""
+_AGREES = 8.0
+"""Standard deviations by which a reading may be off what the readings before it say."""
+_DOUBT = 3.0
+"""By which share of itself a reading may be off the law, for each radian that it is from the extremum, where the law is
+not all: another polarizer at 45 deg makes 2 of it."""
 _FLICKER = 0.002
 """By which share a laser is another from reading to reading, which no standard deviation of one reading tells."""
 _DARKER, _SAFE = 0.03, 0.8
@@ -39,6 +45,8 @@ _DARKER, _SAFE = 0.03, 0.8
 too bright is not."""
 _TIMES, _CLOSE = 6.0, 0.01
 """How far beside a null that is known too badly readings are taken: in standard deviations, and at least in cycles."""
+_AGAIN = 4
+"""How often the extremum is sought anew, each time with the doubt that the last one leaves."""
 _AWAY = np.concatenate([s * np.geomspace(0.25, 0.001, 40) for s in (1, -1)])
 """How far from the extremum readings may tell of it, in cycles."""
 Array = NDArray[np.float64]
@@ -63,20 +71,23 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
             unread.append(at)
         else:
             return f"there is too little to see: {len(seen)} readings of {variable.name}"
+    doubt = 0.0
     for _ in range(_MOST):
-        place, sigma, fit = _fitted(problem, variable, output, seen, k)
-        known = sigma <= parameters["within"] / 3
-        told, at = (sigma, place) if known else _telling(problem, variable, output, seen, unread, k, fit)
-        if told > parameters["within"] / 3 and problem.aim == "minimize":
-            at = _beside(variable, seen, unread, place, max(_TIMES * sigma, _CLOSE * parameters["cycle"]))
+        fit = _fitted(problem, variable, output, seen, k, doubt)
+        known = fit.known <= parameters["within"] / 3
+        told, at = (fit.known, fit.place) if known else _telling(problem, variable, output, seen, unread, k, fit)
+        if problem.aim == "minimize" and (told > parameters["within"] / 3 or (doubt and not known)):
+            at = _beside(variable, seen, unread, fit.place, _near(parameters, fit.known, k, doubt))
         result = yield {variable.name: at}
         if not problem.measured(result):
             unread.append(at)
             continue
         seen.append(result)
         if known and _agrees(variable, output, seen, k, fit):
-            place, sigma, _ = _fitted(problem, variable, output, seen, k)
-            return "the place of the extremum is known", Solution({variable.name: place}, {variable.name: sigma})
+            fit = _fitted(problem, variable, output, seen, k, doubt)
+            found = Solution({variable.name: fit.place}, {variable.name: fit.known})
+            return "the place of the extremum is known", found
+        doubt = _DOUBT if known else doubt
     return "the readings do not follow the law of Malus well enough"
 
 
@@ -117,7 +128,19 @@ def _guesses(problem: Problem, variable: Variable, output: str, seen: list[Resul
     return [variable.within(p) for p in sorted(near, key=lambda p: abs(p - variable.start))]
 
 
-def _scaled(variable: Variable, output: str, seen: list[Result]) -> tuple[Array, Array, Array]:
+@dataclass(frozen=True)
+class _Fit:
+    """The place of the extremum with its standard deviation, and the coefficients of the law [share of the largest
+    reading] with their covariance; `sigma`: of the readings, in such shares."""
+
+    place: float
+    known: float
+    law: Array
+    covariance: NDArray[np.floating]
+    sigma: Array
+
+
+def _scaled(output: str, variable: Variable, seen: list[Result]) -> tuple[Array, Array, Array]:
     """Return where it was read, what was read, and the standard deviations, in shares of the largest reading."""
     most = max(abs(r[output]) for r in seen) or 1.0
     share = [abs(r[output]) / most for r in seen]
@@ -129,35 +152,43 @@ def _scaled(variable: Variable, output: str, seen: list[Result]) -> tuple[Array,
 
 
 def _fitted(
-    problem: Problem, variable: Variable, output: str, seen: list[Result], k: float
-) -> tuple[float, float, Array]:
-    """Return the place of the extremum, its standard deviation, and the three coefficients."""
-    x, y, sigma = _scaled(variable, output, seen)
+    problem: Problem, variable: Variable, output: str, seen: list[Result], k: float, doubt: float = 0.0
+) -> _Fit:
+    """Return the law that fits what was read; `doubt`: of readings far from the extremum, see `_DOUBT`."""
+    x, y, sigma = _scaled(output, variable, seen)
+    fit = _solved(problem, variable, x, y, sigma, k)
+    for _ in range(_AGAIN if doubt else 0):
+        off = np.abs(np.sin(k * (x - fit.place) / 2)) ** 3 * 2 * math.hypot(*fit.law[1:])
+        fit = _solved(problem, variable, x, y, np.hypot(sigma, doubt * off), k)
+    return fit
+
+
+def _solved(problem: Problem, variable: Variable, x: Array, y: Array, sigma: Array, k: float) -> _Fit:
     rows = _rows(x, k) / sigma[:, None]
-    normal = rows.T @ rows
-    covariance = np.linalg.pinv(normal, hermitian=True, rcond=1e-14)
-    fit = covariance @ (rows.T @ (y / sigma))
-    return _place(problem, variable, fit, k), _spread(fit, covariance, k), fit
+    covariance = np.linalg.pinv(rows.T @ rows, hermitian=True, rcond=1e-14)
+    law = covariance @ (rows.T @ (y / sigma))
+    return _Fit(_place(problem, variable, law, k), _spread(law, covariance, k), law, covariance, sigma)
 
 
 def _rows(x: Array, k: float) -> Array:
     return np.stack([np.ones_like(x), -np.cos(k * x), -np.sin(k * x)], axis=-1)
 
 
-def _place(problem: Problem, variable: Variable, fit: Array, k: float) -> float:
-    null = math.atan2(fit[2], fit[1]) / k  # where cos(kx - that) is 1: the least
+def _place(problem: Problem, variable: Variable, law: Array, k: float) -> float:
+    null = math.atan2(law[2], law[1]) / k  # where cos(kx - that) is 1: the least
     if problem.aim == "maximize":
         null += math.pi / k
     cycle = 2 * math.pi / k
     return variable.within(variable.start + (null - variable.start + cycle / 2) % cycle - cycle / 2)
 
 
-def _agrees(variable: Variable, output: str, seen: list[Result], k: float, fit: Array) -> bool:
+def _agrees(variable: Variable, output: str, seen: list[Result], k: float, fit: _Fit) -> bool:
     """Whether what was read last is what the readings before it had said."""
-    x, y, sigma = _scaled(variable, output, seen)
+    x, y, sigma = _scaled(output, variable, seen)
     most, before = (max(abs(r[output]) for r in some) or 1.0 for some in (seen, seen[:-1]))
-    expected = float(_rows(x[-1:], k)[0] @ fit) * before / most
-    return abs(float(y[-1]) - expected) <= max(_AGREES * float(sigma[-1]), _SHARE)
+    row = _rows(x[-1:], k)[0]
+    expected, doubt = float(row @ fit.law) * before / most, math.sqrt(max(0.0, float(row @ fit.covariance @ row)))
+    return abs(float(y[-1]) - expected) <= _AGREES * math.hypot(float(sigma[-1]), doubt * before / most)
 
 
 def _spread(fit: Array, covariance: NDArray[np.floating], k: float) -> float:
@@ -169,23 +200,24 @@ def _spread(fit: Array, covariance: NDArray[np.floating], k: float) -> float:
 
 
 def _telling(
-    problem: Problem, variable: Variable, output: str, seen: list[Result], unread: list[float], k: float, fit: Array
+    problem: Problem, variable: Variable, output: str, seen: list[Result], unread: list[float], k: float, fit: _Fit
 ) -> tuple[float, float]:
     """Return the value at which a reading will tell most about the place of the extremum, among those that are neither
     too bright nor too dark to be read, as far as `unread` ones tell; and how well the place is known then."""
-    x, y, sigma = _scaled(variable, output, seen)
+    x, y, sigma = _scaled(output, variable, seen)
     share = float(np.median(sigma / np.maximum(np.abs(y), _FLOOR)))
-    rows, least = _rows(x, k) / sigma[:, None], _floor(y, sigma, share)
+    rows, least = _rows(x, k) / fit.sigma[:, None], _floor(y, sigma, share)
     normal = rows.T @ rows
-    place, cycle = _place(problem, variable, fit, k), 2 * math.pi / k
-    lowest, highest = _readable(y, [float(_rows(np.array([at]), k)[0] @ fit) for at in unread])
-    places = np.array([variable.within(place + float(away)) for away in _AWAY * cycle])
+    lowest, highest = _readable(y, [float(_rows(np.array([at]), k)[0] @ fit.law) for at in unread])
+    places = np.array([variable.within(fit.place + float(away)) for away in _AWAY * 2 * math.pi / k])
     row = _rows(places, k)
-    expected = np.maximum(np.abs(row @ fit), _FLOOR)
+    expected = np.maximum(np.abs(row @ fit.law), _FLOOR)
     noise = np.maximum(share * expected, least)
     more = row[:, :, None] * row[:, None, :] / (noise**2)[:, None, None]
     there = np.linalg.pinv(normal + more, hermitian=True, rcond=1e-14)
-    told = [_spread(fit, one, k) if lowest < y < highest else math.inf for one, y in zip(there, expected, strict=True)]
+    told = [
+        _spread(fit.law, one, k) if lowest < y < highest else math.inf for one, y in zip(there, expected, strict=True)
+    ]
     best = int(np.argmin(told))
     return told[best], float(places[best])
 
@@ -196,6 +228,13 @@ def _beside(variable: Variable, seen: list[Result], unread: list[float], place: 
     known = [r[variable.name] for r in seen] + unread
     sides = [variable.within(place + away), variable.within(place - away)]
     return max(sides, key=lambda at: min(abs(at - one) for one in known))
+
+
+def _near(parameters: Mapping[str, float], known: float, k: float, doubt: float) -> float:
+    """Return how far beside a null a reading tells of its place: farther the worse that is known, but not where, the
+    law being doubted, both sides together would be off by more than is wanted: by u^2, u the angle in radians."""
+    away = max(_TIMES * known, _CLOSE * parameters["cycle"])
+    return min(away, 2 / k * math.sqrt(parameters["within"] / 3 * k / 2)) if doubt else away
 
 
 def _floor(y: Array, sigma: Array, share: float) -> float:
