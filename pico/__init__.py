@@ -9,7 +9,7 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pico.bench.bench import Bench
+    from pico.scripting.bench import Bench
 
 
 def open(path: str | Path = ".", **options: Any) -> Bench:
@@ -18,6 +18,6 @@ def open(path: str | Path = ".", **options: Any) -> Bench:
     Options are those of `pico.bench.bench.Bench.open` (`backend`, `fidelity`).
     Raises `pico.diagnostics.PicoError` where the folder holds no laboratory or its manifests are wrong.
     """
-    from pico.bench.bench import Bench
+    from pico.scripting.bench import Bench
 
     return Bench.open(path, **options)

@@ -22,6 +22,7 @@ from pico.disk import write_whole, writing
 
 FOLDER = ".pico"
 RECORD = "bench.json"
+_held: dict[Path, Path] = {}
 _STAYS = ("write.lock", "write.tmp", "holder.json", "incoming", "replaced")
 """What is not the bench: locks of writers, scratch files, what `_bring` makes."""
 
@@ -50,8 +51,21 @@ def bench_folder(root: Path) -> Path:
 
     Raises PicoError where that is a link, for PICO writes there.
     """
+    if (held := _held.get(root)) is not None:
+        return held
     place = lab_place(root)
     return own_folder((place and attached(place)) or root)
+
+
+def hold(root: Path) -> None:
+    """Take the place of the bench of the lab in `root` as it is until `let_go`: who has the bench locked need not look
+    for it again, for nobody takes it elsewhere meanwhile. Raises PicoError as `bench_folder` does."""
+    _held[root] = bench_folder(root)
+
+
+def let_go(root: Path) -> None:
+    """Look for the place of a bench again each time, see `hold`."""
+    _held.pop(root, None)
 
 
 def own_folder(root: Path) -> Path:

@@ -8,8 +8,9 @@ levels, 10,000 steps of iteration.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal
 
 Kind = Literal["number", "bool", "text", "list", "numbers", "texts", "any"]
@@ -22,6 +23,7 @@ _TOKEN = re.compile(
     r"|(?P<float>\d*\.\d+(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+)|(?P<int>\d+)(?![\w.])|(?P<other>\S)",
     re.DOTALL,
 )
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
 _FOUND = re.compile(r"ERROR: <input>:(-?\d+):(-?\d+): ([^\n\[]*(?:\[(?!\w+\]\s*$)[^\n\[]*)*)")
 _UNKNOWN = re.compile(r'No value with name "([^"]*)" found in Activation')
@@ -157,7 +159,9 @@ class Expression:
         """Return the value for `values` by name; raises UnknownValue for one that is needed and missing, and
         ExpressionError where there is no result."""
         try:
-            found = self._compiled.eval(data={name: doubles(value) for name, value in values.items()})
+            words = words_of([self.text])
+            spoken = {name: value for name, value in values.items() if name.partition(".")[0] in words}
+            found = self._compiled.eval(data={name: doubles(value) for name, value in spoken.items()})
         except RuntimeError as exc:
             raise ExpressionError(_failure(str(exc)), 0, len(self.text)) from exc
         value = found.plain_value() if "error" not in found.type().name().lower() else None
@@ -174,6 +178,11 @@ class Expression:
 _PYTHON: dict[Kind, Any] = {
     "number": float, "bool": bool, "text": str, "list": list, "numbers": list, "texts": list, "any": object,
 }  # fmt: skip
+
+
+def words_of(texts: Iterable[str]) -> set[str]:
+    """Return the words of which expressions consist, names among them."""
+    return {word for text in texts for word in _WORD.findall(text)}
 
 
 def _count(items: Any) -> float:
@@ -196,6 +205,7 @@ def doubles(value: Any) -> Any:
     return [doubles(v) for v in value] if isinstance(value, list | tuple) else value
 
 
+@cache
 def _as_doubles(text: str) -> tuple[str, list[int]]:
     """Return the source with integers as doubles, except where they are an index, and `size` as `count`, a double; and
     for each of its characters, and its end, the place in `text` that it comes from."""

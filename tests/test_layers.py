@@ -15,7 +15,7 @@ ORDER = (
     "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "teleop",
     "content", "geometry",
     "manifest", "optics", "diagnosis", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
-    "backends", "policy", "execution", "runs", "edge", "history", "bench", "recipes",
+    "backends", "policy", "execution", "runs", "edge", "history", "bench", "scripting", "recipes",
 )  # fmt: skip
 LOOSE = 6
 """How many modules may lie beside the rooms."""

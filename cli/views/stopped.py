@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.edge.protocol import STEERING, Holder
+from pico.edge.protocol import RECORDING, STEERING, Holder
 from pico.model.record import as_json
 from pico.runs.journal import RunRecord
 
@@ -18,7 +18,7 @@ def text(holder: Holder | None, run: RunRecord | None) -> str:
         names = {"done": "done", "failed": "not completed", "unknown": "with unknown outcome", "skipped": "not started"}
         counts = {name: int(run.tally.get(end, 0)) for end, name in names.items()}
         lines.append(", ".join(f"{n} {name}" for name, n in counts.items() if n or name == "done") + ".")
-    goes_on = "" if holder.what.startswith(STEERING) else "Continue with `pico resume`; go"
+    goes_on = "" if holder.what.startswith((STEERING, RECORDING)) else "Continue with `pico resume`; go"
     return "\n".join([*lines, f"{goes_on or 'Go'} back with `pico undo`."])
 
 

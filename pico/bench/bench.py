@@ -1,4 +1,4 @@
-"""The facade: `pico.open(path)` gives a `Bench`, which command line, scripts and server use.
+"""The facade: a `Bench`, which command line, scripts and server use; `pico.open(path)` gives that of scripts.
 
 What it does its services do, one a noun; beside them it has the few verbs that scripts need most.
 """

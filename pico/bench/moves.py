@@ -33,11 +33,14 @@ class Moves:
         under its id; `stop_on_error`: the first failure lets nothing more start.
         """
         from pico.bench.running.execution import Execution
+        from pico.edge.running import new_run_id
 
         opened = self.opened
         opened.suit(plan)
         named = partial(self._goal_now, plan)
         options = {"wait": opened.lock_timeout, "speed": opened.speed, **options}
+        if opened.recording is not None:
+            options |= {"within": opened.recording, "run_id": new_run_id()}
         return Execution(plan, opened.edge, opened.thread, named, **options)
 
     def apply(self, what: Plan | str | None = None) -> RunReport:

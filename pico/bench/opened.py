@@ -39,6 +39,8 @@ class Opened:
         self.speed: float | None = None
         """Share of the joint limits at which robots move here; None: as the lab says."""
         self.lock_timeout = 0.0
+        self.recording: str | None = None
+        """The open run that what runs here is a step of, see `pico.scripting.recording`."""
         self.thread = LoopThread()
         self._edge: Edge | None = None
 

@@ -163,7 +163,9 @@ class Plans:
 
     def judged(self, plan: Plan, seen: Observation) -> Plan:
         """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
-        stale."""
+        stale. Of a step of an open run nobody reads that, and its edge judges it again anyway."""
+        if self.opened.recording is not None and (plan.asked or plan.target.title):
+            return plan
         plan = with_audit(self.opened, plan, seen)
         told, lost = self._of_light(plan, seen)
         if told or lost:
@@ -281,7 +283,7 @@ class Plans:
         """Return the plan that measures measurables, each as its component and its name."""
         from pico import planning
 
-        setup, seen = self.opened.setup, self.opened.observe()
+        setup, seen = self.opened.setup, self._seen()
         found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **self.start_of(seen))
         return self.judged(found, seen)
 
@@ -296,7 +298,7 @@ class Plans:
         for address, value in values.items():
             component, _, tunable = address.partition(".")
             parts.setdefault(component, {})[tunable] = value
-        seen = self.opened.observe()
+        seen = self._seen()
         live = live_state(self.opened.setup, seen)
         changed = {
             name: replace(live.components[name], values={**live.components[name].values, **own})
@@ -307,7 +309,7 @@ class Plans:
     def moving(self, places: Mapping[str, str | Mapping[str, float]]) -> Plan:
         """Return the plan that takes parts to slots or poses (what is not named of one stays as observed), in an order
         in which they pass one another; nothing else is moved but what must make way."""
-        seen = self.opened.observe()
+        seen = self._seen()
         live = live_state(self.opened.setup, seen)
         changed = {}
         for name, place in places.items():
@@ -328,11 +330,19 @@ class Plans:
         """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
         from pico.execution.checks import require_able
 
-        seen = self.opened.observe()
+        seen = self._seen()
         found = self._one(seen, asked(self.opened.setup, seen, component, primitive, arguments or {}))
+        if self.opened.recording is not None:  # its edge looks at all of that
+            return found
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         told = cut_short(self.opened, seen)
         return replace(found, diagnostics=(*told, *found.diagnostics)).sealed() if told else found
+
+    def _seen(self) -> Observation:
+        """Return the bench as it is; within an open run without what is aligned, of which single operations know
+        nothing."""
+        opened = self.opened
+        return opened.observe() if opened.recording is None else opened.wait(opened.edge.observe())
 
     def to_goal(
         self, one: Sought, first: Sequence[Sought] = (), took: float | None = None, *, absorb: bool = True

@@ -18,6 +18,7 @@ from pico.model.primitive import primitive
 from pico.model.state import LabState, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed
+from pico.runs.left_set import left_set, with_values
 
 if TYPE_CHECKING:
     from pico.model.lab import Setup
@@ -48,6 +49,8 @@ class Recovery:
         began = _document(memory, last)
         if steered := next((op for op in began.operations if op.primitive == "teleoperate"), None):
             raise PicoError(_steered(steered.component, steered.robot))
+        if began.open:
+            raise PicoError(_recorded(began, last))
         self._as_before(memory)
         sought = _cut_goals(memory, last.run)
         only = began.target.only or _asked(began, sought)
@@ -97,13 +100,17 @@ class Recovery:
         return Plans(self.opened).to_state(looked, wanted, target, targets=only)
 
     def recover_plan(self) -> Plan:
-        """Return the plan that sets down what hands still hold, and changes nothing else."""
+        """Return the plan that sets down what hands still hold, sets back what the last run had set for a measurement
+        where only a script could go on with it, and changes nothing else."""
         refuse_in_use(self.opened)
         if memory := self.opened.edge.memory:
             self._as_before(memory)
         seen = self.opened.observe()
         wanted = live_state(self.opened.setup, self._emptied(seen))
-        target = Target(title="the bench with empty hands", cause="recover", state=wanted.as_json())
+        before = left_set(memory, seen) if memory else {}
+        wanted = with_values(wanted, before)
+        title = f"the bench with empty hands{f', and {listed(sorted(before))} as before' if before else ''}"
+        target = Target(title=title, cause="recover", state=wanted.as_json())
         return Plans(self.opened).to_state(seen, wanted, target)
 
     def _as_before(self, memory: Memory) -> None:
@@ -152,6 +159,13 @@ def _steered(component: str, robot: str | None) -> Diagnostic:
     empty = f"`pico recover` sets {component} down where {robot} still holds it; " if robot else ""
     hint = f"{empty}`pico teleop {component}{'.pose' if robot else ''}` goes on, `pico undo` goes back"
     return error("nothing-to-resume", text, hint=hint, address=component)
+
+
+def _recorded(began: Plan, last: RunRecord) -> Diagnostic:
+    """Return why a recorded run is not taken up: nobody but its script knows what was to come."""
+    text = f"run {last.run} was recorded: {began.target.name}; its script alone can go on with it"
+    hint = "`pico runs show` tells what it did; `pico recover` brings the bench to order, `pico undo` goes back"
+    return error("nothing-to-resume", text, hint=hint)
 
 
 def _goes_on(memory: Memory) -> str:

@@ -17,7 +17,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from pico import attachment
-from pico.attachment import bench_folder, require_attached
+from pico.attachment import bench_folder, hold, let_go, require_attached
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, write_whole, writing
 from pico.edge.protocol import Holder, Lease
@@ -61,6 +61,7 @@ class BenchLock:
             require_attached(self._root)  # it may have been taken to another worktree meanwhile
             with self._writing():
                 sweep(self._folder)
+            hold(self._root)
         except PicoError:
             os.close(file)
             raise
@@ -110,6 +111,7 @@ class BenchLock:
     def release(self) -> None:
         """Let go of the lock; nothing happens where it is not held."""
         if self._file is not None:
+            let_go(self._root)
             with suppress(OSError):  # on a disk that became read-only it stays; it names nobody who lives
                 (self._folder / "holder.json").unlink(missing_ok=True)
             os.close(self._file)

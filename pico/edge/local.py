@@ -32,12 +32,14 @@ if TYPE_CHECKING:
     from pico.edge.aligning import Stopping
     from pico.edge.armings import Kept
     from pico.edge.attempts import Attempts
+    from pico.edge.open_run import OpenRun
     from pico.edge.protocol import Asking
     from pico.edge.recovery import SettledOperation
     from pico.edge.running import Running
     from pico.edge.teleoperating import Teleoperating
     from pico.model.arming import Arming
     from pico.model.report import RunReport
+    from pico.model.run import RunOutcome
     from pico.runs.journal import Journal
     from pico.teleop.frames import Answer, Frame
     from pico.twin.snapshot import Snapshot
@@ -91,6 +93,7 @@ class LocalEdge:
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._runs: dict[str, Running] = {}
         self._running: Running | None = None
+        self._open: OpenRun | None = None
         self._obeying: asyncio.Task[None] | None = None
         self._journal: Journal | None = None
         self._memories: dict[int, Journal] = {}
@@ -252,13 +255,14 @@ class LocalEdge:
 
         operation = emission.shutting(self.setup, await self.observe(), laser, why)
         if operation is not None:
-            run = self._running.id if self._running is not None else await self._tidying(operation)
+            under_way = self._open or self._running
+            run = under_way.id if under_way is not None else await self._tidying(operation)
             key = f"{run}/{operation.id}.{self._clock()}/1"
             attempts.known(operation, key)
             task = self._under_way[key] = asyncio.create_task(attempts.perform(operation, key))
             task.add_done_callback(lambda _: self._under_way.pop(key, None))
             result = await asyncio.shield(task)
-            if self._running is None:
+            if under_way is None:
                 self.journal.end_run(run, "done" if result.outcome == "done" else "failed", {result.outcome: 1})
             if result.outcome != "done":
                 return False
@@ -332,8 +336,14 @@ class LocalEdge:
             await self._leave()
 
     async def _leave(self) -> None:
+        if self._open is not None:
+            if self._running is not None:
+                await self.halt()
+            await self._ended()
         while self._under_way:
             await asyncio.wait(list(self._under_way.values()))
+        with suppress(PicoError):  # a journal that is gone must not keep the bench from others
+            self._end_open("interrupted")
         if self._obeying is not None:
             self._obeying.cancel()
         await self.device.leave()
@@ -349,14 +359,14 @@ class LocalEdge:
 
         last: Asking | None = None
         for turn in count():
-            if turn % LOOKS == LOOKS - 1 and (idle or self._running is not None):
+            if turn % LOOKS == LOOKS - 1 and (idle or self._open is not None or self._running is not None):
                 with suppress(PicoError):  # a journal that is gone is told by what moves
                     await self._shut_over()
             asked = asked_to_stop(self.root, lease.token)
             if asked is not None and asked != last:
                 last = asked
                 await (self.stop() if asked == "now" else self.halt())
-                if idle:
+                if idle or self._open is not None:
                     self._obeying = None  # this task goes on to the end
                     await self.release(lease)
                     return
@@ -393,26 +403,20 @@ class LocalEdge:
                 raise PicoError(error("run", f"run {run} is of another plan", hint="start it under a new id"))
             return run
         self._cancelled.discard(run)  # of an earlier time that it was taken up
-        usual, _ = self._usual or (self.setup, None)
-        able = replace(await self.describe(), lab_digest=usual.at_speed(job.speed).digest())
-        require_applicable(job.plan, able)
         running = self._new(job, run)
-
-        def prepare() -> None:
-            if (setup := self.setup.at_speed(job.speed)) != self.setup:
-                self._usual = self.setup, self.device
-                self.setup, self.device = setup, self._opening(setup)
-            self.device.watch(running.recording.look if running.recording else None)
-
-        lease = await self._acquire(job.holder, job.wait, run, prepare)
+        lease = self._step_of(job) if job.within else await self._taken(job, running)
         try:
+            if job.within:
+                require_applicable(job.plan, await self.describe())
             seen = await self.observe()
             require_current(self.setup, job.plan, seen)
             require_allowed(self.setup, job.plan, seen)
             await self._shut_over()
-            self._begin(job, run, await self.describe(), lease)
+            if not job.within:
+                self._begin(job, run, await self.describe(), lease)
         except BaseException:
-            await self._leave()
+            if not job.within:
+                await self._leave()
             raise
         over = [old for old, known in self._runs.items() if known.task is not None and known.task.done()]
         for old in over[: -KNOWN + 1]:
@@ -422,6 +426,82 @@ class LocalEdge:
         running.task = asyncio.create_task(self._carry_out(job, running, lease, seen.time))
         running.task.add_done_callback(running.over)
         return run
+
+    async def _taken(self, job: Job, running: Running) -> Lease:
+        """Take the bench for a run, at its speed; raises PicoError where its plan is not for this bench."""
+        from pico.execution.checks import require_applicable
+
+        usual, _ = self._usual or (self.setup, None)
+        able = replace(await self.describe(), lab_digest=usual.at_speed(job.speed).digest())
+        require_applicable(job.plan, able)
+
+        def prepare() -> None:
+            if (setup := self.setup.at_speed(job.speed)) != self.setup:
+                self._usual = self.setup, self.device
+                self.setup, self.device = setup, self._opening(setup)
+            self.device.watch(running.recording.look if running.recording else None)
+
+        return await self._acquire(job.holder, job.wait, running.id, prepare)
+
+    def _step_of(self, job: Job) -> Lease:
+        """Return the lease of the open run that a job is a step of; raises PicoError where that can't begin now."""
+        from pico.edge.open_run import not_open
+
+        if self._open is None or self._lease is None or self._open.id != job.within:
+            raise PicoError(not_open(str(job.within)), ExitCode.INTERRUPTED)
+        if self._halted:
+            raise PicoError(HALTED, ExitCode.INTERRUPTED)
+        if self._running is not None:
+            text = f"a step of run {job.within} is under way"
+            raise PicoError(error("run", text, hint="what runs side by side is one plan, such as of several `set`"))
+        if job.filmed or job.resumes:
+            text = "a step of an open run is neither filmed nor taken up by itself"
+            raise PicoError(error("run", text, hint="run it outside of it"))
+        return self._lease
+
+    async def open(self, job: Job, run: str) -> Lease:
+        """Take the bench and begin a run that stays open; see `pico.edge.protocol.Edge`."""
+        from pico.edge.open_run import OpenRun
+        from pico.execution.checks import require_current
+
+        lease = await self._taken(job, self._new(job, run))
+        try:
+            require_current(self.setup, job.plan, await self.observe())
+            await self._shut_over()
+            self._begin(job, run, await self.describe(), lease)
+        except BaseException:
+            await self._leave()
+            raise
+        self._open = OpenRun(run, job.plan)
+        return lease
+
+    async def finish(self, run: str, outcome: RunOutcome) -> RunReport:
+        """End an open run and give the bench back; see `pico.edge.protocol.Edge`."""
+        from pico.edge.about import seen_after
+        from pico.edge.open_run import not_open
+
+        opened = self._open
+        if opened is None or opened.id != run:
+            raise PicoError(not_open(run), ExitCode.INTERRUPTED)
+        await self._ended()
+        try:
+            seen, able = await self.observe(), await self.describe()
+            report = opened.report("interrupted" if self._halted else outcome, seen, able)
+            report = replace(report, diagnostics=self._shut)
+            self._shut = ()
+            self._end_open(report.outcome)
+            self.journal.saw(run, seen_after(seen, (), reached=False))
+        finally:
+            await self._leave()
+        return report
+
+    def _end_open(self, outcome: RunOutcome) -> None:
+        """Write down how the open run ended."""
+        opened, self._open = self._open, None
+        if opened is not None:
+            self.journal.end_run(opened.id, outcome, opened.counts())
+            with suppress(OSError):
+                self._run_mark.unlink(missing_ok=True)
 
     def _new(self, job: Job, run: str) -> Running:
         from pico.edge.running import Running
@@ -447,10 +527,12 @@ class LocalEdge:
         async def execute(operation: Operation, key: str) -> OperationResult:
             return await self.execute(operation, key, lease)
 
-        began = time.monotonic()
+        began, around = time.monotonic(), self._open
+        if around is not None:
+            job = replace(job, plan=around.step(job.plan))
         walk = Walk(
-            job.plan, execute, lambda event: self._tell(running, event), run=running.id, now=now,
-            stop_on_error=job.stop_on_error,
+            job.plan, execute, lambda event: self._tell(running, event), run=around.id if around else running.id,
+            now=now, stop_on_error=job.stop_on_error,
         )  # fmt: skip
         running.walk = walk
         try:
@@ -459,12 +541,15 @@ class LocalEdge:
         finally:
             self._running = None
             self._cancelled.discard(running.id)
-            await self.release(lease)
+            if around is None:
+                await self.release(lease)
 
     def _tell(self, running: Running, event: Event) -> None:
         """Write down how a run ended before anyone hears of it, and log what happens."""
         try:
-            if event.kind == "run_finished":
+            if event.kind == "run_finished" and self._open is not None:
+                self._open.count(event)
+            elif event.kind == "run_finished":
                 tally = {k: v for k, v in event.data.items() if k != "outcome"}
                 self.journal.end_run(running.id, event.data["outcome"], tally)
                 with suppress(OSError):
@@ -484,6 +569,8 @@ class LocalEdge:
         reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
         report = replace(report, diagnostics=(*report.diagnostics, *self._first, *self._shut))
         self._first = self._shut = ()
+        if self._open is not None:
+            return report
         try:
             self.journal.saw(running.id, seen_after(seen, report.expectations, reached=reached))
         except PicoError as exc:  # it must not hide the report

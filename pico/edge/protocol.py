@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from pico.edge.armings import Kept
     from pico.model.arming import Arming
     from pico.model.report import RunReport
+    from pico.model.run import RunOutcome
     from pico.runs.memory import Memory
     from pico.twin.snapshot import Snapshot
 
@@ -61,6 +62,8 @@ class Holder:
 
 STEERING = "pico teleop"
 """For which a bench is taken, and what, where a person steers."""
+RECORDING = "recording"
+"""For which a bench is taken, and what, where a script has an open run."""
 
 
 @record
@@ -83,7 +86,8 @@ class Job:
 
     `resumes`: the run of this id goes on, which is known. `stop_on_error`: the first failure lets nothing more start.
     `filmed`: what moves is kept for a film. `wait`: so long it waits for the bench where somebody has it [s].
-    `speed`: share of the joint limits that the plan was made for, instead of the lab's.
+    `speed`: share of the joint limits that the plan was made for, instead of the lab's. `within`: the id of the open
+    run that this is a step of, see `Edge.open`.
     """
 
     plan: Plan
@@ -93,6 +97,7 @@ class Job:
     filmed: bool = False
     wait: float = 0.0
     speed: float | None = None
+    within: str | None = None
 
 
 class Edge(Protocol):
@@ -182,6 +187,17 @@ class Edge(Protocol):
         IMPOSSIBLE for a plan with errors, STALE where the bench or the lab changed since it was made, DENIED by the
         lab's policy, LOCKED where somebody else has the bench, ERROR where the device can't do what the plan asks.
         """
+        ...
+
+    async def open(self, job: Job, run: str) -> Lease:
+        """Take the bench and begin a run under the id `run` that stays open: its plan has no operations, and says what
+        it is for. What is then started `within` it is journalled under its id, checked as any plan is, one after the
+        other. Giving the lease back ends it as `interrupted`; killed, it has no end. Raises PicoError as `start` does.
+        """
+        ...
+
+    async def finish(self, run: str, outcome: RunOutcome) -> RunReport:
+        """End an open run, give the bench back, and return what became of it; raises PicoError where it is not open."""
         ...
 
     def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:

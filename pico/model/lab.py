@@ -22,7 +22,7 @@ from pico.model.catalog import (
 )
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length, Value
-from pico.model.record import digest, record
+from pico.model.record import digest, record, remembered
 
 
 @record
@@ -615,6 +615,7 @@ class Setup:
             and kind.geometry.grasp is not None
         )
 
+    @remembered
     def measurables_of(self, name: str) -> Mapping[str, Measurable]:
         """Return what can be asked to be measured of a component or a camera over the bench; nothing for another name.
 
@@ -639,6 +640,7 @@ class Setup:
         """Whether this is the same lab with the same types, as digests tell it."""
         return self == other or self.digest() == other.digest()
 
+    @remembered
     def digest(self) -> str:
         """Return the digest of the lab and its types as the first release wrote them, as a plan records it; parameters
         of a part count by their values, however they are written."""

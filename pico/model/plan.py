@@ -44,7 +44,8 @@ class Target:
     `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
     is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
-    `heal`; `single`: for one operation that somebody asked for; `teleoperation`), and `of` which run; `recipe`: of
+    `heal`; `single`: for one operation that somebody asked for; `teleoperation`; `recording`: for a run whose
+    operations are asked for while it is open), and `of` which run; `recipe`: of
     which run of a recipe (`NAME@ID`) it is a `step`. `align`: goals that are not aligned then
     are sought at its end.
     """
@@ -169,6 +170,11 @@ class Plan:
         """Whether it is of single operations that somebody asked for, not of a state."""
         kinds = {op.reason.kind for op in self.operations}
         return (self.target.cause == "single" or "asked" in kinds) and kinds <= {"asked", "parked", "interlock", "held"}
+
+    @property
+    def open(self) -> bool:
+        """Whether a run of it is open: it has no operations, they are asked for while it goes on."""
+        return self.target.cause == "recording" and not self.operations
 
     def because(self, cause: str, of: str | None = None) -> Plan:
         """Return the plan, sealed, with why it was made: see `Target`."""

@@ -10,10 +10,13 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
-from typing import Any, TypeVar, dataclass_transform
+from functools import cache, wraps
+from typing import Any, TypeVar, cast, dataclass_transform
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
+REMEMBERED = 4
+"""Of so many objects is kept what was computed of them, see `remembered`: a bench, and those that it is tried as."""
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
@@ -59,6 +62,26 @@ def _builtin(value: Any) -> Any:
     if isinstance(value, Sequence):
         return list(value)
     raise TypeError(f"{type(value).__name__} has no JSON form")
+
+
+def remembered(work: F) -> F:
+    """Let what is computed of a frozen object (the first argument) and of hashable ones be computed once, for the
+    objects of which this was asked last; what is returned must not be changed."""
+    known: dict[int, tuple[object, dict[tuple[Any, ...], Any]]] = {}
+
+    @wraps(work)
+    def recall(of: Any, *more: Any) -> Any:
+        kept = known.get(id(of))
+        if kept is None or kept[0] is not of:
+            while len(known) >= REMEMBERED:
+                known.pop(next(iter(known)), None)
+            kept = known[id(of)] = of, {}
+        found = kept[1]
+        if more not in found:
+            found[more] = work(of, *more)
+        return found[more]
+
+    return cast(F, recall)
 
 
 def _rounded(value: float) -> float:

@@ -38,8 +38,8 @@ class Cause:
     """Why a run was started.
 
     `kind`: `apply`, `checkout`, `single`, `undo`, `recover`, `resume`, `heal`, `bisect`, `recipe`, `optimizer`,
-    `teleoperation`, or empty where the journal did not keep it. `of`: the run that it undoes or goes on with.
-    `recipe`, `step`: which.
+    `teleoperation`, `recording` (of a script), or empty where the journal did not keep it. `of`: the run that it undoes
+    or goes on with. `recipe`, `step`: which.
     """
 
     kind: str = ""
@@ -152,8 +152,9 @@ class TraceEvent:
     `kind` of a trace: `intent` (`data`: the operation), `started` (the component as observed before), `done`, `failed`
     and `unknown` (`outcome`, `seconds`, the component `after`), `resolved` (how an unknown one ended, and who said so);
     `operation` and `attempt` say of what; `run` of which of the runs that are folded into one, whose own `t` and `seq`
-    these are. Of measurements: `measurement` (`data`: a `pico.measurement`), `expectation`,
-    `observation` (a component as observed after the run).
+    these are. What ended an operation is one transition or measurement: `before` and `after` are the digests of the
+    states from which it led and to which, `actor` is who had it done. Of measurements: `measurement` (`data`: a
+    `pico.measurement`), `expectation`, `observation` (a component as observed after the run).
     """
 
     t: float
@@ -165,6 +166,9 @@ class TraceEvent:
     component: str | None = None
     data: Mapping[str, Any] = field(default_factory=dict)
     run: str | None = None
+    before: str | None = None
+    after: str | None = None
+    actor: str | None = None
 
 
 def tally(ends: Iterable[str]) -> dict[str, int]:

@@ -10,13 +10,14 @@ import re
 from collections.abc import Callable, Collection, Iterable
 from typing import Any
 
-from pico.expressions import Function, Kind
+from pico.expressions import Function, Kind, words_of
 from pico.kernels.measured import numbers_by
 from pico.model.catalog import Tunable
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement, number_of
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.pose import Pose, angle_between
+from pico.model.record import remembered
 
 POLICY_NAMES: dict[str, Kind] = {
     "plan": "any", "operations": "list", "components": "any", "lasers": "list", "lab": "any", "backend": "text",
@@ -33,7 +34,7 @@ _PLACE: dict[str, Kind] = {
 
 def spoken_of(setup: Setup, texts: Iterable[str]) -> list[str]:
     """Return the components whose names occur in expressions."""
-    words = {word for text in texts for word in re.findall(r"[A-Za-z_]\w*", text)}
+    words = words_of(texts)
     return sorted(words & (setup.lab.inventory.keys() | cameras_of(setup)))
 
 
@@ -55,6 +56,7 @@ def names_of(setup: Setup, components: Iterable[str]) -> dict[str, Kind]:
     return names
 
 
+@remembered
 def numbers_of(setup: Setup, component: str) -> dict[str, str]:
     """Return the numbers that can be measured of a component or camera, each with the measurable that has it: those
     that are measurables themselves, and those of images and of kernels (`centroid.x`)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
 from typing import Any
 
 from pico.model.lab import Setup
@@ -13,8 +14,9 @@ from pico.model.record import as_json
 from pico.policy.beams import open_beams
 
 
-def policy_values(setup: Setup, plan: Plan, seen: Observation) -> dict[str, Any]:
-    """Return `plan`, `operations`, `components`, `lasers`, `lab`, `backend`, `fidelity` and `supervised`.
+def policy_values(setup: Setup, plan: Plan, seen: Observation, spoken: Collection[str]) -> dict[str, Any]:
+    """Return those of `plan`, `operations`, `components`, `lasers`, `lab`, `backend`, `fidelity` and `supervised` that
+    are `spoken` of.
 
     An operation is that of the plan with `robot` ("" for none), `by_hand`, the `mass` of what it moves [kg] and
     `open_beams`: the lasers whose beam may be open while it runs. A component has its type, parameters, `mass`,
@@ -22,20 +24,25 @@ def policy_values(setup: Setup, plan: Plan, seen: Observation) -> dict[str, Any]
     what it shall be (`desired`), `moves`, and the keep-out zones (`keep_out`) that it would stand in.
     """
     lasers = [n for n in sorted(setup.lab.inventory) if setup.type_of(n).optics.element == "source"]
-    opened = open_beams(setup, plan.operations, seen, lasers)
+    opened = open_beams(setup, plan.operations, seen, lasers) if "operations" in spoken else {}
     moving = {op.component for op in plan.operations if op.carries or op.kind.by_hand}
-    lab = as_json(setup.lab)
-    return {
-        "plan": {k: v for k, v in as_json(plan).items() if k not in ("policy", "digest")},
-        "operations": [_operation(setup, op, opened[op.id]) for op in plan.operations],
-        "components": {n: _component(setup, n, plan, seen, n in moving) for n in sorted(setup.lab.inventory)},
-        "lasers": lasers,
-        "lab": {k: lab[k] for k in ("name", "table", "regions", "keep_out", "margins") if k in lab}
-        | {"open_beam": setup.lab.policy.open_beam},
-        "backend": plan.backend,
-        "fidelity": plan.fidelity,
-        "supervised": _people(seen),
+    told: dict[str, Callable[[], Any]] = {
+        "plan": lambda: {k: v for k, v in as_json(plan).items() if k not in ("policy", "digest")},
+        "operations": lambda: [_operation(setup, op, opened[op.id]) for op in plan.operations],
+        "components": lambda: {n: _component(setup, n, plan, seen, n in moving) for n in sorted(setup.lab.inventory)},
+        "lasers": lambda: lasers,
+        "lab": lambda: _lab(setup),
+        "backend": lambda: plan.backend,
+        "fidelity": lambda: plan.fidelity,
+        "supervised": lambda: _people(seen),
     }
+    return {name: value() for name, value in told.items() if name in spoken}
+
+
+def _lab(setup: Setup) -> dict[str, Any]:
+    lab = as_json(setup.lab)
+    kept = {k: lab[k] for k in ("name", "table", "regions", "keep_out", "margins") if k in lab}
+    return kept | {"open_beam": setup.lab.policy.open_beam}
 
 
 def _people(seen: Observation) -> str:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.expressions import ExpressionError, Language, UnknownValue
+from pico.expressions import ExpressionError, Language, UnknownValue, words_of
 from pico.model.lab import PolicyRule, Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
@@ -41,8 +41,9 @@ def verdicts(setup: Setup, plan: Plan, seen: Observation) -> tuple[Mapping[str, 
     rules = setup.lab.policy.rules
     spoken = [n for n in spoken_of(setup, (rule.that for rule in rules)) if n not in POLICY_NAMES]
     values, unknown = values_of(setup, seen, spoken)
-    values |= policy_values(setup, plan, seen)
-    if any("audit" in rule.that for rule in rules):
+    words = words_of(rule.that for rule in rules)
+    values |= policy_values(setup, plan, seen, words)
+    if "audit" in words:
         audit, _ = audit_of(setup, plan, seen)
         values["audit"] = {"passes": audit.passes, "findings": [f.text for f in audit.findings]}
     if seen.person is not None:

@@ -17,7 +17,7 @@ from pico.model.run import STRENGTH, Cause, Run, Seen, TraceEvent
 from pico.model.state import LabState, state_from_json
 from pico.runs.journal import JournalRecord, RunRecord
 from pico.runs.memory import Memory
-from pico.runs.states import changes, digest_of, state_left, state_seen, touched
+from pico.runs.states import changes, digest_of, state_left, state_seen, states_along, touched
 from pico.runs.trace import artifacts, busy, counted, measured, trace_events, unmet
 
 ASKED = ("asked", "parked", "interlock", "held")
@@ -58,7 +58,11 @@ def recorded(setup: Setup, memory: Memory, run: RunRecord, part: int = 0) -> Rec
     earlier = [r for r in records if _resumption(r) < part]
     before = state_left(setup, state_from_json(plan["lab"]["name"], plan["base"]["state"]), earlier)
     after = state_seen(setup, seen["components"]) if seen else state_left(setup, before, own)
-    trace, observed = trace_events(own), digest_of(setup, after)
+    doers = [str(start.get("operator", "")) for start in starts] or [""]
+    trace = trace_events(
+        own, states_along(setup, before, own), lambda r: doers[min(_resumption(r), len(doers) - 1)]
+    )  # fmt: skip
+    observed = digest_of(setup, after)
     about = starts[min(part, len(starts) - 1)] if starts else {}
     document = Run(
         id=f"{run.run}-r{part}" if part else run.run,

@@ -39,6 +39,21 @@ def state_left(setup: Setup, before: LabState, records: Iterable[JournalRecord])
     return replace(before, components=parts)
 
 
+def states_along(setup: Setup, before: LabState, records: Iterable[JournalRecord]) -> dict[int, tuple[str, str]]:
+    """Return for each record that ended an operation the digests of the states from which that led and to which, as
+    each operation saw its own component; what ran side by side counts when it ended."""
+    now, known, begun, found = before, digest_of(setup, before), dict[str, str](), dict[int, tuple[str, str]]()
+    for r in records:
+        if r.kind == "started":
+            begun[r.key] = known
+        elif r.kind != "intent":
+            left = state_left(setup, now, [r])
+            if left.components != now.components:
+                now, known = left, digest_of(setup, left)
+            found[r.seq] = begun.get(r.key, known), known
+    return found
+
+
 def digest_of(setup: Setup, state: LabState) -> str:
     """Return the digest of an observed state in the form of a manifest whose parts in slots are named by these."""
     parts = {}

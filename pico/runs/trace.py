@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -13,8 +13,11 @@ from pico.runs.journal import JournalRecord
 ENDS = ("done", "failed", "unknown")
 
 
-def trace_events(records: Sequence[JournalRecord]) -> tuple[TraceEvent, ...]:
-    """Return the trace of some records: each with the time on the bench's clock, as far as its operation ended."""
+def trace_events(
+    records: Sequence[JournalRecord], states: Mapping[int, tuple[str, str]], actor: Callable[[JournalRecord], str]
+) -> tuple[TraceEvent, ...]:
+    """Return the trace of some records: each with the time on the bench's clock, as far as its operation ended. What
+    ended an operation has the digests of the `states` it led from and to, by record, and whose operation it was."""
     spans = _spans(records)
     zero = min((start for start, _ in spans.values()), default=0.0)
     events, now = [], 0.0
@@ -26,10 +29,19 @@ def trace_events(records: Sequence[JournalRecord]) -> tuple[TraceEvent, ...]:
         events.append(
             TraceEvent(
                 t=now, at=r.at, seq=0, kind=r.kind, operation=operation, attempt=int(attempt), component=r.component,
-                data=_data(r),
+                data=_data(r), **_ends(r, states, actor),
             )
         )  # fmt: skip
     return numbered(events)
+
+
+def _ends(
+    r: JournalRecord, states: Mapping[int, tuple[str, str]], actor: Callable[[JournalRecord], str]
+) -> dict[str, str | None]:  # fmt: skip
+    if r.seq not in states:
+        return {}
+    before, after = states[r.seq]
+    return {"before": before, "after": after, "actor": actor(r) or None}
 
 
 def busy(records: Sequence[JournalRecord]) -> float:

@@ -17,7 +17,7 @@ def ended_when(bench: Bench, plan: Plan, when: Callable[[Event], bool], *, at_on
 
     async def followed() -> RunReport:
         edge, run = bench.edge, new_run_id()
-        await edge.start(Job(plan=plan, holder="test"), run)
+        await edge.start(Job(plan=plan, holder="test", within=bench.recording), run)
         async for event in edge.events(run):
             if when(event):
                 await (edge.stop() if at_once else edge.cancel(run))

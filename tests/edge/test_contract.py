@@ -31,7 +31,7 @@ from pico.edge.protocol import Edge, Job
 from pico.history.examples.example import example_names, make_example
 from pico.model.event import Event
 from pico.model.operation import Operation, Reason
-from pico.model.plan import Plan
+from pico.model.plan import LabRef, Plan, Target
 from pico.model.record import as_json
 from pico.twin.snapshot import Recording
 from pico.vision.arm import NOMINAL
@@ -180,6 +180,49 @@ def test_one_moves_it_at_a_time_and_a_lease_that_is_over_moves_nothing(bench: Be
         await edge.release(later)
 
     on_edge(bench, act)
+
+
+def opening(bench: Bench) -> Plan:
+    """Return the plan of a run whose operations are asked for while it is open."""
+    seen = bench.observe()
+    lab, target = LabRef(name=bench.setup.lab.name, digest=bench.setup.digest()), Target(title="it", cause="recording")
+    return Plan(lab=lab, target=target, **bench.plans.start_of(seen)).sealed()
+
+
+def test_an_open_run_has_the_operations_of_all_that_is_started_within_it(bench: Bench) -> None:
+    job = Job(plan=opening(bench), holder="test")
+    on_edge(bench, lambda edge: edge.open(job, "r1"))
+    for n, angle in enumerate((10, 20)):
+        plan = bench.single("p1", "set", angle=angle)
+        events = on_edge(bench, lambda edge, n=n, plan=plan: ran(edge, plan, f"s{n}", within="r1"))
+        assert {event.run for event in events} == {"r1"} and events[-1].data["outcome"] == "done"
+    holder = on_edge(bench, lambda edge: edge.holder())
+    assert holder is not None and holder.what == "test" and on_edge(bench, lambda edge: edge.unended()) == "r1"
+    with pytest.raises(PicoError, match="in use by"):
+        on_edge(bench, lambda edge: ran(edge, plan, "r2"))
+    with pytest.raises(PicoError, match="run r3 is not open any more"):
+        on_edge(bench, lambda edge: ran(edge, plan, "s3", within="r3"))
+    report = on_edge(bench, lambda edge: edge.finish("r1", "done"))
+    assert (report.run, report.outcome, report.done, report.failed) == ("r1", "done", 2, 0)
+    memory = edge_of(bench).memory
+    assert memory is not None and [(r.run, r.outcome) for r in memory.runs()] == [("r1", "done")]
+    assert {r.key for r in memory.records(run="r1")} == {"r1/1.op1/1", "r1/2.op1/1"}
+    assert on_edge(bench, lambda edge: edge.holder()) is None and on_edge(bench, lambda edge: edge.unended()) is None
+    with pytest.raises(PicoError, match="run r1 is not open any more"):
+        on_edge(bench, lambda edge: edge.finish("r1", "done"))
+
+
+def test_an_open_run_whose_client_is_gone_is_interrupted(bench: Bench) -> None:
+    job = Job(plan=opening(bench), holder="test")
+
+    async def act(edge: Edge) -> None:
+        lease = await edge.open(job, "r1")
+        await edge.release(lease)
+
+    on_edge(bench, act)
+    memory = edge_of(bench).memory
+    assert memory is not None and [(r.run, r.outcome) for r in memory.runs()] == [("r1", "interrupted")]
+    assert on_edge(bench, lambda edge: edge.holder()) is None
 
 
 @pytest.mark.parametrize("how", ["cancel", "halt", "stop"])

@@ -21,6 +21,7 @@ from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
+from pico.model.record import remembered
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
 from pico.teleop.frames import STEPS
@@ -35,6 +36,15 @@ if TYPE_CHECKING:
     from pico.twin.snapshot import Snapshot
 
 PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
+
+
+@remembered
+def _capabilities(setup: Setup, fidelity: str) -> Capabilities:
+    return Capabilities(
+        name="sim", fidelity=fidelity, evidence=fidelity, lab_digest=setup.digest(),
+        primitives=PRIMITIVES | STEPS | plugged_in().keys(), robots=tuple(sorted(setup.lab.robots)),
+        measurables=frozenset(simulated(setup)), simulated=True,
+    )  # fmt: skip
 
 
 class SimDevice:
@@ -71,16 +81,7 @@ class SimDevice:
 
     async def describe(self) -> Capabilities:
         """Return what the simulator can do."""
-        return Capabilities(
-            name="sim",
-            fidelity=self.fidelity,
-            evidence=self.fidelity,
-            lab_digest=self.setup.digest(),
-            primitives=PRIMITIVES | STEPS | plugged_in().keys(),
-            robots=tuple(sorted(self.setup.lab.robots)),
-            measurables=frozenset(simulated(self.setup)),
-            simulated=True,
-        )
+        return _capabilities(self.setup, self.fidelity)
 
     async def observe(self) -> Observation:
         """Return the table as the lab says that it is looked at, exactly or by sight.

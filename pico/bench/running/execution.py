@@ -43,10 +43,11 @@ class Execution:
         stop_on_error: bool = False,
         wait: float = 0.0,
         speed: float | None = None,
+        within: str | None = None,
     ) -> None:
         """`thread`: where the edge lives. `named`: what the goal is called once the run is over. `recording`: gets what
         a film of it shows. `resumes`: the run that goes on under its id. `run_id`: of the new one.
-        `stop_on_error`, `wait`, `speed`: see `pico.edge.protocol.Job`.
+        `stop_on_error`, `wait`, `speed`, `within`: see `pico.edge.protocol.Job`.
         """
         self.plan, self.id = plan, resumes or run_id or new_run_id()
         self._edge, self._thread, self._recording = edge, thread, recording
@@ -54,6 +55,7 @@ class Execution:
         self._job = Job(
             plan=plan, holder=holder, resumes=resumes is not None, stop_on_error=stop_on_error,
             filmed=recording is not None, wait=wait, speed=speed,
+            within=within,
         )  # fmt: skip
         self._queue: queue.SimpleQueue[Event | RunReport | BaseException] = queue.SimpleQueue()
         self._report: RunReport | None = None

@@ -21,6 +21,7 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.pose import Pose
 from pico.model.report import RunReport
+from pico.model.run import RunOutcome
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.teleop.frames import Answer, Frame
 from pico.vision.calibration import calibration_from_json
@@ -46,7 +47,7 @@ def _value(name: str, data: bytes) -> Any:
 
 ANSWER = 60.0
 """Seconds in which an edge answers what it does not have to move for."""
-LASTING = frozenset({"execute", "start", "report", "cancel", "halt", "stop", "adopt"})
+LASTING = frozenset({"execute", "start", "report", "finish", "cancel", "halt", "stop", "adopt"})
 """Calls that last as long as something moves, or waits for the bench."""
 
 
@@ -278,11 +279,14 @@ class RemoteEdge:
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
         """Take the bench; it is given back where this process dies."""
-        asked = self._line.written("acquire", holder, wait)
+        return await self._lease("acquire", holder, wait)
+
+    async def _lease(self, name: str, *arguments: Any) -> Lease:
+        asked = self._line.written(name, *arguments)
         reader, writer = await self._connect()
         try:
             writer.write(asked)
-            lease: Lease = _value("acquire", await reader.readline())
+            lease: Lease = _value(name, await reader.readline())
         except BaseException:
             writer.close()
             raise
@@ -305,6 +309,15 @@ class RemoteEdge:
     async def start(self, job: Job, run: str) -> str:
         """Check a plan again, start a run of it under the id `run`, and return that."""
         found: str = await self._call("start", job, run)
+        return found
+
+    async def open(self, job: Job, run: str) -> Lease:
+        """Take the bench and begin a run that stays open, until this process dies."""
+        return await self._lease("open", job, run)
+
+    async def finish(self, run: str, outcome: RunOutcome) -> RunReport:
+        """End an open run, give the bench back, and return what became of it."""
+        found: RunReport = await self._call("finish", run, outcome)
         return found
 
     async def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:

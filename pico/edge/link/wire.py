@@ -22,6 +22,7 @@ from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.report import RunReport
+from pico.model.run import RunOutcome
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.teleop.frames import Answer, Frame
 from pico.twin.placement import Placement
@@ -46,6 +47,8 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "acquire": ((str, float), Lease),
     "execute": ((Operation, str, Lease), OperationResult),
     "start": ((Job, str), str),
+    "open": ((Job, str), Lease),
+    "finish": ((str, RunOutcome), RunReport),
     "events": ((str, int), Event),
     "report": ((str,), RunReport),
     "film": ((str,), list[Snapshot]),
@@ -81,7 +84,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
 }
 """Every call that there is: the types of its arguments, and of its value or of each `next` one."""
 STREAMS = frozenset({"events"})
-TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "resolve"}) | (
+TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "resolve"}) | (
     {call for call in CALLS if call.startswith("world.")}
     - {"world.placements", "world.true_cameras", "world.true_arms"}
 )

@@ -1,0 +1,201 @@
+"""One run of all that a script does on a bench: taken once, checked each time, told truly however it ends."""
+
+from __future__ import annotations
+
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from attended import ended_when
+
+from pico.diagnostics import ExitCode, PicoError
+from pico.runs.operations import operations
+from pico.scripting.bench import Bench
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def bench(case_study: Path, tmp_path: Path) -> Bench:
+    shutil.copytree(case_study, tmp_path / "shel")
+    return Bench.open(tmp_path / "shel", fidelity="kinematic")
+
+
+def turn(bench: Bench, angle: float) -> None:
+    assert bench.apply(bench.single("p1", "set", angle=angle)).outcome == "done"
+
+
+def runs(bench: Bench) -> list[tuple[str, str | None]]:
+    memory = bench.edge.memory
+    return [(run.run, run.outcome) for run in memory.runs()] if memory else []
+
+
+def test_all_that_is_done_while_it_is_recorded_is_one_run(bench: Bench) -> None:
+    with bench.record("scan") as run:
+        for angle in (10, 20, 30):
+            turn(bench, angle)
+        bench.apply(bench.single("p1", "measure", measurable="angle"))
+        bench.apply(bench.single("p1", "move", x=300, y=420, yaw=0))
+        assert bench.apply("C3").reached
+    assert runs(bench) == [(run.id, "done")]
+    assert (run.report.goal, run.report.outcome, run.report.failed) == ("scan", "done", 0)
+    assert [m.value for m in run.measurements] == [30.0]
+    found, commit = bench.history.recorded_run()
+    assert (found.document.id, found.document.goal, found.document.cause.kind, commit) == (
+        run.id, "scan", "recording", None,
+    )  # fmt: skip
+    assert len(operations(found.trace)) == found.document.tally["done"] == run.report.done
+
+
+def test_each_line_of_the_trace_has_the_state_before_and_after_it_and_who_did_it(bench: Bench) -> None:
+    with bench.record("scan"):
+        turn(bench, 10)
+        bench.apply(bench.single("p1", "measure", measurable="angle"))
+        turn(bench, 20)
+    found, _ = bench.history.recorded_run()
+    ends = [event for event in found.trace if event.kind == "done"]
+    assert len(ends) == 3 and all(event.actor == found.document.operator for event in ends)
+    first, looked, last = ends
+    assert first.before == found.document.state_before and last.after == found.document.state_after
+    assert first.before != first.after == looked.before == looked.after == last.before != last.after
+    assert all(event.before is None for event in found.trace if event.kind in ("intent", "started"))
+
+
+def test_steps_are_checked_as_single_operations_are(bench: Bench) -> None:
+    with bench.record("checks"):
+        old = bench.single("p1", "set", angle=10)
+        turn(bench, 40)
+        with pytest.raises(PicoError) as caught:
+            bench.apply(old)
+        assert caught.value.exit_code == ExitCode.STALE
+        with pytest.raises(PicoError, match="takes no `turn`"):
+            bench.single("p1", "set", turn=10)
+        with pytest.raises(PicoError) as caught:
+            bench.apply(bench.single("p1", "move", x=5000))
+        assert caught.value.exit_code == ExitCode.IMPOSSIBLE
+        turn(bench, 50)
+
+
+def test_a_policy_denies_a_step(bench: Bench) -> None:
+    lab = bench.root / "lab.yaml"
+    rule = "    - {name: still, that: \"operations.all(o, o.component != 'p1')\", message: p1 stays}\n"
+    lab.write_text(lab.read_text().replace("  rules:", f"  rules:\n{rule}#", 1))
+    with Bench.open(bench.root, fidelity="kinematic") as strict, strict.record("denied"):
+        plan = strict.single("p1", "set", angle=10)
+        with pytest.raises(PicoError, match="p1 stays") as caught:
+            strict.apply(plan)
+        assert caught.value.exit_code == ExitCode.DENIED
+
+
+def test_the_bench_is_taken_for_the_whole_of_it(bench: Bench) -> None:
+    with bench.record("mine"):
+        other = Bench.open(bench.root, fidelity="kinematic")
+        with pytest.raises(PicoError, match=r"in use by .*: recording mine, 0 operations done") as caught:
+            other.recovery.undo_plan()
+        with pytest.raises(PicoError) as caught:
+            other.apply(other.single("p2", "set", angle=3))
+        assert caught.value.exit_code == ExitCode.LOCKED
+        with pytest.raises(PicoError, match="a run has no run within it"):
+            bench.record("within").__enter__()
+    other.apply(other.single("p2", "set", angle=3))
+
+
+def test_an_exception_ends_it_as_failed_and_ctrl_c_as_interrupted(bench: Bench) -> None:
+    with pytest.raises(ZeroDivisionError), bench.record("bad"):
+        turn(bench, 10)
+        raise ZeroDivisionError
+    with pytest.raises(KeyboardInterrupt), bench.record("stopped"):
+        turn(bench, 20)
+        raise KeyboardInterrupt
+    assert [outcome for _, outcome in runs(bench)] == ["failed", "interrupted"]
+    turn(bench, 30)
+
+
+def test_ctrl_c_during_a_step_ends_the_run_where_it_stands(bench: Bench) -> None:
+    with pytest.raises(PicoError) as caught, bench.record("stopped") as run:
+        bench.apply(bench.single("p1", "set", angle=10))
+        report = ended_when(bench, bench.single("p2", "move", x=560), lambda event: event.kind == "operation_started")
+        assert report.outcome == "interrupted"
+        bench.apply(bench.single("p1", "set", angle=20))
+    assert caught.value.exit_code == ExitCode.INTERRUPTED
+    assert run.report.outcome == "interrupted"
+    assert bench.observe().known_values["p1"]["angle"] == 10.0
+
+
+def test_what_is_asked_to_stop_from_elsewhere_stops(bench: Bench) -> None:
+    from pico.bench.running.stopping import stop
+
+    with pytest.raises(PicoError) as caught, bench.record("stopped"):
+        turn(bench, 10)
+        holder, last = stop(bench.root)
+        assert holder is not None and holder.what == "recording stopped"
+        assert last is not None and last.outcome == "interrupted"
+        turn(bench, 20)
+    assert caught.value.exit_code == ExitCode.INTERRUPTED
+
+
+def test_undo_takes_back_a_whole_recorded_run(bench: Bench) -> None:
+    before = bench.observe().known_values
+    with bench.record("scan"):
+        for angle in (10, 20):
+            turn(bench, angle)
+        bench.apply(bench.single("p2", "set", angle=5))
+    bench.apply(bench.recovery.undo_plan())
+    assert bench.observe().known_values == before
+
+
+def test_a_commit_carries_it_as_one_run(bench: Bench) -> None:
+    with bench.record("scan") as run:
+        for angle in (10, 20):
+            turn(bench, angle)
+    assert bench.commit("Scanned", "capture").runs == (run.id,)
+    found, commit = bench.history.recorded_run(run.id)
+    assert commit is not None and [e.after for e in found.trace if e.kind == "done"][-1] is not None
+
+
+SCRIPT = """
+import signal, sys, pico
+signal.signal(signal.SIGINT, signal.default_int_handler)
+with pico.open(sys.argv[1], fidelity="kinematic") as bench, bench.record("scan") as run:
+    for angle in range(1000):
+        bench.apply(bench.single("cam", "measure", measurable="centroid"))
+        print(run.id, flush=True)
+"""
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_a_killed_script_leaves_a_run_that_is_told_truly(bench: Bench, how: signal.Signals) -> None:
+    with subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, str(bench.root)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+    ) as script:  # fmt: skip
+        assert script.stdout is not None
+        run = [script.stdout.readline().strip() for _ in range(2)][-1]
+        script.send_signal(how)
+    told = None if how == signal.SIGKILL else "interrupted"
+    assert runs(bench) == [(run, told)]
+    found, _ = bench.history.recorded_run()
+    assert found.document.outcome == (told or "killed") and found.document.tally["done"] >= 2
+    with pytest.raises(PicoError, match="its script alone can go on"):
+        bench.recovery.resume_plan()
+    bench.apply(bench.recovery.recover_plan())
+    turn(bench, 10)
+
+
+@pytest.mark.parametrize("what", ["measure", "move"])
+def test_what_was_set_in_passing_is_set_back_after_it_was_cut_short(bench: Bench, what: str) -> None:
+    bench.apply("e1")
+    before = bench.measurements.read("laser", "shutter")
+    with pytest.raises(PicoError), bench.record("cut"):
+        plan = bench.single("cam", "measure", measurable="dark")
+        plan = bench.single("p2", "move", x=560) if what == "move" else plan
+        ended_when(bench, plan, lambda event: event.data.get("value") == "closed")
+        turn(bench, 20)
+    assert bench.measurements.read("laser", "shutter") != before
+    plan = bench.recovery.recover_plan()
+    assert "laser.shutter as before" in plan.target.name
+    bench.apply(plan)
+    assert bench.measurements.read("laser", "shutter") == before
+    assert not bench.recovery.recover_plan().operations
