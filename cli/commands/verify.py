@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -13,11 +12,9 @@ from ..runs.running import ran
 from ..session import Session
 from ..views import verified as view
 
-if TYPE_CHECKING:
-    from pico.model.measurement import Measurement
-
-
-Measure = Annotated[bool, typer.Option("--measure", help="Measure first what the expectations speak of.")]
+Measure = Annotated[
+    bool, typer.Option("--measure", help="Measure its goals, what its expectations speak of, and its recorded light.")
+]
 
 
 def verify(
@@ -32,9 +29,10 @@ def verify(
     As the manifest wants it, or a revision. Moves nothing without --measure. Says as well whether any bench ever stood
     as that commit (HEAD without one) says, by which run, and whether that was simulated; it exits the same either way.
 
-    With --measure it takes the bench, parks its arms and measures, as `pico do COMPONENT measure` does; without, what
-    speaks of a measurable is not assured. Exits with 6 where an expectation fails or can't be told, with 1 where
-    something stands elsewhere than it should.
+    With --measure it takes the bench, parks its arms and measures: each goal once, where its tunables stand, then what
+    expectations speak of and the light that the commit recorded. Nothing is sought, and all is set back. Without, what
+    speaks of a measurable is not assured. Exits with 6 where an expectation fails or can't be told, a goal is lost or
+    the light differs; with 1 where something stands elsewhere than it should.
 
     Examples:
       pico verify
@@ -44,17 +42,15 @@ def verify(
 
     session = Session.of(context)
     bench = session.bench(writing=measure)
-    taken: Mapping[str, Measurement] = {}
-    plan = bench.plans.to_measure(revision) if measure else None
-    if plan and plan.operations:
-        code = show(session, bench, plan, auto_approve, goal="measurements")
-        if code := code or declined(session, bench, plan, auto_approve):
+    asked, report = bench.measurements.to_verify(revision) if measure else None, None
+    if asked and asked.plan.operations:
+        code = show(session, bench, asked.plan, auto_approve, goal="measurements")
+        if code := code or declined(session, bench, asked.plan, auto_approve):
             return code
-        report = ran(session, bench, plan)
+        report = ran(session, bench, asked.plan)
         if report.exit_code:
             return report.exit_code
-        taken = report.measurements
-    found = bench.measurements.verify(revision, taken)
+    found = bench.measurements.verify(revision, asked.told if asked else (), report)
     session.tell(goes_on(bench))
     session.show(view, found)
     if found.standing and not session.json:

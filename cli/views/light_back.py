@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from pico.model.measurement import Compared
 from pico.model.record import as_json
-from pico.runs.light_compared import Compared
 
 from .style import columns, count, paint
 
@@ -37,5 +37,9 @@ def text(found: Sequence[Compared], *, goal: str = "", suspects: Sequence[str] =
 
 def data(found: Sequence[Compared], *, goal: str = "", suspects: Sequence[str] = ()) -> dict[str, Any]:
     """Return schema `pico.light-compared/v1`: `numbers` with `before`, `now`, `sigma`, and whether each `differs`."""
-    numbers = [{**as_json(one), "differs": one.differs} for one in found]
-    return {"schema": "pico.light-compared/v1", "goal": goal, "numbers": numbers, "suspects": list(suspects)}
+    return {"schema": "pico.light-compared/v1", "goal": goal, "numbers": numbers(found), "suspects": list(suspects)}
+
+
+def numbers(found: Sequence[Compared]) -> list[dict[str, Any]]:
+    """Return the numbers as JSON data, with whether each differs."""
+    return [{**as_json(one), "differs": one.differs} for one in found]

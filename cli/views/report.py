@@ -76,7 +76,7 @@ def _bench(report: RunReport, undoing: bool) -> list[str]:
             return [unfound(report.goal, report.by_light or ()) or f"The bench equals {report.goal}."]
         if report.scope:
             return [_partial(report)]
-        if report.measurements:
+        if report.measurements or report.read:
             return [f"As asked: `pico runs show {report.run}` has it."]
         said = f"As asked. {stays(report.by_light or ()) or _CAPTURE}"
         return [said, *(_in_hand(robot, part) for robot, part in report.held.items())]

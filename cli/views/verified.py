@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from pico.model.expectation import Standing, Verified
+from pico.model.expectation import GoalRead, NumberRead, Standing, Verified
 from pico.model.record import as_json
 
+from . import light_back
 from .diff import lines
+from .measured import value
 from .report import expectations
 from .runs import shown
-from .style import count, paint, wrap
+from .style import columns, count, paint, wrap
 
 _ON: dict[str | None, str] = {"emulated": "emulated devices, never hardware", "hardware": "hardware"}
 
@@ -24,8 +27,35 @@ def text(found: Verified) -> str:
     else:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
         said = [f"The bench equals {found.goal}{near}."]
+    said += goals(found.goals or ())
+    said += (
+        [light_back.text(found.light, goal=found.standing.commit[:7] if found.standing else "")] if found.light else []
+    )
     said += expectations(found.expectations) or ["Nothing more is expected: `expect:` in a LabState says what is."]
     return "\n".join([*said, *(proof(found.standing, left=found.left) if found.standing else [])])
+
+
+def goals(found: Sequence[GoalRead]) -> list[str]:
+    """Return each goal that was measured, with its numbers as they are and as they were, and how many are aligned."""
+    if not found:
+        return []
+    rows, below = [[paint("dim", cell) for cell in ("", "goal", "", "now", "")]], list[list[str]]([[]])
+    for one in found:
+        mark = {True: paint("green", "✓"), False: paint("red", "✗"), None: paint("yellow", "?")}[one.met]
+        own = [[n.address, value(n.value, "", n.sigma), _beside(n)] for n in one.numbers] or [["", "", ""]]
+        rows += [[mark if not n else "", one.goal if not n else "", *cells] for n, cells in enumerate(own)]
+        why = wrap(f"{one.word}: {one.why}", "     ") if one.why and not one.met else []
+        below += [[] for _ in own[1:]] + [why]
+    met = sum(bool(one.met) for one in found)
+    table = [line for row, more in zip(columns(rows, indent="  "), below, strict=True) for line in (row, *more)]
+    return [*table, f"{met} of {count(len(found), 'goal')} aligned."]
+
+
+def _beside(one: NumberRead) -> str:
+    """Return `to 0 within 5, was 0.31`."""
+    within = f" within {one.tolerance:g}" if one.tolerance else ""
+    wanted = f"to {one.target:g}{within}" if one.target is not None else ""
+    return ", ".join(part for part in (wanted, f"was {one.was:.4g}" if one.was is not None else "") if part)
 
 
 def proof(standing: Standing, *, left: bool = False) -> list[str]:
@@ -55,6 +85,9 @@ def _said(standing: Standing) -> list[str]:
 
 
 def data(found: Verified) -> dict[str, Any]:
-    """Return schema `pico.verified/v1`: `goal`, `changes` (`after` is live), `expectations`, `standing`."""
+    """Return schema `pico.verified/v1`: `goal`, `changes` (`after` is live), `expectations`, `standing`; `goals` and
+    `light` where they were measured."""
     written: dict[str, Any] = as_json(found)
+    if found.light is not None:
+        written["light"] = light_back.numbers(found.light)
     return written

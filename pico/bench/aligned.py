@@ -253,8 +253,8 @@ def _alignment(
     def standing(status: Status, why: str = "", at: str = "", last: Mapping[str, float] | None = None) -> Alignment:
         return Alignment(name, status, why, at, last, order, took)
 
-    sought = {r.key: r for r in records if r.kind == "intent" and _seeks(r, name)}
-    ends = [r for r in records if r.key in sought and r.kind in ("done", "failed", "unknown", "resolved")]
+    sought = {r.key: r for r in records if r.kind == "intent" and (_seeks(r, name) or _verifies(r, name))}
+    ends = [r for r in records if r.key in sought and _tells(sought[r.key], r)]
     if not ends:
         return standing("never measured")
     end, begun = ends[-1], sought[ends[-1].key]
@@ -295,6 +295,17 @@ def _wanted(goal: Mapping[str, Any]) -> dict[str, Any]:
 
 def _seeks(record: JournalRecord, name: str) -> bool:
     return record.data.get("primitive") == "optimize" and record.data.get("arguments", {}).get("goal") == name
+
+
+def _verifies(record: JournalRecord, name: str) -> bool:
+    return record.data.get("primitive") == "verify" and record.data.get("arguments", {}).get("goal") == name
+
+
+def _tells(begun: JournalRecord, end: JournalRecord) -> bool:
+    """Whether the end of what sought or measured a goal tells how it stands; a measurement only if it was assured."""
+    if _verifies(begun, str(begun.data["arguments"]["goal"])):
+        return end.kind == "done" and "met" in (end.data.get("data") or {})
+    return end.kind in ("done", "failed", "unknown", "resolved")
 
 
 def _age(then: str, now: str) -> float:

@@ -190,9 +190,14 @@ class Bench(Opened):
         """Return committed, desired and live side by side."""
         return self.drift.status()
 
-    def verify(self, revision: str | None = None) -> Verified:
-        """Return how the bench stands against a revision, or the manifest; see `Measurements.verify`."""
-        return self.measurements.verify(revision)
+    def verify(self, revision: str | None = None, *, measure: bool = False) -> Verified:
+        """Return how the bench stands against a revision, or the manifest; see `Measurements.verify`. `measure`: with
+        its goals, its expectations and its light measured. Raises PicoError."""
+        if not measure:
+            return self.measurements.verify(revision)
+        found = self.measurements.to_verify(revision)
+        report = self.apply(found.plan) if found.plan.operations else None
+        return self.measurements.verify(revision, found.told, report)
 
     def capture(self, *only: str, write: bool = True) -> Captured:
         """Write what the bench shows otherwise than the manifest into the manifest; see `Commits.capture`."""

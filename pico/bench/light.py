@@ -14,13 +14,12 @@ if TYPE_CHECKING:
     from pico.drawing.picture import Image
     from pico.history.runs.recorded_light import RecordedLight
     from pico.model.lab import Setup
-    from pico.model.measurement import Measurement
+    from pico.model.measurement import Compared, Measurement
     from pico.model.observation import Observation
     from pico.model.pose import Pose
     from pico.optics.axis import Values
     from pico.optics.beam_table import BeamRow
     from pico.optics.light import Light
-    from pico.runs.light_compared import Compared
 
 
 @dataclass(frozen=True)
@@ -66,23 +65,29 @@ class Lights:
 
     def compared(self, revision: str | None, now: Mapping[str, Measurement]) -> tuple[Compared, ...]:
         """Return the light that a revision recorded (see `recorded`) against what was measured `now`, by address, of
-        the bench as it stands; raises PicoError."""
+        the bench as it stands; raises PicoError. Only parts that were put down since may stand otherwise of
+        themselves."""
         from pico.bench.aligned import standing
         from pico.optics.axis import beams
         from pico.optics.nominal.spread import spread
-        from pico.planning.goal_light import standing_poses
+        from pico.planning.goal_light import kept_back, standing_poses
         from pico.runs.light_compared import light_compared
+        from pico.runs.put_down import put_down_since
 
         setup, seen, before = self.opened.setup, self.opened.observe(), self.recorded(revision)
         if not before.measured:
             return ()
         poses, detectors = standing_poses(seen), {one.component for one in before.measured.values()}
-        lasers = {d: axis.source for axis in beams(setup, poses, seen.known_values) for d in detectors if axis.ways(d)}
-        placed = [name for name in sorted(poses) if setup.movable(name)]
+        ways = [(axis, d) for axis in beams(setup, poses, seen.known_values) for d in detectors if axis.ways(d)]
+        lasers = {d: axis.source for axis, d in ways}
+        on_the_way = ((d, {axis.source, *(m.component for way in axis.ways(d) for m in way)}) for axis, d in ways)
+        dark = {d: why for d, parts in on_the_way if (why := kept_back(setup, seen, parts, {}))}
+        since = put_down_since(self.opened.edge.memory, min(one.at for one in before.measured.values()))
+        placed = [name for name in sorted(poses) if setup.movable(name) and (since is None or name in since)]
         open_to = spread(setup, poses, seen.known_values, placed, sorted(lasers))
         aligned = {one.goal for one in standing(self.opened, seen) if one.status == "aligned"} & before.goals.keys()
-        met = {name: goal for name, goal in (setup.lab.goals or {}).items() if name in aligned}
-        return light_compared(setup, before.measured, now, open_to, met, lasers)
+        held = {name: goal for name, goal in (setup.lab.goals or {}).items() if name in aligned}
+        return light_compared(setup, before.measured, now, open_to, held, lasers, dark)
 
     def picture(
         self, revision: str | None = None, *, manifest: bool = False, source: str | None = None, out: Path | None = None

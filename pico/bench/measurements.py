@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
@@ -14,9 +13,19 @@ from pico.model.plan import Plan
 from pico.model.request import read_peeked, read_values
 
 if TYPE_CHECKING:
-    from pico.model.expectation import Verified
+    from pico.model.expectation import GoalRead, Verified
+    from pico.model.lab import Goal
     from pico.model.measurement import Measurement
-    from pico.model.report import PartRow
+    from pico.model.report import PartRow, RunReport
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What is to be measured, by the `plan` (without operations where that is nothing), and goals of which it can be
+    told without (`told`)."""
+
+    plan: Plan
+    told: tuple[GoalRead, ...] = ()
 
 
 class Measurements:
@@ -114,13 +123,45 @@ class Measurements:
 
         return parts_of(self.opened.setup, self.opened.state, self.opened.observe(), free=free)
 
+    def to_verify(self, revision: str | None = None) -> Verification:
+        """Return what is to be measured to verify the bench against a revision, or the manifest, as far as it can
+        measure that: goals where their tunables stand, what expectations speak of, and what a commit recorded; raises
+        PicoError."""
+        from pico.bench.light import Lights
+        from pico.bench.plans import Plans
+        from pico.model.vocabulary import measured_in
+        from pico.planning.by_light import sought_in
+        from pico.planning.verifying import readable
+
+        opened, setup, seen = self.opened, self.opened.setup, self.opened.observe()
+        state = opened.folder.state_at(revision) if revision else opened.state
+        able, recorded = self._measurables(), Lights(opened).recorded(revision)
+        goals = {**(setup.lab.goals or {}), **sought_in(setup, seen, state).goals}
+        turns, told = readable(setup, seen, state, goals, self._when_met(goals, recorded.goals), able)
+        spoken = measured_in(setup, [one.that for one in state.expect])
+        light = [(one.component, one.measurable) for _, one in sorted(recorded.measured.items())]
+        wanted = [one for one in dict.fromkeys((*spoken, *light)) if ".".join(one) in able]
+        return Verification(Plans(opened).measuring(wanted, turns), told)
+
+    def _when_met(
+        self, goals: Mapping[str, Goal], recorded: Mapping[str, Mapping[str, float]]
+    ) -> dict[str, Mapping[str, float]]:
+        """Return what was measured when goals were met: in the runs of a commit, else last on this bench."""
+        from pico.model.record import as_json
+        from pico.runs.when_met import measured_when_met
+
+        memory = self.opened.edge.memory
+        own = {name: measured_when_met(memory, name, as_json(goals[name])) for name in goals.keys() - recorded.keys()}
+        return {**recorded, **{name: last for name, last in own.items() if last is not None}}
+
     def verify(
-        self, revision: str | None = None, measurements: Mapping[str, Measurement] = MappingProxyType({})
+        self, revision: str | None = None, told: Sequence[GoalRead] = (), report: RunReport | None = None
     ) -> Verified:
         """Return how the bench as observed stands against a revision, or the manifest, and its expectations; and
-        whether any bench ever stood as that commit (HEAD for the manifest) says. `measurements`: what was measured just
-        now, by address."""
+        whether any bench ever stood as that commit (HEAD for the manifest) says. `report`: of what was measured for
+        that just now, see `to_verify`, and goals of which was `told` without."""
         from pico.bench.by_light import unaligned, unfound
+        from pico.bench.light import Lights
         from pico.history import runs as recording
         from pico.model.expectation import Verified
         from pico.model.state import references_of
@@ -129,7 +170,7 @@ class Measurements:
 
         folder, setup = self.opened.folder, self.opened.setup
         wanted = folder.state_at(revision) if revision else folder.state
-        seen = replace(self.opened.observe(), measurements=measurements)
+        seen = replace(self.opened.observe(), measurements=report.measurements if report else {})
         committed = wanted if revision else folder.committed()
         asked = references_of(wanted) or (committed is not None and references_of(committed))
         memory = self.opened.edge.memory if asked else None  # else a damaged journal hides nothing
@@ -142,6 +183,8 @@ class Measurements:
             expectations=check_expectations(setup, seen, wanted.expect, self._measurables()),
             standing=recording.standing_of(folder, revision),
             left=left,
+            goals=(*(report.read or () if report else ()), *told) if report or told else None,
+            light=Lights(self.opened).compared(revision, report.measurements) if report else None,
         )  # fmt: skip
 
     def expected(self, plan: Plan) -> Verified:

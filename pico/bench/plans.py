@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pico.motion.types import Motion
     from pico.optics.nominal.feeding import Right
     from pico.planning.explaining.explain import Explanation
+    from pico.planning.optimizing import Turn
     from pico.planning.request import Preference
     from pico.planning.sought import Sought
     from pico.planning.surveying import Shots
@@ -268,23 +269,14 @@ class Plans:
         self.opened.folder.refuse_edits()
         return self.plan(revision, exact=exact).because("checkout")
 
-    def to_measure(self, revision: str | None = None) -> Plan:
-        """Return the plan that measures what the expectations of a revision, or of the manifest, speak of, as far as
-        this bench can; it has no operations where that is nothing."""
-        from pico.model.vocabulary import measured_in
-
-        opened = self.opened
-        state = opened.folder.state_at(revision) if revision else opened.state
-        able = opened.wait(opened.edge.describe())
-        spoken = measured_in(opened.setup, [one.that for one in state.expect])
-        return self.measuring([(name, m) for name, m in spoken if f"{name}.{m}" in able.measurables])
-
-    def measuring(self, wanted: Sequence[tuple[str, str]]) -> Plan:
-        """Return the plan that measures measurables, each as its component and its name."""
+    def measuring(self, wanted: Sequence[tuple[str, str]], goals: Sequence[Turn] = ()) -> Plan:
+        """Return the plan that measures measurables, each as its component and its name; before that `goals` where
+        their tunables stand. It has no operations where that is nothing."""
         from pico import planning
 
         setup, seen = self.opened.setup, self._seen()
-        found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **self.start_of(seen))
+        motion = DeferredMotion(setup)
+        found = planning.measure(setup, seen, wanted, motion=motion, goals=goals, **self.start_of(seen))
         return self.judged(found, seen)
 
     def setting(self, values: Mapping[str, Value]) -> Plan:

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from pico.runs.memory import Memory
 
 
+_WHOLE = {"survey": "pico morning", "verify": "pico verify --measure"}
+"""Commands that do what single operations are part of."""
+
+
 class Recovery:
     """What a run left behind on one bench, and the plans that go on from there."""
 
@@ -232,9 +236,9 @@ def _asked(plan: Plan, sought: Mapping[str, Operation]) -> tuple[str, ...]:
     if sought:
         own = {f"{c}.{t}" for op in sought.values() for c, t in touched_by(op.component, op.arguments)}
         return tuple(sorted(own | {op.address for op in plan.operations if op.primitive == "set"}))
-    own = {op.component for op in plan.operations if op.reason.kind == "asked" and op.primitive != "survey"}
-    surveys = [op for op in plan.operations if op.primitive == "survey"]
-    own |= {f"{c}.{t}" for op in surveys for c, t in touched_by(op.component, op.arguments)}
+    own = {op.component for op in plan.operations if op.reason.kind == "asked" and op.primitive not in _WHOLE}
+    back = [op for op in plan.operations if op.primitive in _WHOLE]  # they set back what they set
+    own |= {f"{c}.{t}" for op in back for c, t in touched_by(op.component, op.arguments)}
     along = {f"{op.component}.{op.arguments['tunable']}" for op in plan.operations if op.primitive == "set"}
     return tuple(sorted({*own, *(one for one in along if one.partition(".")[0] not in own)}))
 
@@ -249,6 +253,7 @@ def _left_out(
     for name in sorted(taken_up):
         text = f"`pico optimize {name}` was cut short: what it set goes back to where it stood before, then it begins"
         yield Diagnostic("note", "taken-up", f"{text} at the best point that it had measured")
+    told = set[str]()
     for op in began.operations:
         if op.primitive == "optimize" and op.address in taken_up:
             continue
@@ -261,8 +266,11 @@ def _left_out(
                 command = f"pico measure {op.component}.{op.arguments['measurable']}"
             if op.primitive == "optimize":
                 command = f"pico optimize {op.address}"
-            if op.primitive == "survey":
-                command = "pico morning"
+            if op.primitive in _WHOLE:
+                command = _WHOLE[op.primitive]
+            if command in told:
+                continue
+            told.add(command)
             text = f"`{command}` did not come to its end, and is not taken up again"
             yield Diagnostic("note", "left-out", text, hint=f"`{command}` does it anew", address=op.component)
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.backends.device import Began, Device
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.edge.judging import judged
 from pico.edge.points import Points
 from pico.expressions import ExpressionError, Language
 from pico.model.catalog import Tunable
@@ -63,6 +64,8 @@ class Aligning:
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that the device knows by the device."""
+        if operation.primitive == "verify":
+            return await self._verify(operation, key, began)
         if operation.primitive != "optimize":
             return await self._device.execute(operation, key, began)
         seen = await self._device.observe()
@@ -82,6 +85,27 @@ class Aligning:
         if outcome.fault:
             return replace(result, outcome="failed", error=error("axis", outcome.fault, address=operation.component))
         return result
+
+    async def _verify(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Measure a goal where its tunables stand, and say whether it is met; what that needed is set back."""
+        seen = await self._device.observe()
+        before = seen.components.get(operation.component)
+        began(before)
+        try:
+            run = self._run(operation, key, seen)
+        except PicoError as exc:
+            return OperationResult(key=key, outcome="failed", error=exc.diagnostics[0], before=before, ended=seen.time)
+        reading = await run.answer(Ask(run.problem.start))
+        await run.restore()
+        ended = await self._device.observe()
+        doubt = reading.unknown if reading.glaring else reading.fault or run.doubt
+        told = judged(run.problem, run.limits, reading, doubt, operation.arguments.get("was"))
+        stands = {n: v for n, v in operation.arguments["from"].items() if isinstance(v, int | float)}
+        return OperationResult(
+            key=key, outcome="done", before=before, after=ended.components.get(operation.component),
+            seconds=ended.time - seen.time, ended=ended.time,
+            data={"goal": run.name, "measurements": run.measured, **told, "last": {**stands, **told["last"]}},
+        )  # fmt: skip
 
     async def _sought(
         self, operation: Operation, key: str, seen: Observation
@@ -193,7 +217,7 @@ class _Run:
     ) -> None:  # fmt: skip
         self.setup, self.device, self.operation, self.key = setup, device, operation, key
         self.goal, self.problem, self.bounds = goal, problem, goal.tunables
-        self.name, self.algorithm = str(operation.arguments["goal"]), str(operation.arguments["algorithm"])
+        self.name, self.algorithm = str(operation.arguments["goal"]), str(operation.arguments.get("algorithm", ""))
         self.measured = self.steps = 0
         self.now = 0.0
         if before is not None:
@@ -202,6 +226,8 @@ class _Run:
         self.stands = dict(problem.start)
         self.looked: dict[str, Value] = {}
         self.failed: set[str] = set()
+        self.doubt = ""
+        """What was not assured of the last reading, and why."""
         self.exposed: set[str] = set()
         self._language = Language(dict.fromkeys(sorted(numbers_in(setup, goal)), "number"))
 
@@ -257,7 +283,10 @@ class _Run:
             for component, measurable in measured_in(self.setup, self.goal.seen_in(look)):
                 found = await self._measured(component, measurable)
                 if isinstance(found, str):
+                    self.doubt = found
                     return Reading(time=self.now, unknown=found)
+                if unsure := [f"{one}: {why}" for one, why in found.not_assured.items() if one != "not saturated"]:
+                    self.doubt = f"of {found.address} not all was assured: {'; '.join(unsure)}"
                 taken[f"{look}.{found.address}" if look else found.address] = found
         return replace(self._evaluated(taken), time=self.now)
 

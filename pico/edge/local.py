@@ -104,7 +104,7 @@ class LocalEdge:
 
         able = await self.device.describe()
         whole = {"set", "measure"} <= able.primitives
-        primitives = able.primitives | ({"optimize", "survey"} if whole else set())
+        primitives = able.primitives | ({"optimize", "verify", "survey"} if whole else set())
         if able.primitives >= STEPS:
             primitives = primitives - STEPS | {"teleoperate"}
         return replace(able, primitives=primitives, kept=self.device.kept())

@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of, uncertain
 from pico.model.event import Event
-from pico.model.expectation import Expected
+from pico.model.expectation import Expected, GoalRead, goal_read
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Aligned, Observation, ObservedComponent
@@ -52,6 +52,7 @@ def run_report(
         by_light=_by_light(plan, events) or None,
         goals=tuple(goal for goal, _ in goals) or None,
         aligning=_aligning(plan, events),
+        read=tuple(_read(plan, events)) or None,
         diagnostics=tuple(_diagnostics(events)),
     )
 
@@ -82,6 +83,16 @@ def _goals(plan: Plan, events: Sequence[Event]) -> Iterator[tuple[GoalEnd, Opera
             goal=str(op.arguments["goal"]), met=bool(data.get("met")), why=str(why), last=data.get("last"),
             measurements=int(data.get("measurements", 0)), seconds=float(data.get("seconds", 0.0)),
         ), op  # fmt: skip
+
+
+def _read(plan: Plan, events: Sequence[Event]) -> Iterator[GoalRead]:
+    """Yield each goal that was measured where its tunables stand."""
+    verified = {op.id: op for op in plan.operations if op.primitive == "verify"}
+    for event in events:
+        op = verified.get(event.operation or "")
+        if op is not None and event.kind in ("operation_done", "operation_failed", "operation_unknown"):
+            failed = {"doubt": (event.data.get("diagnostic") or {}).get("summary", "it came to no end")}
+            yield goal_read(op.arguments, event.data if event.kind == "operation_done" else failed)
 
 
 def _aligning(plan: Plan, events: Sequence[Event]) -> float | None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
 from pico.model.diff import Change
+from pico.model.measurement import Compared
 from pico.model.record import record
 
 Verdict = Literal["verified", "inherited", "planned", "unknown"]
@@ -26,6 +28,54 @@ class Expected:
     def failed(self) -> bool:
         """Whether a command fails for it."""
         return not self.holds and self.assured
+
+
+@record
+class NumberRead:
+    """A number of a goal, by address (`cam.centroid.x`) or as an expression: its `value` with one standard deviation.
+    `target` and `tolerance` where it is to be reached; `was`: what it was when the goal was met."""
+
+    address: str
+    value: float
+    sigma: float = 0.0
+    target: float | None = None
+    tolerance: float | None = None
+    was: float | None = None
+
+
+@record
+class GoalRead:
+    """A goal as it was measured, nothing sought: `met` or not, None where that is not assured, and `why`."""
+
+    goal: str
+    met: bool | None = None
+    why: str = ""
+    numbers: tuple[NumberRead, ...] = ()
+
+    @property
+    def word(self) -> str:
+        """How it stands, in a word."""
+        return "not assured" if self.met is None else "aligned" if self.met else "lost"
+
+
+def goal_read(arguments: Mapping[str, Any], data: Mapping[str, Any]) -> GoalRead:
+    """Return what an operation with these arguments that measured a goal told; `data` are those of its end."""
+    name, met = str(arguments["goal"]), data.get("met")
+    why = str(data.get("why") or data.get("doubt") or "")
+    return GoalRead(goal=name, met=met, why=why, numbers=tuple(_numbers(arguments, data.get("last") or {})))
+
+
+def _numbers(arguments: Mapping[str, Any], last: Mapping[str, float]) -> Iterator[NumberRead]:
+    what, was = arguments["what"], arguments.get("was") or {}
+    reach, near = what.get("reach"), what.get("tolerance")
+    outputs = {n: n for n in reach} if reach else {"objective": what.get("minimize") or what.get("maximize")}
+    for output, text in outputs.items():
+        if output in last:
+            tolerance = near.get(output) if isinstance(near, Mapping) else near
+            yield NumberRead(
+                address=str(text), value=last[output], sigma=last.get(f"{output}_sigma", 0.0),
+                target=reach[output] if reach else None, tolerance=tolerance, was=was.get(output),
+            )  # fmt: skip
 
 
 @record
@@ -62,7 +112,8 @@ class Standing:
 class Verified:
     """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `after` is live),
     and the expectations of the state. `standing`: of the commit that the goal is, or of HEAD for the manifest; None
-    without one. `left`: the bench does not stand as that commit says, whatever the manifest does."""
+    without one. `left`: the bench does not stand as that commit says, whatever the manifest does. `goals` as they were
+    measured, `light`: what the commit recorded of it against what was measured; None where neither was."""
 
     schema: str = "pico.verified/v1"
     goal: str
@@ -71,6 +122,13 @@ class Verified:
     expectations: tuple[Expected, ...] = ()
     standing: Standing | None = None
     left: bool = False
+    goals: tuple[GoalRead, ...] | None = None
+    light: tuple[Compared, ...] | None = None
+
+    @property
+    def dimmed(self) -> bool:
+        """Whether light is not as it was: a goal is not met, or what a commit recorded differs."""
+        return any(g.met is False for g in self.goals or ()) or any(one.differs for one in self.light or ())
 
     @property
     def off(self) -> tuple[Change, ...]:
@@ -79,7 +137,8 @@ class Verified:
 
     @property
     def exit_code(self) -> ExitCode:
-        """EXPECTATION where one does not hold or is unknown, ERROR where the bench differs, else DONE."""
-        if any(e.failed for e in self.expectations):
+        """EXPECTATION where one does not hold or is unknown, or light is not as it was; ERROR where the bench differs,
+        else DONE."""
+        if self.dimmed or any(e.failed for e in self.expectations):
             return ExitCode.EXPECTATION
         return ExitCode.ERROR if self.off else ExitCode.DONE

@@ -131,3 +131,34 @@ def number_of(measurement: Measurement, name: str) -> float | None:
     if isinstance(measurement.value, Mapping) or name == measurement.measurable:
         return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
     return None
+
+
+SURE = 3.0
+"""Standard deviations from which two numbers differ."""
+
+
+@record
+class Compared:
+    """A number by address (`cam.fit.x`) `before` and `now`, in `unit`; None where there is none. `sigma`: one standard
+    deviation of their difference, with what the placement of parts makes of it. A power is compared as a share of what
+    the `reference` of its laser told both times; `now` is then what it would be at the laser's power of before. `why`:
+    why the two must not be compared; empty where they may be."""
+
+    address: str
+    before: float | None = None
+    now: float | None = None
+    unit: str = ""
+    sigma: float = 0.0
+    reference: str = ""
+    why: str = ""
+
+    @property
+    def differs(self) -> bool:
+        """Whether it is another now, by more than can be chance."""
+        known = self.before is not None and self.now is not None and not self.why
+        return known and abs((self.now or 0.0) - (self.before or 0.0)) > SURE * self.sigma
+
+    @property
+    def share(self) -> float | None:
+        """What it is of what it was."""
+        return self.now / self.before if self.before and self.now is not None and not self.why else None

@@ -56,12 +56,12 @@ class Operation:
     `tunable`. Of `measure`: `measurable`; its `component` may be a camera over the bench. Of `park`: none; its
     `component` is the robot's name. Of `optimize`: `goal`, its name, `what` it is (as `pico.model.lab.Goal`), the
     `algorithm` with its `parameters`, and `from`, where its tunables stand, and the exposures that it may change on the
-    way; `again`: the key of the one that it takes up. Of `teleoperate`: `what`, the `tunables` that a person steers, by
-    address, and `from`, where they stand; with a `robot`, which holds the component, `pose` is steered, and `grasp_yaw`
-    is as of `move`. Of `operator`: `text`, and `to` where a
-    component is to be moved. `resources` are
-    what it holds while it runs (a robot, `motor/p1.angle`, the component itself): each does one thing at a time.
-    `after`: ids of the operations that must be done first. `start`, `seconds`: predicted [s].
+    way; `again`: the key of the one that it takes up. Of `verify`, which measures a goal where its tunables stand:
+    `goal`, `what` and `from` as of `optimize`, and `was`, what was measured when it was met. Of `teleoperate`: `what`,
+    the `tunables` that a person steers, by address, and `from`, where they stand; with a `robot`, which holds the
+    component, `pose` is steered, and `grasp_yaw` is as of `move`. Of `operator`: `text`, and `to` where a component is
+    to be moved. `resources` are what it holds while it runs (a robot, `motor/p1.angle`, the component itself): each
+    does one thing at a time. `after`: ids of the operations that must be done first. `start`, `seconds`: predicted [s].
     """
 
     id: str

@@ -83,6 +83,10 @@ OWN: Mapping[str, Primitive] = {
             name="teleoperate", changes="tunable", repeatable=True, seconds=30.0,
             counted=("teleoperation", "teleoperations"),
         ),
+        Primitive(
+            name="verify", changes="tunable", mutating=False, repeatable=True, seconds=1.0,
+            counted=("goal measured", "goals measured"),
+        ),
         Primitive(name="survey", changes="tunable", repeatable=True, seconds=60.0, counted=("survey", "surveys")),
         Primitive(name="operator", changes="anything", by="person", counted=("step by hand", "steps by hand")),
     )

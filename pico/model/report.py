@@ -8,7 +8,7 @@ from typing import Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
 from pico.model.diff import Change
-from pico.model.expectation import Expected
+from pico.model.expectation import Expected, GoalRead
 from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, slot_at
@@ -39,7 +39,8 @@ class RunReport:
     still has in its gripper. `whole`: the plan was for the whole bench, not for one operation or for some components;
     `scope`: for which (`only p2`), and `left`: what else differs from the goal. `expectations`: of the goal, against
     the bench after a whole run. `measurements`: what was measured, by address; `goals`: those that were sought,
-    `aligning`: what all that was there to bring light back took [s]. `evidence`: what the run counts as.
+    `aligning`: what all that was there to bring light back took [s]; `read`: those that were measured where they stand.
+    `evidence`: what the run counts as.
     `by_light`: set-points that light has yet to find.
     """
 
@@ -66,6 +67,7 @@ class RunReport:
     by_light: tuple[str, ...] | None = None
     goals: tuple[GoalEnd, ...] | None = None
     aligning: float | None = None
+    read: tuple[GoalRead, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
+from pico.model.diff import show_value
 from pico.model.lab import Goal, Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose
+from pico.model.quantities import Value
 from pico.model.vocabulary import measured_in
 from pico.optics.axis import Meeting, beams
 from pico.optimize.choosing import CYCLES
@@ -67,6 +69,19 @@ def _counting(setup: Setup, way: Sequence[Meeting], turned: Collection[str]) -> 
 
 def _polarizes(setup: Setup, name: str) -> bool:
     return setup.type_of(name).optics.element == "polarizer"
+
+
+def kept_back(setup: Setup, seen: Observation, parts: Collection[str], opened: Mapping[str, Value]) -> str:
+    """Return what keeps light back on its way through parts, in words: a source that is off, or a shutter; empty for
+    nothing. `opened`: what is set otherwise meanwhile, by address."""
+    for name in sorted(parts):
+        if setup.type_of(name).optics.element in ("source", "shutter"):
+            own = seen.known_values.get(name, {})
+            for tunable in ("emission", "shutter"):
+                value = opened.get(f"{name}.{tunable}", own.get(tunable))
+                if value is False or value == "closed":
+                    return f"{name}.{tunable} is {show_value(value)}"
+    return ""
 
 
 def standing_poses(seen: Observation) -> Mapping[str, Pose]:

@@ -11,6 +11,7 @@ from pico.model.lab import EXPOSURE, Goal, Setup
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason, touched_by
 from pico.model.quantities import Value
+from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
@@ -34,13 +35,16 @@ ASKED = Reason(kind="asked")
 class Turn:
     """A goal whose turn it is, those that are sought `first` where it is dark, in the same operation; what it `took`
     before [s], None where nobody knows; and why it is sought. `right`: benches with the light that it is to have: its
-    tunables make up first for how parts stand otherwise than in the first of these that is this bench still."""
+    tunables make up first for how parts stand otherwise than in the first of these that is this bench still. `verify`:
+    it is measured where its tunables stand, and not sought; `was`: what was measured when it was met."""
 
     one: Sought
     first: tuple[Sought, ...] = ()
     took: float | None = None
     reason: Reason = ASKED
     right: tuple[Right, ...] = ()
+    verify: bool = False
+    was: Mapping[str, float] | None = None
 
     @property
     def stages(self) -> tuple[Sought, ...]:
@@ -97,8 +101,8 @@ class _Block:
             for address in [a for a in self.now if a not in lasting and a not in during]:
                 self._set_back(address, "as it was before that")
             for need in during.values():
-                self._set(need, f"while {turn.one.name} is sought", self.arms)
-            self._optimize(turn)
+                self._set(need, f"while {turn.one.name} is {'measured' if turn.verify else 'sought'}", self.arms)
+            (self._verify if turn.verify else self._optimize)(turn)
         for address in [*self.now]:
             self._set_back(address, f"as it was before {names}")
         return self.out
@@ -166,6 +170,25 @@ class _Block:
             after=_texts([*self.arms, *own, *self.latest.values()]),
             seconds=reckoned if turn.took is None else turn.took,
             resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
+        ))  # fmt: skip
+        self.made_of.append((index, turn))
+
+    def _verify(self, turn: Turn) -> None:
+        setup, here, goal = self.setup, foreseen(self.seen, self.out), turn.one.goal
+        begin = {address: live_number(here, address) for address in goal.tunables}
+        looked = {address for settings in (goal.looks or {}).values() for address in settings}
+        measured = measured_in(setup, goal.texts)
+        what = {"goal": turn.one.name, "what": goal, **({"was": turn.was} if turn.was else {})}
+        index = self._add(Operation(
+            id="", primitive="verify", component=measured[0][0], reason=turn.reason,
+            arguments={
+                "from": {**_to_measure(setup, here, goal), **begin}, "specimens": specimens(setup), **as_json(what),
+            },
+            after=_texts([*self.arms, *self.latest.values(), *(n for n, _ in self.made_of)]),
+            seconds=TAKES * max(1, len(goal.looks or ())) * len(measured),
+            resources=tuple(dict.fromkeys(
+                (*sorted(looked), *(name for name, _ in measured), *sorted(setup.lab.robots))
+            )),
         ))  # fmt: skip
         self.made_of.append((index, turn))
 
@@ -262,20 +285,28 @@ def _to_measure(setup: Setup, seen: Observation, goal: Goal) -> Mapping[str, Val
     return found
 
 
+def live_number(seen: Observation, address: str) -> float | None:
+    """Return where a tunable stands; None where nobody knows, or it is no number."""
+    component, _, tunable = address.partition(".")
+    part = seen.components.get(component)
+    live = part.values.get(tunable) if part is not None and part.presence == "seen" else None
+    known = live is not None and live.status != "unknown" and isinstance(live.value, int | float)
+    return float(live.value) if known else None  # type: ignore[union-attr,arg-type]
+
+
 def _from(setup: Setup, seen: Observation, name: str, goal: Goal) -> Mapping[str, float]:
     found = {}
     for address in goal.tunables:
         component, _, tunable = address.partition(".")
-        part = seen.components.get(component)
-        live = part.values.get(tunable) if part is not None and part.presence == "seen" else None
-        if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
-            hint = f"`pico do {component} home {tunable}` finds out" if part is not None else ""
+        live = live_number(seen, address)
+        if live is None:
+            hint = f"`pico do {component} home {tunable}` finds out" if component in seen.components else ""
             text = f"nobody knows {address}, so that nobody could go back to it"
             raise PicoError(error("goal", text, hint=hint, address=address))
-        found[address] = float(live.value)
+        found[address] = live
         low, high = goal.tunables[address]
-        if not low <= live.value <= high:
-            text = f"{address} stands at {live.value:g}, outside {low:g} to {high:g}, within which {name} is sought"
-            near = low if live.value < low else high
+        if not low <= live <= high:
+            text = f"{address} stands at {live:g}, outside {low:g} to {high:g}, within which {name} is sought"
+            near = low if live < low else high
             raise PicoError(error("goal", text, hint=f"`pico set {address} {near:g}` brings it there", address=address))
     return found

@@ -31,20 +31,20 @@ def realigned(
         whole = [*before, *optimizing(setup, then, sought, motion, before)] if sought else before
     except PicoError as exc:
         return replace(plan, operations=(), diagnostics=(*plan.diagnostics, *exc.diagnostics)).sealed()
-    operations = schedule([*whole, *_measuring(setup, then, measured, motion, whole)])
+    operations = schedule([*whole, *measured_last(setup, then, measured, _RECORDED, motion, whole)])
     took = makespan(operations)
     bound = None if plan.bound is None else round(plan.bound + took - plan.makespan, 6)
     return replace(plan, operations=operations, makespan=took, bound=bound).sealed()
 
 
-def _measuring(
-    setup: Setup, then: Observation, measured: Sequence[tuple[str, str]], motion: Motion | None,
+def measured_last(
+    setup: Setup, then: Observation, measured: Sequence[tuple[str, str]], reason: Reason, motion: Motion | None,
     whole: Sequence[Operation],
 ) -> list[Operation]:  # fmt: skip
     """Return the operations that measure when all else is done; an arm of which something comes before parks then."""
     working = {op.robot for op in whole}
     parked = replace(then, robots={name: robot for name, robot in then.robots.items() if name not in working})
-    made, all_before = measuring(setup, parked, measured, _RECORDED, motion), tuple(str(n) for n in range(len(whole)))
+    made, all_before = measuring(setup, parked, measured, reason, motion), tuple(str(n) for n in range(len(whole)))
     return [
         replace(op, after=tuple(str(int(e) + len(whole)) for e in op.after) or all_before)
         for op in made

@@ -25,6 +25,7 @@ from pico.planning.compile import compiled_plan
 from pico.planning.measuring import measuring, unlit
 from pico.planning.optimizing import Turn, optimizing
 from pico.planning.parts.setdown import parked_first
+from pico.planning.realigning import measured_last
 from pico.planning.request import Request
 from pico.planning.schedule import makespan, schedule
 from pico.planning.sought import Sought, sought_by, tunables_of
@@ -133,14 +134,17 @@ def do_one(
 
 def measure(
     setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]], *, motion: Motion | None, backend: str = "sim",
-    fidelity: str = "kinematic", base: Base | None = None,
+    fidelity: str = "kinematic", base: Base | None = None, goals: Sequence[Turn] = (),
 ) -> Plan:  # fmt: skip
     """Return the plan that measures `wanted` and leaves the bench as it was, arms parked.
 
-    Each is a component or camera with one of its `Setup.measurables_of`.
+    Each is a component or camera with one of its `Setup.measurables_of`. `goals`: those that are measured before that
+    where their tunables stand, see `pico.planning.verifying`.
     """
-    operations = measuring(setup, seen, wanted, ASKED, motion)
-    notes = [*left_shut(seen, unlit(setup, seen, wanted))]
+    first = optimizing(setup, seen, goals, motion) if goals else []
+    operations = [*first, *measured_last(setup, seen, wanted, ASKED, motion, first)]
+    spoken = measured_in(setup, [text for turn in goals for text in turn.texts])
+    notes = [*left_shut(seen, unlit(setup, seen, [*spoken, *wanted]))]
     return _sealed(setup, seen, operations, notes, backend, fidelity, base, live_state(setup, seen), ())
 
 

@@ -142,7 +142,8 @@ def _changed(operation: Operation) -> set[tuple[str, str]]:
     """Return which tunables an operation changes, by component and name."""
     if operation.kind.carries:
         return {(operation.component, "pose")}
-    return set(touched_by(operation.component, operation.arguments)) if operation.kind.drives else set()
+    leaves = operation.kind.drives and operation.kind.mutating
+    return set(touched_by(operation.component, operation.arguments)) if leaves else set()
 
 
 def _there(setup: Setup, state: LabState, one: tuple[str, str], success: Success) -> bool:

@@ -9,41 +9,9 @@ from dataclasses import replace
 
 from pico.kernels.pipeline import parsed
 from pico.model.lab import Goal, Setup
-from pico.model.measurement import Measurement, incomparable
-from pico.model.record import record
+from pico.model.measurement import Compared, Measurement, incomparable
 from pico.model.vocabulary import numbers_of
 from pico.optics.nominal.spread import Spread
-
-SURE = 3.0
-"""Standard deviations from which two numbers differ."""
-
-
-@record
-class Compared:
-    """A number by address (`cam.fit.x`) `before` and `now`, in `unit`; None where there is none. `sigma`: one standard
-    deviation of their difference, with what the placement of parts makes of it. A power is compared as a share of what
-    the `reference` of its laser told both times; `now` is then what it would be at the laser's power of before. `why`:
-    why the two must not be compared; empty where they may be."""
-
-    address: str
-    before: float | None = None
-    now: float | None = None
-    unit: str = ""
-    sigma: float = 0.0
-    reference: str = ""
-    why: str = ""
-
-    @property
-    def differs(self) -> bool:
-        """Whether it is another now, by more than can be chance."""
-        known = self.before is not None and self.now is not None and not self.why
-        return known and abs((self.now or 0.0) - (self.before or 0.0)) > SURE * self.sigma
-
-    @property
-    def share(self) -> float | None:
-        """What it is of what it was."""
-        return self.now / self.before if self.before and self.now is not None and not self.why else None
-
 
 POWERS = ("power", "light", "voltage")
 """Numbers that follow the power of the laser."""
@@ -53,22 +21,26 @@ _PLACES = {"x": "left", "y": "up"}
 _SHARE = {"power": 0.01, "other": 0.05, "reference": 0.05}
 """What two measurements of the same light may differ by, of themselves: of kernels, sensors, dust. One standard
 deviation, as a share of the number: of a power, of other numbers, of a power without a reference."""
+_ROUND = 5.0
+"""The standard deviation from which an angle is no number any more [deg]."""
 _LEAST = 1.0
 """The same of a place [um]."""
 
 
 def light_compared(
     setup: Setup, before: Mapping[str, Measurement], now: Mapping[str, Measurement], spreads: Mapping[str, Spread],
-    met: Mapping[str, Goal], sources: Mapping[str, str],
+    met: Mapping[str, Goal], sources: Mapping[str, str], dark: Mapping[str, str],
 ) -> tuple[Compared, ...]:  # fmt: skip
     """Return the numbers of measurements, by address, before and now, in order. `spreads`: by detector, of one
     placement of what was put down; `met`: goals that are met both times; `sources`: the laser whose light a detector
-    takes."""
+    takes; `dark`: what keeps it back now."""
     found = list[Compared]()
     for address in sorted(before):
         one, other = before[address], now.get(address)
         if other is None:
             found.append(Compared(address=address, why="it was not measured now"))
+        elif one.component in dark:
+            found.append(Compared(address=address, why=dark[one.component]))
         elif reasons := incomparable(one, other, _tolerances(setup, one.component)):
             found.append(Compared(address=address, why="; ".join(reasons)))
         else:
@@ -103,8 +75,18 @@ def _numbers(
             open_to = 1e3 * getattr(spread, _PLACES[kind]) * math.sqrt(2)
             held = [goal.near(address) for goal in met.values() if address in (goal.reach or {})]
             yield replace(made, sigma=math.hypot(noise, _LEAST, min(held) if held else open_to))
+        elif unit == "deg":
+            yield _angle(made)
         elif f"{one.measurable}.{kind}" in numbers_of(setup, one.component):
             yield replace(made, sigma=math.hypot(noise, _SHARE["other"] * abs(before)))
+
+
+def _angle(made: Compared) -> Compared:
+    """Return the angle of an ellipse, which is the same after half a turn; of one that is nearly round it is chance."""
+    if made.sigma > _ROUND:
+        return replace(made, why="the spot is too round to have one")
+    turned = ((made.now or 0.0) - (made.before or 0.0) + 90.0) % 180.0 - 90.0
+    return replace(made, now=(made.before or 0.0) + turned)
 
 
 def _units(setup: Setup, found: Measurement) -> dict[str, str]:

@@ -1,9 +1,9 @@
-"""The bench as it was when a goal was met last, as the journal knows it."""
+"""The bench as it was when a goal was met last, and what was measured then, as the journal knows it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from pico.model.pose import Pose
 from pico.model.state import ComponentState, LabState
@@ -23,10 +23,36 @@ def when_met(memory: Memory | None, lab: str, goal: str) -> LabState | None:
     return None
 
 
-def _met(memory: Memory, run: str, goal: str) -> bool:
+def measured_when_met(memory: Memory | None, name: str, goal: Mapping[str, Any]) -> Mapping[str, float] | None:
+    """Return what was measured when a goal (as JSON, by its name) was met last, and was the same; None where it never
+    was. Raises PicoError where the journal can't be read."""
+    if memory is None:
+        return None
+    for run in reversed(memory.runs()[-MOST:]):
+        for one in _met(memory, run.run, name)[::-1]:
+            if all(one.what.get(key) == goal.get(key) for key in _MEASURED):
+                return one.last
+    return None
+
+
+_MEASURED = ("reach", "minimize", "maximize", "during", "looks")
+"""What of a goal says what is measured of it."""
+
+
+class _Met(NamedTuple):
+    """A goal as it was when it was met (JSON), and what was measured then."""
+
+    what: Mapping[str, Any]
+    last: Mapping[str, float]
+
+
+def _met(memory: Memory, run: str, goal: str) -> list[_Met]:
+    """Return each time that a goal was met in a run."""
     own = memory.records(run=run)
-    keys = {r.key for r in own if r.kind == "intent" and r.data.get("arguments", {}).get("goal") == goal}
-    return any(r.key in keys and r.kind == "done" and (r.data.get("data") or {}).get("met") for r in own)
+    begun = {r.key: r.data["arguments"] for r in own if r.kind == "intent"}
+    ended = [(begun[r.key], r.data.get("data") or {}) for r in own if r.kind == "done" and r.key in begun]
+    return [_Met(a.get("what", {}), found.get("last") or {}) for a, found in ended
+            if a.get("goal") == goal and found.get("met")]  # fmt: skip
 
 
 def _state(part: Mapping[str, Any]) -> ComponentState:

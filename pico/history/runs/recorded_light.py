@@ -54,8 +54,8 @@ def _follow(
             with suppress(ValueError):
                 taken = measurement_from_json(data)
                 measured[taken.address] = taken
-        elif event.kind == "done" and (found := event.data.get("data") or {}).get("goal"):
-            if found.get("met"):
+        elif event.kind == "done" and "met" in (found := event.data.get("data") or {}):
+            if found["met"]:
                 goals[str(found["goal"])] = found.get("last") or {}
             else:
                 goals.pop(str(found["goal"]), None)
