@@ -10,7 +10,8 @@ import math
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field, replace
 
-from pico.optimize.problem import Algorithm, Point, Problem, Solution, Solver
+from pico.optimize.extremum import unsaid
+from pico.optimize.problem import Algorithm, Point, Problem, Short, Solution, Solver
 
 STOPPED = "it was stopped"
 """Why it ended where somebody asked for that."""
@@ -115,7 +116,7 @@ class _Walk:
         if not why and self.good is None and acquire is not None:
             why = yield from self._stage(acquire(replace(self.problem, offset=None)), until_light=True)
             if self.good is None:
-                return (yield from self._end(why or "no light was found"))
+                return (yield from self._end(why or Short("no light was found")))
             why = self._over()
         if not why:
             begun = {v.name: self.here[v.name] for v in self.problem.variables}
@@ -157,7 +158,7 @@ class _Walk:
             f"the budget of {limits.seconds:g} s is spent": slow and spent > 0,
             f"{LIGHT_LOST} {self.lost} times in a row": self.good is not None and self.lost >= LOST,
         }
-        return next((why for why, so in ends.items() if so), "")
+        return Short(next((why for why, so in ends.items() if so), ""))
 
     def _ask(self, point: Point, *, measure: bool = True, why: str = "try") -> Generator[Ask, Reading, Tried]:
         before = self.now
@@ -204,7 +205,7 @@ class _Walk:
         if self.problem.offset is not None and self.solution is not None and not self.fault:
             return (yield from self._leave(why, self.solution, self.problem.offset))
         if self.unknown and not self.fault and (self.good is None or self.lost):
-            why = f"{why} ({self.unknown})"
+            why = type(why)(f"{why} ({self.unknown})")
         if not self.fault:
             why = yield from self._brought(first, why)
         if self.fault:  # what it set besides goes back to where it began
@@ -213,12 +214,15 @@ class _Walk:
         last = self.tried[-1] if self.tried else None
         at = last is not None and all(last.result[n] == v for n, v in self.here.items())
         believed = last is not None and at and self._believed(last.result) and not self.fault
-        reached = believed and last is not None and (self.problem.aim != "reach" or self.problem.met(last.result))
-        spent = ("the budget", STOPPED, "it comes no nearer", "the light", "the readings do not", "there is too little")
-        met = reached and (self.problem.aim == "reach" or not why.startswith(spent))
-        seen = first.result if first and self._believed(first.result) else None
+        if believed and last is not None and self.problem.aim != "reach" and not isinstance(why, Short):
+            seen = [t.result for t in self.tried if self._believed(t.result)]
+            why = unsaid(self.problem, seen, last.result) or why
+        met = believed and last is not None and (
+            self.problem.met(last.result) if self.problem.aim == "reach" else not isinstance(why, Short)
+        )  # fmt: skip
+        begun = first.result if first and self._believed(first.result) else None
         return Outcome(
-            seen, last.result if believed and last else None, tuple(self.tried), met, why, self.fault,
+            begun, last.result if believed and last else None, tuple(self.tried), met, str(why), self.fault,
             self.now - (self.began or 0.0),
         )  # fmt: skip
 
@@ -231,18 +235,24 @@ class _Walk:
             yield from self._ask(begun, measure=False, why="start")
             return why
         if not self._at_best():
-            yield from self._ask(_point(self.problem, self.good), why="best")
+            best = _point(self.problem, self.good)
+            yield from self._ask(best, why="best")
+            if not self._believed(self.tried[-1].result) and len(self.tried) < self.limits.measurements:
+                yield from self._ask(best, why="best")  # one reading may be lost
         if self._doubtful(first, self.tried[-1]):
             if len(self.tried) + 2 > self.limits.measurements:  # nobody can tell: as it was
                 yield from self._ask(begun, measure=False, why="start")
-                return f"{why}, and whether it is a null or {LIGHT_LOST} would take two more measurements"
+                return Short(f"{why}, and whether it is a null or {LIGHT_LOST} would take two more measurements")
             best = dict(self.here)
             again = yield from self._ask(begun, why="check")
             if self.problem.cost(again.result) < self.problem.cost(first.result) / 2:
-                return f"{LIGHT_LOST} on the way: less comes now to where it began"
+                return Short(f"{LIGHT_LOST} on the way: less comes now to where it began")
             yield from self._ask(best, why="best")
         if self._worse(first):
+            dark = not self._believed(self.tried[-1].result)
             yield from self._ask(begun, measure=len(self.tried) < self.limits.measurements, why="start")
+            gone = "there was no light any more at the best" if dark else "the best is worse now than where it began"
+            return Short(f"{why}, but {gone}")
         return why
 
     def _doubtful(self, first: Tried, null: Tried) -> bool:

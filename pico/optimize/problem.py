@@ -159,6 +159,10 @@ def missing(algorithm: str, package: str) -> PicoError:
     return PicoError(error("extra", text, hint="`pip install 'pico-lab[optimize]'` installs it"))
 
 
+class Short(str):
+    """Why something ends that is short of the best: no goal is met by it, however good the last reading is."""
+
+
 class Algorithm(Protocol):
     """Something that is asked for points to try, and told what was measured there."""
 
@@ -173,7 +177,7 @@ class Algorithm(Protocol):
 
     @property
     def finished(self) -> str:
-        """Why nothing more is to be tried, empty while something is."""
+        """Why nothing more is to be tried, empty while something is; a `Short` where that is not the best."""
         ...
 
 

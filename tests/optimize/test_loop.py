@@ -191,3 +191,96 @@ def test_an_axis_that_fails_on_the_way_to_the_best_is_told_too() -> None:
     found, asks = driven(PEAK, "nelder_mead", read, Limits(measurements=9))
     assert found.fault == found.why == "m.tip does not answer; it last read 0.2" and not found.met
     assert asks[-1].point == PEAK.start and not asks[-1].measure
+
+
+def test_one_reading_that_is_lost_at_the_end_does_not_send_it_back() -> None:
+    """Of the first place near the top too much is read, so that it counts as the best though others come later."""
+    steps = loop(PEAK, lambda p: made("nelder_mead", p), Limits(measurements=200))
+    ask, number, asks, ended = next(steps), 0, list[str](), None
+    high = {"pd.power": 2.0, "pd.power_sigma": 1e-3}
+    while ended is None:
+        number, asks, there = number + 1, [*asks, ask.why], bump(ask.point)
+        if there["pd.power"] > 0.9 and high:
+            there, high = high, {}
+        lost = ask.why == "best" and asks.count("best") == 1
+        try:
+            ask = steps.send(Reading({} if lost else there, float(number)))
+        except StopIteration as stop:
+            ended = stop.value
+    assert asks[-2:] == ["best", "best"] and ended.met
+    assert ended.last["pd.power"] > bump(PEAK.start)["pd.power"]
+
+
+def test_a_best_that_is_gone_when_it_is_measured_again_is_not_met() -> None:
+    steps = loop(PEAK, lambda p: made("nelder_mead", p))
+    ask, number, ended = next(steps), 0, None
+    while ended is None:
+        number += 1
+        # the best is read too high, and never is there again
+        high = {"pd.power": 2.0, "pd.power_sigma": 1e-3} if number == 5 else bump(ask.point)
+        try:
+            ask = steps.send(Reading({} if ask.why == "best" else high, float(number)))
+        except StopIteration as stop:
+            ended = stop.value
+    assert [t.why for t in ended.tried].count("best") == 2
+    assert not ended.met and ended.why.endswith("but there was no light any more at the best")
+
+
+HIGH_ONES = ["peak", "nelder_mead", "rcds", "cobyqa", "cma_es"]
+
+
+@pytest.mark.parametrize("algorithm", HIGH_ONES)
+@pytest.mark.parametrize("sigma", [0.0, 1e-3, 0.02])
+def test_what_changes_by_no_more_than_its_noise_is_no_maximum(algorithm: str, sigma: float) -> None:
+    rng = random.Random(5)
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        return {"pd.power": 1 + sigma * rng.gauss(0, 1), "pd.power_sigma": sigma}
+
+    found, _ = driven(PEAK, algorithm, read, Limits(measurements=400))
+    assert not found.met and found.why == "nothing that was tried changed it by more than its noise"
+
+
+@pytest.mark.parametrize("aim", ["maximize", "minimize"])
+def test_where_a_tunable_can_go_no_further_there_may_be_more(aim: str) -> None:
+    sign = 1 if aim == "maximize" else -1
+    problem = Problem(BOX, ("pd.power",), aim)  # type: ignore[arg-type]
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        return {"pd.power": math.exp(sign * (point["m.tip"] - (point["m.tilt"] - 0.3) ** 2)), "pd.power_sigma": 1e-4}
+
+    found, _ = driven(problem, "peak" if sign > 0 else "nelder_mead", read, Limits(measurements=200))
+    more = "more" if sign > 0 else "less"
+    assert found.last and found.last["m.tip"] == pytest.approx(1.0, abs=2e-3)
+    assert not found.met and found.why == f"m.tip is at its bound of 1: beyond it there may be {more}"
+
+
+def test_an_angle_that_comes_round_has_no_end() -> None:
+    problem = Problem((Variable("p.angle", 0.0, 180.0, 40.0, period=180.0),), ("pd.power",), "maximize")
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        return {"pd.power": 0.01 + math.cos(math.radians(point["p.angle"])) ** 2, "pd.power_sigma": 1e-5}
+
+    found, _ = driven(problem, "malus", read)
+    assert found.met and found.last and found.last["pd.power"] > 1.009
+
+
+@pytest.mark.parametrize("start", [0.5, 0.5 + 1e-3, 0.2])
+def test_a_peak_whose_first_steps_drown_in_noise_is_sought_with_longer_ones(start: float) -> None:
+    rng = random.Random(3)
+    tip = Variable("m.tip", -1.0, 1.0, start, reach=0.02)
+    problem = Problem((tip, Variable("m.tilt", -1.0, 1.0, -0.2)), ("pd.power",), "maximize")
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        return {"pd.power": bump(point)["pd.power"] + 1e-3 * rng.gauss(0, 1), "pd.power_sigma": 1e-3}
+
+    found, asks = driven(problem, "peak", read)
+    assert found.met and bump(asks[-1].point)["pd.power"] > 0.99
+
+
+def test_a_tunable_that_does_nothing_is_told() -> None:
+    def read(point: Point, number: int) -> dict[str, float]:
+        return bump({**point, "m.tilt": -0.2})
+
+    found, _ = driven(PEAK, "peak", read)
+    assert found.met and found.why.endswith("; by m.tilt it changes by no more than its noise")

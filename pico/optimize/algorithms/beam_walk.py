@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pico.diagnostics import PicoError, error
-from pico.optimize.problem import Declaration, Problem
+from pico.optimize.problem import Declaration, Problem, Short
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -31,6 +32,11 @@ first mirror moves the beam at the near place [mm], and so on; `far`: at the far
 offsets [same] at which the power has fallen to 1/e. `probe`: first steps, in the length at which the power falls to
 1/e; `left`: it stops where no more than that share of the power is to be gained."""
 _MOST = 60
+_ARMS = 0.03
+"""By which share the power may fall otherwise than arms and widths, which are nominal, have it."""
+_UNSURE = 0.03
+"""The share of the power by which there may be less at the middle, as badly as that is known, until it is read beside
+it, too."""
 _FAR = 6.0  # of log P: how far below the brightest a reading tells little
 Array = NDArray[np.float64]
 
@@ -62,7 +68,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
     shape = _shape(problem, parameters)
     first = yield problem.start
     if not _bright(first, output):
-        return "it is dark where it began"
+        return Short("it is dark where it began")
     seen = [first]
     # along the ways that change the power most for their length, both planes at once
     values, vectors = np.linalg.eigh(shape)
@@ -78,34 +84,40 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
             sign, reach = -sign, reach / 2
         if _bright(result, output) and result[output] > max(r[output] for r in seen[:-1]):
             here = np.array([result[n] for n in names])
-    expected = -math.inf
+    back, vain = _back(shape), 0
     for _ in range(_MOST):
-        goal, peak = _fitted(names, output, seen, shape)
-        best = max(seen, key=lambda r: r[output])
-        at = np.array([best[n] for n in names])
-        step = goal - at
-        drop = float(step @ shape @ step)
-        noise = best.get(f"{output}_sigma", 0.0) / best[output]
-        if (
-            len(seen) > len(names) + 1
-            and drop <= parameters["left"] + noise
-            and peak - math.log(best[output]) <= 0.03 + 2 * noise
-        ):
+        fit, best = _fitted(names, output, seen, shape), max(seen, key=lambda r: r[output])
+        at, goal = np.array([best[n] for n in names]), _within(problem, fit.middle, back)
+        step, short = goal - at, goal - fit.middle
+        drop, most = float(step @ shape @ step), fit.peak - float(short @ shape @ short)
+        noise, unsure = best.get(f"{output}_sigma", 0.0) / best[output], float(np.trace(fit.unsure)) > _UNSURE
+        there = drop <= parameters["left"] + noise
+        if there and not unsure and most - math.log(best[output]) <= 0.03 + 2 * noise:
             return "there is no more power to be gained"
-        reach = min(1.0, math.sqrt(_FAR / drop)) if drop > 0 else 1.0
-        result = yield dict(zip(names, (at + reach * step).tolist(), strict=True))
-        if _bright(result, output):
-            seen.append(result)
-        else:  # too far: half the way
-            result = yield dict(zip(names, (at + reach * step / 3).tolist(), strict=True))
+        step = step * min(1.0, math.sqrt(_FAR / drop)) if drop > 0 else step
+        if there and unsure:  # beside it, where that tells most
+            step = step + parameters["probe"] * back @ np.linalg.eigh(fit.unsure)[1][:, -1]
+        result = yield dict(zip(names, (at + step).tolist(), strict=True))
+        if not _bright(result, output):  # too far: a third of the way
+            result = yield dict(zip(names, (at + step / 3).tolist(), strict=True))
             if not _bright(result, output):
-                return "the light is lost on the way to more"
-            seen.append(result)
+                return Short("the light is lost on the way to more")
+        seen.append(result)
         gained = math.log(result[output]) - math.log(best[output])
-        if expected > -math.inf and abs(gained) <= 2 * noise and drop <= 5 * parameters["left"]:
+        vain = vain + 1 if not unsure and abs(gained) <= 2 * noise else 0
+        if vain and (vain > 1 or drop <= 5 * parameters["left"]):  # flatter at its top than it is thought to be
             return "there is no more power to be gained"
-        expected = gained
-    return "it comes no nearer"
+    return Short("it comes no nearer")
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """Where the power is highest (n,), its logarithm there, and how far off that may be: a covariance (n, n) in units
+    in which the logarithm falls by the square, so that its trace is by how much less there may be."""
+
+    middle: Array
+    peak: float
+    unsure: Array
 
 
 def _bright(result: Result, output: str) -> bool:
@@ -113,9 +125,26 @@ def _bright(result: Result, output: str) -> bool:
     return math.isfinite(value) and value > 3 * result.get(f"{output}_sigma", 0.0) and value > 0
 
 
-def _fitted(names: list[str], output: str, seen: list[Result], shape: Array) -> tuple[Array, float]:
-    """Return the middle (4,) and the logarithm of the power there: log P + u' H u = c' + g . u, in the least squares,
-    what is near the brightest counting most."""
+def _back(shape: Array) -> Array:
+    """Return B (n, n) of u = B v, in whose v the logarithm of the power falls by v'v: the root of the inverse of H."""
+    values, vectors = np.linalg.eigh(shape)
+    return np.asarray(vectors / np.sqrt(np.maximum(values, 1e-9 * values[-1])))
+
+
+def _within(problem: Problem, middle: Array, back: Array) -> Array:
+    """Return where within the bounds the power falls least from its middle."""
+    low, high = (np.array([getattr(v, end) for v in problem.variables]) for end in ("low", "high"))
+    if ((low <= middle) & (middle <= high)).all():
+        return middle
+    from scipy.optimize import lsq_linear
+
+    into = np.linalg.inv(back)
+    return np.clip(lsq_linear(into, into @ middle, (low, high)).x, low, high)
+
+
+def _fitted(names: list[str], output: str, seen: list[Result], shape: Array) -> _Fit:
+    """Return the middle and the logarithm of the power there: log P + u' H u = c' + g . u, in the least squares, what
+    is near the brightest counting most. g . u is 2 m . v, with m the middle."""
     power = np.array([r[output] for r in seen])
     u = np.array([[r[n] for n in names] for r in seen])
     best = u[int(power.argmax())]
@@ -123,10 +152,9 @@ def _fitted(names: list[str], output: str, seen: list[Result], shape: Array) -> 
     height = np.log(power) + np.einsum("ni,ij,nj->n", away, shape, away)
     away_by = np.einsum("ni,ij,nj->n", away, shape, away)
     sigma = np.array([max(r.get(f"{output}_sigma", 0.0) / r[output], 2e-3) for r in seen])
-    weight = 1 / np.hypot(sigma, 0.05 * away_by)  # arms are nominal
-    scale = 1 / np.sqrt(np.maximum(np.diag(shape), 1e-12))
-    rows = np.column_stack([np.ones(len(seen)), away * scale]) * weight[:, None]
+    weight = 1 / np.hypot(sigma, _ARMS * away_by)
+    back = _back(shape)
+    rows = np.column_stack([np.ones(len(seen)), 2 * away @ np.linalg.inv(back).T]) * weight[:, None]
+    normal = np.linalg.pinv(rows.T @ rows, hermitian=True, rcond=1e-12)
     found = np.linalg.lstsq(rows, height * weight, rcond=1e-9)[0]
-    gradient = found[1:] * scale
-    middle = np.linalg.lstsq(2 * shape, gradient, rcond=1e-9)[0]
-    return best + middle, float(found[0] + middle @ shape @ middle)
+    return _Fit(best + back @ found[1:], float(found[0] + found[1:] @ found[1:]), normal[1:, 1:])

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from pico.optimize.problem import Declaration, Problem, missing
+from pico.optimize.problem import Declaration, Problem, Short, missing
 from pico.optimize.stepwise import Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -49,4 +49,4 @@ def _steps(problem: Problem, parameters: Mapping[str, float], strategy: Any) -> 
             return "a generation differs by no more than the noise"
         if strategy.should_stop():
             return "the strategy has converged"
-    return "all generations were tried"
+    return Short("all generations were tried")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from pico.optimize.problem import Declaration, Point, Problem, missing
+from pico.optimize.problem import Declaration, Point, Problem, Short, missing
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -49,7 +49,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
         known[asked] = min(problem.cost(result), _DARK)
         if problem.met(result):
             return "the goal is reached"
-    return f"{len(known)} points were tried"
+    return Short(f"{len(known)} points were tried")
 
 
 def _point(problem: Problem, scaled: tuple[float, ...]) -> Point:

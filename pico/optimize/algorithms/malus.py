@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.optimize.problem import Declaration, Problem, Solution, Variable
+from pico.optimize.extremum import FLICKER
+from pico.optimize.problem import Declaration, Problem, Short, Solution, Variable
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -38,8 +39,6 @@ _AGREES = 8.0
 _DOUBT = 3.0
 """By which share of itself a reading may be off the law, for each radian that it is from the extremum, where the law is
 not all: another polarizer at 45 deg makes 2 of it."""
-_FLICKER = 0.002
-"""By which share a laser is another from reading to reading, which no standard deviation of one reading tells."""
 _DARKER, _SAFE = 0.03, 0.8
 """By which share less noise than in the dimmest reading is hoped for where it is dimmer still; which share of what was
 too bright is not."""
@@ -70,7 +69,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
                 break
             unread.append(at)
         else:
-            return f"there is too little to see: {len(seen)} readings of {variable.name}"
+            return Short(f"there is too little to see: {len(seen)} readings of {variable.name}")
     doubt = 0.0
     for _ in range(_MOST):
         fit = _fitted(problem, variable, output, seen, k, doubt)
@@ -88,7 +87,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
             found = Solution({variable.name: fit.place}, {variable.name: fit.known})
             return "the place of the extremum is known", found
         doubt = _DOUBT if known else doubt
-    return "the readings do not follow the law of Malus well enough"
+    return Short("the readings do not follow the law of Malus well enough")
 
 
 def _probes(variable: Variable, seen: list[Result], cycle: float) -> list[float]:
@@ -145,7 +144,7 @@ def _scaled(output: str, variable: Variable, seen: list[Result]) -> tuple[Array,
     most = max(abs(r[output]) for r in seen) or 1.0
     share = [abs(r[output]) / most for r in seen]
     sigma = [
-        max(math.hypot(s / most, _FLICKER * y) if (s := r.get(f"{output}_sigma", 0.0)) else _NOISE * y, _FLOOR)
+        max(math.hypot(s / most, FLICKER * y) if (s := r.get(f"{output}_sigma", 0.0)) else _NOISE * y, _FLOOR)
         for r, y in zip(seen, share, strict=True)
     ]
     return np.array([r[variable.name] for r in seen]), np.array([r[output] / most for r in seen]), np.array(sigma)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Mapping
-from typing import Any
+from dataclasses import dataclass
 
-from pico.optimize.problem import Declaration, Point, Problem, Variable
+from pico.optimize.extremum import same
+from pico.optimize.problem import Declaration, Point, Problem, Short, Variable
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -17,7 +18,7 @@ DECLARATION = Declaration(
 gains no more than that share of the power; `rounds`: of all axes, at most."""
 _SMALLEST = 1e-4
 _FURTHEST = 3.0
-Line = Generator[Point, Result, Any]
+_WIDER = 3.0
 
 
 def make(problem: Problem, parameters: Mapping[str, float], seed: int) -> Stepwise:
@@ -29,18 +30,20 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
     output = problem.outputs[0]
     here = yield problem.start
     if _height(here, output) == -math.inf:
-        return "it is dark where it began"
+        return Short("it is dark where it began")
     steps = {v.name: parameters["step"] * v.likely for v in problem.variables}
     for number in range(int(parameters["rounds"])):
-        before = _height(here, output)
+        before, flat = _height(here, output), list[str]()
         for variable in problem.variables:
-            here, steps[variable.name] = yield from _line(problem, variable, here, steps[variable.name])
+            found = yield from _line(problem, variable, here, steps[variable.name])
+            here, steps[variable.name] = found.best, found.step
+            flat += [variable.name] if found.flat else []
         noise = here.get(f"{output}_sigma", 0.0) / here[output]
-        if _height(here, output) - before <= max(parameters["left"], 1.5 * noise) and number:
-            return "there is no more power to be gained"
-        if len(problem.variables) == 1 and number:
-            return "there is no more power to be gained"
-    return "all rounds were done"
+        gained = _height(here, output) - before
+        if number and (gained <= max(parameters["left"], 1.5 * noise) or len(problem.variables) == 1):
+            idle = f"; by {' and '.join(flat)} it changes by no more than its noise" if flat else ""
+            return f"there is no more power to be gained{idle}"
+    return Short("all rounds were done")
 
 
 def _height(result: Result, output: str) -> float:
@@ -48,8 +51,18 @@ def _height(result: Result, output: str) -> float:
     return math.log(value) if math.isfinite(value) and value > 0 else -math.inf
 
 
-def _line(problem: Problem, variable: Variable, here: Result, step: float) -> Line:
-    """Search one axis: return the best result, and the step that suits the width found."""
+@dataclass(frozen=True)
+class _Line:
+    """What a search along one axis found: the best result, the step that suits the width of the peak, and whether
+    nothing changed by more than its noise, however far it went."""
+
+    best: Result
+    step: float
+    flat: bool
+
+
+def _line(problem: Problem, variable: Variable, here: Result, step: float) -> Generator[Point, Result, _Line]:
+    """Search one axis, by a parabola through three readings; where these are the same but for noise, further apart."""
     name, output = variable.name, problem.outputs[0]
     at = {v.name: here[v.name] for v in problem.variables}
     line = {here[name]: here}
@@ -65,22 +78,36 @@ def _line(problem: Problem, variable: Variable, here: Result, step: float) -> Li
         line[result[name]] = result
         if _height(result, output) < _height(best, output):
             side = -side
+    while len(line) >= 3 and same(problem, list(line.values())) and step < variable.span:
+        step *= _WIDER
+        for further in (here[name] + step, here[name] - step):
+            result = yield {**at, name: further}
+            if _height(result, output) > -math.inf:
+                line[result[name]] = result
     best = max(line.values(), key=lambda r: _height(r, output))
-    if len(line) < 3:
-        return best, max(step, _SMALLEST * variable.span)
-    goal, width = _vertex([(x, _height(r, output)) for x, r in sorted(line.items())], best[name], step)
+    flat = same(problem, list(line.values()))
+    if len(line) < 3 or flat:
+        return _Line(here if flat else best, max(min(step, variable.span / 4), _SMALLEST * variable.span), flat)
+    goal, width = _vertex(_around(line, best[name], output), best[name], step)
     goal = variable.within(goal)
     if abs(goal - best[name]) > 0.15 * step:
         result = yield {**at, name: goal}
         if _height(result, output) > _height(best, output):
             best = result
-    return best, min(max(0.35 * width, _SMALLEST * variable.span), variable.span / 4)
+    return _Line(best, min(max(0.35 * width, _SMALLEST * variable.span), variable.span / 4), False)
+
+
+def _around(line: Mapping[float, Result], best: float, output: str) -> list[tuple[float, float]]:
+    """Return the best place of a line and its neighbours, with the logarithms of the power there: three."""
+    places = sorted((x, _height(r, output)) for x, r in line.items())
+    first = min(max([x for x, _ in places].index(best) - 1, 0), len(places) - 3)
+    return places[first : first + 3]
 
 
 def _vertex(line: list[tuple[float, float]], best: float, step: float) -> tuple[float, float]:
     """Return the top of the parabola through three points, no further than three steps from the best, and how far from
     it the power has fallen to 1/e."""
-    (x0, y0), (x1, y1), (x2, y2) = line[:3]
+    (x0, y0), (x1, y1), (x2, y2) = line
     first, second = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
     bend = (second - first) / (x2 - x0)
     if bend >= -1e-12:

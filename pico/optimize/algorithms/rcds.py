@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.optimize.problem import Declaration, Point, Problem
+from pico.optimize.problem import Declaration, Point, Problem, Short
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -75,7 +75,7 @@ def _searched(problem: Problem, parameters: Mapping[str, float]) -> Steps:
                 here, cost, noise = yield from _line(tried, here, cost, noise, along / size, step)
                 directions = [*directions[:steepest], *directions[steepest + 1 :], along / size]
         step = max(step / 2, 1e-3)
-    return "all rounds were searched"
+    return Short("all rounds were searched")
 
 
 def _line(tried: Any, here: Array, cost: float, noise: float, direction: Array, step: float) -> Search:

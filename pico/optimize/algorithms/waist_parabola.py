@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pico.optimize.problem import Declaration, Problem
+from pico.optimize.problem import Declaration, Problem, Short
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -37,7 +37,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
             if problem.aim == "reach" and off <= problem.tolerance.get(output, 0.0):
                 return "the goal is reached"
         elif not seen:
-            return "there is nothing to see where it began"
+            return Short("there is nothing to see where it began")
         if len({r[variable.name] for r in seen}) < 3:
             outward = len(seen) == 1 or seen[-1][output] < seen[0][output]
             step = step if problem.measured(result) else step / 2
@@ -53,7 +53,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
         before = at
         if any(abs(r[variable.name] - at) < 1e-9 * variable.span for r in seen) and problem.aim == "reach":
             return "the radius is as near as it can be within the bounds"
-    return "it comes no nearer"
+    return Short("it comes no nearer")
 
 
 def _next(problem: Problem, seen: list[Result]) -> float:
