@@ -139,7 +139,7 @@ def _within(problem: Problem, middle: Array, back: Array) -> Array:
     from scipy.optimize import lsq_linear
 
     into = np.linalg.inv(back)
-    return np.clip(lsq_linear(into, into @ middle, (low, high)).x, low, high)
+    return np.asarray(np.clip(lsq_linear(into, into @ middle, (low, high)).x, low, high))
 
 
 def _fitted(names: list[str], output: str, seen: list[Result], shape: Array) -> _Fit:
