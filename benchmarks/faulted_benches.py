@@ -183,7 +183,9 @@ def made(name: str, place: Path) -> Path:
         new_lab(folder, name)
         lab = folder / "lab.yaml"
         text = lab.read_text().replace("  seed: 1\n", "  seed: 1\n  environment: none\n", 1)
-        lab.write_text(text.replace("inventory:\n", f"goals:\n{goals}inventory:\n", 1))
+        if "\ngoals:\n" not in text:
+            text = text.replace("\ninventory:\n", "\ngoals:\ninventory:\n", 1)
+        lab.write_text(text.replace("\ngoals:\n", f"\ngoals:\n{goals}", 1))
     else:
         folder.mkdir(parents=True)
         inventory, state = LABS[name]

@@ -270,6 +270,7 @@ def main() -> int:
     parser.add_argument("--loops", type=int, default=1000)
     parser.add_argument("--kills", type=int, default=150)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=0, help="the number of the first loop, to run them in parts")
     parser.add_argument("--goals", nargs="*", default=list(SOUGHT), help="only these of the goals")
     parser.add_argument("--kinds", nargs="*", default=[*FAULTS, *SIGNALS], help="only these faults and signals")
     given = parser.parse_args()
@@ -281,7 +282,7 @@ def main() -> int:
             wrong += kill(Path(temporary) / "killed", given.kills, given.seed)
             began = time.monotonic()
         loops = Loops(Path(temporary), given.seed)
-        for number in range(given.loops):
+        for number in range(given.first, given.first + given.loops):
             name = names[number % len(names)]
             kind = given.kinds[(number + number // len(names)) % len(given.kinds)]
             loops.count[f"with {kind}"] += 1
