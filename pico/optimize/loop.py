@@ -18,6 +18,8 @@ STOPPED = "it was stopped"
 LIGHT_LOST = "the light was lost"
 LOST = 6
 """Readings without light, one after the other, after light was seen, at which it gives up."""
+_FEW = 8
+"""Readings in the dark up to which all places are tried once more."""
 _SURE = 5.0
 """Standard deviations of a power from which it counts as light."""
 Making = Callable[[Problem], Algorithm]
@@ -114,7 +116,10 @@ class _Walk:
                 return (yield from self._end("there is too much light to begin with"))
             yield from self._ask(self.problem.start)
         if not why and self.good is None and acquire is not None:
-            why = yield from self._stage(acquire(replace(self.problem, offset=None)), until_light=True)
+            plain = replace(self.problem, offset=None)
+            why = yield from self._stage(acquire(plain), until_light=True)
+            if self.good is None and len(self.tried) <= _FEW:  # readings may have been lost
+                why = yield from self._stage(acquire(plain), until_light=True, anew=True)
             if self.good is None:
                 return (yield from self._end(why or Short("no light was found")))
             why = self._over()
@@ -123,9 +128,12 @@ class _Walk:
             why = yield from self._stage(refine(started(self.problem, begun)))
         return (yield from self._end(why))
 
-    def _stage(self, algorithm: Algorithm, *, until_light: bool = False) -> Generator[Ask, Reading, str]:
-        """Do what an algorithm suggests until it is finished, or something ends it; return why."""
-        known = self.tried[-1] if self.tried else None
+    def _stage(
+        self, algorithm: Algorithm, *, until_light: bool = False, anew: bool = False
+    ) -> Generator[Ask, Reading, str]:
+        """Do what an algorithm suggests until it is finished, or something ends it; return why. `anew`: what was
+        measured where it stands is measured again."""
+        known = self.tried[-1] if self.tried and not anew else None
         while not (why := self._over()):
             points = algorithm.suggest(1)
             if not points:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import pytest
 
 from pico.optimize.loop import Ask, Limits, Outcome, Reading, loop
-from pico.optimize.problem import Point, Problem, Variable
+from pico.optimize.problem import Nominal, Point, Problem, Variable
 from pico.optimize.registry import made
 
 BOX = tuple(Variable(f"m.{n}", -1.0, 1.0, 0.0) for n in ("tip", "tilt"))
@@ -84,6 +85,23 @@ def test_where_it_stays_dark_it_gives_up_and_goes_back_to_where_it_began() -> No
     found, asks = driven(PEAK, "nelder_mead", lambda p, n: {}, Limits(measurements=300), acquire="spiral")
     assert not found.met and "dark" in found.why and found.last is None and found.first is None
     assert asks[-1].point == PEAK.start and asks[-1].why == "start"
+
+
+@pytest.mark.parametrize("lost", [1, 2])
+def test_where_there_are_few_places_to_look_at_lost_readings_are_taken_again(lost: int) -> None:
+    """Light is where it began, and the beam was lost for a moment; the camera sees all that is likely."""
+    told = Nominal(((1.0, 0.0), (0.0, 1.0)), ((0.01, 0.0), (0.0, 0.01)), 1.0)
+    problem = replace(CENTRE, nominal=told)
+    steps = loop(problem, lambda p: made("centroid_newton", p), acquire=lambda p: made("likely", p))
+    ask, number, ended = next(steps), 0, None
+    while ended is None:
+        number += 1
+        try:
+            ask = steps.send(Reading({} if number <= lost else spot(ask.point), float(number)))
+        except StopIteration as stop:
+            ended = stop.value
+    assert ended.met is (lost < 2) and number <= 8
+    assert ended.met or ended.why == "it is dark at 1 place"
 
 
 def test_light_is_looked_for_first_where_there_is_none() -> None:
