@@ -36,7 +36,7 @@ def main() -> int:
     settings = parser.parse_args().settings
 
     def setting(bench: Bench) -> Callable[[float], object]:
-        return lambda angle: bench.apply(bench.single("p1", "set", angle=angle))
+        return lambda angle: setattr(bench["p1"], "angle", angle)
 
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary) / "shel"

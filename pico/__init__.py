@@ -9,15 +9,92 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from pico.diagnostics import Diagnostic, ExitCode, PicoError
+    from pico.model.diff import Change
+    from pico.model.measurement import Measurement
+    from pico.model.observation import Observation
+    from pico.model.plan import Plan
+    from pico.model.pose import Pose
+    from pico.model.report import Captured, Committed, RunReport
+    from pico.model.run import Run, TraceEvent
+    from pico.model.state import LabState
+    from pico.runs.document import RecordedRun
     from pico.scripting.bench import Bench
+    from pico.scripting.parts import Part
+    from pico.scripting.readings import Measurable, Reading
+    from pico.scripting.recording import Recording
+    from pico.scripting.status import Status
+    from pico.scripting.tunables import Tunable
+
+_OF = {
+    "pico.diagnostics": ("Diagnostic", "ExitCode", "PicoError"),
+    "pico.model.diff": ("Change",),
+    "pico.model.measurement": ("Measurement",),
+    "pico.model.observation": ("Observation",),
+    "pico.model.plan": ("Plan",),
+    "pico.model.pose": ("Pose",),
+    "pico.model.report": ("Captured", "Committed", "RunReport"),
+    "pico.model.run": ("Run", "TraceEvent"),
+    "pico.model.state": ("LabState",),
+    "pico.runs.document": ("RecordedRun",),
+    "pico.scripting.bench": ("Bench",),
+    "pico.scripting.parts": ("Part",),
+    "pico.scripting.readings": ("Measurable", "Reading"),
+    "pico.scripting.recording": ("Recording",),
+    "pico.scripting.status": ("Status",),
+    "pico.scripting.tunables": ("Tunable",),
+}
+"""Where the names are that `pico` has, which are imported when somebody asks for them."""
+_WHERE = {name: module for module, names in _OF.items() for name in names}
+
+__all__ = [
+    "Bench",
+    "Captured",
+    "Change",
+    "Committed",
+    "Diagnostic",
+    "ExitCode",
+    "LabState",
+    "Measurable",
+    "Measurement",
+    "Observation",
+    "Part",
+    "PicoError",
+    "Plan",
+    "Pose",
+    "Reading",
+    "RecordedRun",
+    "Recording",
+    "Run",
+    "RunReport",
+    "Status",
+    "TraceEvent",
+    "Tunable",
+    "__version__",
+    "open",
+]  # fmt: skip
 
 
 def open(path: str | Path = ".", **options: Any) -> Bench:
     """Open the laboratory in folder `path` (or any folder below it) and return its bench.
 
-    Options are those of `pico.bench.bench.Bench.open` (`backend`, `fidelity`).
-    Raises `pico.diagnostics.PicoError` where the folder holds no laboratory or its manifests are wrong.
+    Options are those of `pico.bench.bench.Bench.open` (`backend`, `fidelity`, `speed`).
+    Raises `PicoError` where the folder holds no laboratory or its manifests are wrong.
+
+    >>> bench = pico.open("labs/shel", fidelity="kinematic")
     """
     from pico.scripting.bench import Bench
 
     return Bench.open(path, **options)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _WHERE:
+        raise AttributeError(f"module 'pico' has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(_WHERE[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

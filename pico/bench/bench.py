@@ -149,7 +149,9 @@ class Bench(Opened):
     def single(self, component: str, primitive: str, **arguments: object) -> Plan:
         """Return the plan of one operation: `single("p1", "set", angle=3)`, `single("p2", "move", x=500)` or
         `slot="storage/a4"`, `single("p1", "measure", measurable="angle")`; see `Plans.single`."""
-        return self.plans.single(component, primitive, {key: str(value) for key, value in arguments.items()})
+        from pico.bench.plans import written
+
+        return self.plans.single(component, primitive, {key: written(value) for key, value in arguments.items()})
 
     def run(self, plan: Plan, **options: Any) -> Execution:
         """Return the run of a plan: iterate over it for its events; see `Moves.run`."""

@@ -11,7 +11,7 @@ from pico.bench.auditing import with_audit
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
-from pico.model.diff import Change, diff_observed, show_value
+from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of
 from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
@@ -285,7 +285,7 @@ class Plans:
         if len(values) == 1:
             ((address, value),) = values.items()
             component, _, tunable = address.partition(".")
-            return self.single(component, "set", {tunable: show_value(value)})
+            return self.single(component, "set", {tunable: written(value)})
         parts: dict[str, dict[str, Value]] = {}
         for address, value in values.items():
             component, _, tunable = address.partition(".")
@@ -444,6 +444,11 @@ class Plans:
             assert goal is not None
             found = planning.move_one(setup, seen, name, goal, motion=DeferredMotion(setup), **options)
         return self.judged(found, seen)
+
+
+def written(value: object) -> str:
+    """Return a value as a person writes it, with every digit."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _strangers(seen: Observation) -> Iterator[Diagnostic]:

@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args
 
 from pico.model.quantities import Value
 from pico.model.record import Format, record
+from pico.model.shown.html import number, table
 
 FORMAT = Format("pico.measurement")
 
@@ -60,6 +61,38 @@ class Measurement:
     def address(self) -> str:
         """`cam.image`."""
         return f"{self.component}.{self.measurable}"
+
+    @property
+    def numbers(self) -> Mapping[str, tuple[float, float | None, str]]:
+        """Each number with its sigma (None where nobody tells) and unit, by its name; by `` where there is only one."""
+        values = self.value if isinstance(self.value, Mapping) else {"": self.value}
+        units = self.unit.split(", ") if isinstance(self.value, Mapping) else [self.unit]
+        each = units if len(units) == len(values) else [self.unit] * len(values)
+        sigmas = self.sigma if isinstance(self.sigma, Mapping) else {"": self.sigma}
+        return {
+            name: (float(value), sigmas.get(name), unit)
+            for (name, value), unit in zip(values.items(), each, strict=True)
+            if isinstance(value, int | float) and not isinstance(value, bool)
+        }
+
+    @property
+    def said(self) -> str:
+        """What was measured, in a line: `x 1.2 ± 0.1 um, y 3.4 ± 0.1 um`."""
+        if self.unknown:
+            return f"unknown: {self.unknown}"
+        told = [f"{name} {number(v, s)} {unit}".strip() for name, (v, s, unit) in self.numbers.items()]
+        if self.array is not None:
+            told.append(f"{' x '.join(map(str, self.array.shape))} {self.array.dtype}")
+        return ", ".join(told) or number(self.value)
+
+    def __repr__(self) -> str:
+        return f"<{self.address}: {self.said}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(name, number(v, s), unit) for name, (v, s, unit) in self.numbers.items()]
+        settings = ", ".join(f"{name} {number(value)}" for name, value in self.settings.items())
+        below = "; ".join(words for words in (settings, self.doubt and f"not assured: {self.doubt}") if words)
+        return table(repr(self)[1:-1], ("", "value", "unit"), rows, below)
 
     @property
     def doubt(self) -> str:

@@ -11,6 +11,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
 from pico.model.record import Document, Format, as_json, canonical, digest, record
+from pico.model.shown.html import table
 from pico.model.state import Expectation
 
 FORMAT = Format("pico.plan")
@@ -175,6 +176,15 @@ class Plan:
     def open(self) -> bool:
         """Whether a run of it is open: it has no operations, they are asked for while it goes on."""
         return self.target.cause == "recording" and not self.operations
+
+    def __repr__(self) -> str:
+        count = f"{len(self.operations)} operation{'' if len(self.operations) == 1 else 's'}"
+        return f"<plan to {self.target.name}: {'impossible' if self.errored else f'{count}, {self.makespan:.1f} s'}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(c.component, c.tunable, c.text) for c in self.changes]
+        below = "; ".join(f"{d.severity}: {d.summary}" for d in self.diagnostics)
+        return table(repr(self)[1:-1], ("part", "tunable", "change"), rows, below)
 
     def because(self, cause: str, of: str | None = None) -> Plan:
         """Return the plan, sealed, with why it was made: see `Target`."""

@@ -14,6 +14,7 @@ from pico.model.measurement import Measurement
 from pico.model.observation import Observation, slot_at
 from pico.model.quantities import Value
 from pico.model.record import record
+from pico.model.shown.html import table
 from pico.model.state import LabState, place_of
 
 
@@ -69,6 +70,15 @@ class RunReport:
     aligning: float | None = None
     read: tuple[GoalRead, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<run {self.run}: {self.goal}, {self.outcome}, {self.done} done in {self.seconds:.1f} s>"
+
+    def _repr_html_(self) -> str:
+        rows = [(m.address, m.said) for m in self.measurements.values()]
+        rows += [(f"{c.component}.{c.tunable}", f"still to be {c.text}") for c in self.remaining]
+        below = "; ".join(f"{d.severity}: {d.summary}" for d in self.diagnostics)
+        return table(repr(self)[1:-1], ("of", "is"), rows, below)
 
     @property
     def reached(self) -> bool:

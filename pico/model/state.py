@@ -14,6 +14,7 @@ from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import as_json, digest, record
+from pico.model.shown.html import number, table
 
 NULL: Final = "null_of"
 THROUGH: Final = "through"
@@ -134,6 +135,16 @@ class LabState:
     lab: str
     components: Mapping[str, ComponentState] = field(default_factory=dict)
     expect: tuple[Expectation, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<state of {self.lab}: {len(self.components)} parts, {self.digest()[:15]}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (name, part.slot or part.pose or "", ", ".join(f"{k} {number(v)}" for k, v in sorted(part.values.items())))
+            for name, part in sorted(self.components.items())
+        ]
+        return table(repr(self)[1:-1], ("part", "where", "tunables"), rows)
 
     def as_json(self) -> dict[str, Any]:
         """Return the state as flat JSON data, components by name."""

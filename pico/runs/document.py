@@ -10,13 +10,17 @@ from typing import Any
 from pico.diagnostics import Diagnostic
 from pico.model.expectation import Expected
 from pico.model.lab import Setup
+from pico.model.measurement import measurement_from_json
 from pico.model.operation import address_of
 from pico.model.plan import LabRef
+from pico.model.pose import Pose
 from pico.model.record import digest, record
 from pico.model.run import STRENGTH, Cause, Run, Seen, TraceEvent
+from pico.model.shown.html import table
 from pico.model.state import LabState, state_from_json
 from pico.runs.journal import JournalRecord, RunRecord
 from pico.runs.memory import Memory
+from pico.runs.operations import OperationRun, operations
 from pico.runs.states import changes, digest_of, state_left, state_seen, states_along, touched
 from pico.runs.trace import artifacts, busy, counted, measured, trace_events, unmet
 
@@ -41,6 +45,26 @@ class RecordedRun:
     stored: Mapping[str, str] = field(default_factory=dict)
     missing: frozenset[str] = frozenset()
     diagnostics: tuple[Diagnostic, ...] = ()
+
+    def __repr__(self) -> str:
+        d = self.document
+        return f"<run {d.id}: {d.goal}, {d.outcome}, {d.tally.get('done', 0)} done in {d.seconds:.1f} s, {d.evidence}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (f"{op.start:.1f}" if op.start is not None else "", op.primitive, op.address, _led_to(op), op.outcome)
+            for op in operations(self.trace)
+        ]
+        return table(repr(self)[1:-1], ("s", "operation", "of", "", "ended"), rows)
+
+
+def _led_to(op: OperationRun) -> str:
+    """Return in a few words what an operation was to lead to, or what it measured."""
+    found = op.data.get("measurement")
+    if isinstance(found, Mapping):
+        return measurement_from_json(found).said
+    to = op.arguments.get("to")
+    return str(to.get("slot") or Pose(**to["pose"])) if isinstance(to, Mapping) else "" if to is None else f"→ {to}"
 
 
 def recorded(setup: Setup, memory: Memory, run: RunRecord, part: int = 0) -> RecordedRun | None:

@@ -1,0 +1,1 @@
+"""How results show themselves in a notebook: plain HTML, without a style of its own."""

@@ -1,0 +1,132 @@
+"""A bench as a script has it: parts and tunables as objects, units and limits, statuses, results that are shown."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import pico
+from pico.diagnostics import ExitCode
+from pico.scripting.bench import Bench
+
+
+@pytest.fixture
+def bench(case_study: Path, tmp_path: Path) -> Iterator[Bench]:
+    shutil.copytree(case_study, tmp_path / "shel")
+    with pico.open(tmp_path / "shel", fidelity="kinematic") as opened:
+        yield opened
+
+
+@pytest.fixture
+def lit(bench: Bench) -> Bench:
+    """A bench with light on its camera."""
+    bench.apply("C3")
+    bench["laser"].emission = True
+    bench["laser"].shutter = "open"
+    bench.set({"p1.angle": 12, "p2.angle": 102})
+    bench["cam"].do("auto_range")
+    return bench
+
+
+def test_tunables_are_read_and_set_with_units_and_limits(bench: Bench) -> None:
+    angle = bench["p1"].angle
+    bench["p1"].angle = 10.123456789
+    assert (angle.value, angle.unit, angle.limits) == (10.123456789, "deg", (0.0, 360.0))
+    bench["p1"].angle = "0.2 rad"
+    assert angle.value == pytest.approx(11.4591559)
+    angle.set(20).wait()
+    assert bench["p1.angle"].value == 20.0
+    with pytest.raises(pico.PicoError, match="is a length, not an angle"):
+        angle.set("3 mm")
+    with pytest.raises(pico.PicoError, match=r"goes from 0.02 to 1000 ms, not to 2000"):
+        bench["cam"].exposure = "2 s"
+    assert angle.value == 20.0
+
+
+def test_what_there_is_not_is_said_with_what_there_is(bench: Bench) -> None:
+    with pytest.raises(KeyError, match="shel has no `p3`"):
+        bench["p3"]
+    with pytest.raises(KeyError, match="did you mean `angle`"):
+        bench["p1.angel"]
+    with pytest.raises(AttributeError, match="did you mean `angle`"):
+        bench["p1"].angel = 3
+    assert not hasattr(bench["p1"], "angel") and "angle" in dir(bench["p1"])
+    for address, words in {"cam.centroyd": "did you mean `centroid`", "cam.image | foo": "no kernel `foo`"}.items():
+        with pytest.raises(pico.PicoError, match=words):
+            bench.measure(address)
+    with pytest.raises(pico.PicoError, match="what is to be measured"):
+        bench.measure()
+    with pytest.raises(pico.PicoError, match="takes no `z`"):
+        bench["p1"].move(z=3)
+    with pytest.raises(pico.PicoError, match="no slot `nowhere`"):
+        bench.move({"p1": "nowhere"})
+    with pytest.raises(pico.PicoError, match="p1 is no tunable"):
+        bench.set({"p1": 3})
+
+
+def test_parts_move_and_what_cannot_be_moves_nothing(bench: Bench) -> None:
+    p2 = bench["p2"]
+    assert p2.move(x=520, y=420, yaw=30).outcome == "done"
+    assert p2.pose is not None and p2.slot is None
+    assert (p2.pose.x, p2.pose.y, p2.pose.yaw) == pytest.approx((520, 420, 30), abs=0.5)
+    p2.move(x=540)
+    assert (p2.pose.x, p2.pose.yaw) == pytest.approx((540, 30), abs=0.5)
+    with pytest.raises(pico.PicoError) as caught:
+        bench["p2"].move(x=5000)
+    assert caught.value.exit_code == ExitCode.IMPOSSIBLE and p2.pose.x == pytest.approx(540, abs=0.5)
+    bench.move({"p2": "home"})
+    assert p2.slot == "storage/b2"
+
+
+def test_measurements_are_numbers_with_uncertainties_and_pictures(lit: Bench) -> None:
+    spot = lit.measure("cam.centroid")
+    assert spot.sigma["x"] > 0 and spot["x"] == spot.value["x"] and spot.unit == "um, um"
+    image, again = lit.measure("cam.image", "cam.image | centroid")
+    assert image.array.ndim == 2 and image._repr_png_().startswith(b"\x89PNG") and spot._repr_png_() is None
+    assert again["x"] == pytest.approx(spot["x"], abs=10 * spot.sigma["x"] + 1)
+    with pytest.raises(TypeError, match="is not one number"):
+        float(spot)
+    with pytest.raises(KeyError, match="it has x, y"):
+        spot["z"]
+    lit["laser"].shutter = "closed"
+    with pytest.raises(pico.PicoError, match=r"cam.centroid has no value: there is no light"):
+        lit.measure("cam.centroid")
+
+
+def test_what_is_asked_for_meanwhile_comes_after_it(bench: Bench) -> None:
+    heard: list[bool] = []
+    first, second = bench["p1"].angle.set(50), bench["p2"].angle.set(60)
+    second.add_callback(lambda status: heard.append(status.success))
+    bench["p1"].angle = 70
+    assert first.done and second.done and heard == [True]
+    assert (bench["p1"].angle.value, bench["p2"].angle.value) == (70.0, 60.0)
+    assert first.result.outcome == "done" and first.exception() is None and "done" in repr(first)
+
+
+def test_a_status_tells_what_went_wrong(bench: Bench) -> None:
+    status = bench.ask("move p1", lambda: bench["p1"].move(x=5000))
+    with pytest.raises(pico.PicoError, match="cannot stand"):
+        status.wait()
+    assert status.done and not status.success and isinstance(status.exception(), pico.PicoError)
+
+
+def test_results_show_themselves_shortly_and_in_a_notebook(lit: Bench) -> None:
+    with lit.record("shown"):
+        reading = lit.measure("cam.centroid")
+    run, _ = lit.history.recorded_run()
+    things = [lit, lit["p1"], lit.plan("e1"), lit.apply("C3"), lit.live(), reading, reading.measurement, run]
+    for thing in things:
+        assert 10 < len(repr(thing)) < 200 and "\n" not in repr(thing)
+        html = thing._repr_html_()  # type: ignore[attr-defined]
+        assert html.startswith("<div>") and html.count("<table") <= 1
+    assert "p1" in lit.live()._repr_html_() and "cam.centroid" in run._repr_html_()
+
+
+def test_names_are_exported_and_imported_only_when_they_are_asked_for() -> None:
+    for name in pico.__all__:
+        assert getattr(pico, name) is not None
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = pico.nothing
