@@ -31,6 +31,9 @@ PlanOrRevision = Annotated[
     str | None,
     typer.Argument(metavar="PLANFILE|REV", help="A saved plan or a revision; ./NAME is a file."),
 ]
+Seed = Annotated[
+    int | None, typer.Option("--seed", metavar="N", min=0, help="Of a new simulated world: what is hidden in it.")
+]
 Fidelity = Annotated[
     str | None, typer.Option("--fidelity", metavar="kinematic|physics", help="How the simulator moves things.")
 ]

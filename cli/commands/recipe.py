@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,6 +15,7 @@ from ..terminal.waiting import waiting
 from ..views import recipe as view
 from ..views import recipe_list as table
 from ..views import recipe_steps as steps_view
+from ..views import recipe_written as written
 
 app = group(
     help="List and check recipes: experiments that anybody can run again.",
@@ -85,3 +87,35 @@ def steps(context: typer.Context) -> None:
     from pico.recipes.registry import known, step_file
 
     Session.of(context).show(steps_view, {name: step_file(name).KIND for name in known()})
+
+
+@app.command("from")
+def from_(
+    context: typer.Context,
+    runs: Annotated[list[str], typer.Argument(metavar="RUN...", help="Runs by id, in the order of their steps.")],
+    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="FILE", help="Where it is written.")] = None,
+) -> int:
+    """Write a recipe of what was done: by hand, from Python, by sight or by steering.
+
+    Each thing that was done in the runs becomes a step; what was steered by eye is set to where that ended. Parameters,
+    loops and names of results are yours to add. Without -o it is printed.
+
+    Examples:
+      pico recipe from 20260105T0900 -o recipes/warm_up.yaml
+    """
+    from pico.diagnostics import PicoError, error
+    from pico.disk import write_whole
+    from pico.recipes.encoding import encoded
+
+    session = Session.of(context)
+    bench = session.bench()
+    name = out.stem if out else "from_runs"
+    text = encoded(name, bench.setup.lab.name, [bench.history.recorded_run(run)[0] for run in runs])
+    if out is None:
+        session.show(written, text)
+        return 0
+    if out.exists():
+        raise PicoError(error("exists", f"{out} is there already", hint="name another file, or take it away first"))
+    write_whole(out, text.encode(), folders=True)
+    session.show(written, text, out)
+    return 0

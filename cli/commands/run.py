@@ -9,7 +9,7 @@ import typer
 
 from pico.diagnostics import ExitCode, PicoError, error
 
-from ..arguments import Fidelity, LockTimeout, Yes
+from ..arguments import Fidelity, LockTimeout, Seed, Yes
 from ..runs.running import say
 from ..session import Session
 from ..terminal.waiting import waiting
@@ -38,6 +38,7 @@ def run(
     dry_run: DryRun = False,
     until: Until = "",
     resume: Resume = False,
+    seed: Seed = None,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
@@ -51,7 +52,7 @@ def run(
 
     Examples:
       pico run tilt_scan -p tilts='[0, 15, 30]'
-      pico run recipes/tilt_scan.yaml --dry-run
+      pico run recipes/tilt_scan.yaml --dry-run --seed 1
       pico run --resume
     """
     from pico.recipes.recipes import Recipes
@@ -60,6 +61,9 @@ def run(
     if (recipe is None) != resume:
         hint = "`pico run RECIPE`, or `pico run --resume` for the one that was cut short"
         raise PicoError(error("usage", "name a recipe, or say --resume", hint=hint))
+    if resume and (seed is not None or given):
+        text = "what was cut short goes on with the world and the parameters that it began with"
+        raise PicoError(error("usage", text, hint="`pico run --resume` takes neither --seed nor -p"))
     bench = session.bench(fidelity, writing=not dry_run)
     recipes = Recipes(bench)
     if resume:
@@ -74,15 +78,19 @@ def run(
         session.show(view, found, ahead)
         session.report(ahead.diagnostics)
         return int(ahead.exit_code)
-    if not _agreed(session, found, ahead, auto_approve):
+    if not _agreed(session, found, ahead, auto_approve, seed):
         session.say("Nothing was done.")
         return int(ExitCode.ERROR)
+    if seed is not None:
+        bench.sim.reset(seed)
     return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True)
 
 
-def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: bool) -> bool:
+def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: bool, seed: int | None) -> bool:
     session.require_answer(auto_approve)
     session.say(view.head(recipe, ahead))
+    if seed is not None:
+        session.say(f"It begins in a new simulated world of seed {seed}: every part is at home there.")
     return session.confirm(f"Run {recipe.name}?", auto_approve)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from ..arguments import Component, group
+from ..arguments import Component, Seed, group
 from ..session import Session
 from ..views import simulated as said
 
@@ -35,13 +35,14 @@ Dyaw = Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise."
 
 
 @app.command()
-def reset(context: typer.Context) -> None:
+def reset(context: typer.Context, seed: Seed = None) -> None:
     """Put every part of the simulated bench home, as in a new world.
 
     Examples:
       pico sim reset
+      pico sim reset --seed 7
     """
-    _act(context, lambda sim: sim.reset(), "every part of the simulated bench is at home")
+    _act(context, lambda sim: sim.reset(seed), "every part of the simulated bench is at home")
 
 
 @app.command()

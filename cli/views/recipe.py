@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
@@ -15,10 +16,16 @@ if TYPE_CHECKING:
     from pico.recipes.walking import Entered
 
 
+_LATER = re.compile(r"\[(?!1\])")
+"""In the path of a step: a turn of a loop that is not the first."""
+
+
 def text(recipe: Recipe, ahead: Foreseen) -> str:
-    """Return the steps as far as they are known, with what each takes."""
+    """Return the steps as far as they are known, with what each takes; of loops what the first turn does."""
     lines = [head(recipe, ahead), ""]
     for entered, takes in ahead.steps:
+        if _LATER.search(entered.path):
+            continue
         took = f"  {seconds(takes)}" if takes else ""
         lines.append(shorten(line(entered), wide() - len(took)) + paint("dim", took))
     return "\n".join(lines)

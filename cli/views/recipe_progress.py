@@ -32,7 +32,7 @@ class Lines:
         if path.endswith("?"):
             return ""
         mark = paint("dim", "=") if before else paint("green", "✓")
-        said = "  ".join(measured.line(m) for m in told.get("measurements", {}).values()) or (
+        said = "  ".join(measured.line(m) for m in told.get("measured", {}).values()) or (
             str(told[""]) if "" in told else ""
         )
         return f"{mark} {self.last.lstrip() if not self.last.startswith('  ') else self.last[2:]}  {said}".rstrip()

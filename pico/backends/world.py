@@ -25,8 +25,8 @@ class World(Protocol):
         out."""
         ...
 
-    def reset(self) -> None:
-        """Put every part home, as in a new world, whatever is stored."""
+    def reset(self, seed: int | None = None) -> None:
+        """Put every part home, as in a new world, whatever is stored; `seed`: instead of the Lab's."""
         ...
 
     def put(self, seen: Observation) -> None:

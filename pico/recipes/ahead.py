@@ -9,9 +9,11 @@ from typing import Any, cast
 
 from pico.bench.bench import Bench
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
-from pico.model.observation import Observation, ObservedComponent, ObservedValue
+from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
+from pico.model.plan import Plan, Target
 from pico.model.pose import Pose
+from pico.model.state import LabState
 from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
 from pico.recipes.recipe import Act, Recipe
@@ -59,6 +61,8 @@ class _Ahead:
         self.steps: list[tuple[Entered, float | None]] = []
         self.found: list[Diagnostic] = []
         self.whole, self.acts, self.code = True, 0, ExitCode.DONE
+        self.made: dict[str, LabState] = {}
+        self.branch = ""
 
     def entered(self, entered: Entered) -> None:
         self.steps.append((entered, None))
@@ -89,10 +93,11 @@ class _Ahead:
 
     def planned(self, ask: Ask, step: Act, file: StepFile) -> float | None:
         """Plan a step from the bench as it would be by then, and let that be done; return how long it takes [s]."""
+        self.named(step.kind, ask.given)
         if not hasattr(file, "plan"):
             return float(ask.given["seconds"]) if "seconds" in ask.given else 0.0
         try:
-            plan = cast(Any, file).plan(Doing(self.later, step=ask.path), ask.given)
+            plan = self.to_made(ask.given) or cast(Any, file).plan(Doing(self.later, step=ask.path), ask.given)
         except PicoError as exc:
             raise PicoError([replace(d, source=step.source) for d in exc.diagnostics], exc.exit_code) from exc
         if plan.exit_code:
@@ -101,6 +106,25 @@ class _Ahead:
         for op in plan.operations:
             self.later.seen = done(self.later.seen, op)
         return float(plan.makespan)
+
+    def named(self, kind: str, given: Mapping[str, Any]) -> None:
+        """Remember what the revisions will be that the recipe makes."""
+        name = str(given.get("name", ""))
+        if kind == "branch":
+            self.branch = name
+        elif kind == "checkout":
+            self.branch = str(given["revision"]) if given["revision"] in self.made else ""
+        if kind in ("tag", "branch", "commit"):
+            for made in {name, self.branch} - {""} if kind != "tag" else {name}:
+                self.made[made] = live_state(self.later.setup, self.later.seen)
+
+    def to_made(self, given: Mapping[str, Any]) -> Plan | None:
+        """Return the plan to a revision that the recipe will have made by then."""
+        state = self.made.get(str(given.get("revision")))
+        if state is None:
+            return None
+        target = Target(revision=str(given["revision"]), state=state.as_json())
+        return self.later.plans.to_state(self.later.seen, state, target)
 
 
 def done(seen: Observation, op: Operation) -> Observation:

@@ -106,6 +106,8 @@ FUNCTIONS: Sequence[Function] = (
     Function("sqrt", ("number",), "number", _root),
     Function("sin", ("number",), "number", lambda a: math.sin(math.radians(a))),
     Function("cos", ("number",), "number", lambda a: math.cos(math.radians(a))),
+    Function("tan", ("number",), "number", lambda a: math.tan(math.radians(a))),
+    Function("atan2", ("number", "number"), "number", lambda y, x: math.degrees(math.atan2(y, x))),
     Function("round", ("number", "number"), "number", lambda x, digits: round(x, int(digits))),
     Function("range", ("number", "number", "number"), "numbers", _range),
     Function("mean", ("numbers",), "number", lambda items: statistics.fmean(_numbers(items))),

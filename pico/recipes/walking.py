@@ -147,7 +147,7 @@ class _Walker:
 
     def hear(self, told: Told) -> None:
         """Remember what was measured, by the address of each number."""
-        for address, found in told.get("measurements", {}).items():
+        for address, found in told.get("measured", {}).items():
             component, _, measurable = address.partition(".")
             self.measured = {k: v for k, v in self.measured.items() if not k.startswith(f"{address}.") and k != address}
             value = found.get("value")
@@ -184,8 +184,6 @@ class _Walker:
     def call(self, step: Call, names: _Names, path: str, depth: int) -> Walk:
         assert step.recipe is not None
         given = yield from self.filled(step.given, names, path, step.source)
-        if _unknown(given):
-            return {}
         arguments = {p.name: given.get(p.name, p.default) for p in step.recipe.parameters.values()}
         self.enter(Entered(path, step, depth, arguments))
         found = yield from self.recipe(step.recipe, arguments, f"{path}.", depth + 1)

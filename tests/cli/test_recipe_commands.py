@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -30,6 +31,7 @@ returns: {last: p1.angle}
 
 @pytest.fixture
 def turning(shel: Path) -> Path:
+    shutil.rmtree(shel / "recipes")
     (shel / "recipes").mkdir()
     (shel / "recipes" / "turning.yaml").write_text(TEXT)
     return shel
@@ -119,3 +121,66 @@ def test_recipes_are_tried_in_clones_and_the_bench_stays(turning: Path, pico: Pi
     suite = ElementTree.parse("tests.xml").getroot()
     assert (suite.get("tests"), suite.get("failures")) == ("2", "1")
     assert not (turning / ".pico" / "recipes").exists()
+
+
+def test_what_was_done_by_hand_becomes_a_recipe_that_does_it_again(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "e1", "-y").code == 0
+    assert pico("move", "p2", "yaw=10", "-y").code == 0
+    assert pico("set", "p1", "angle=2", "-y").code == 0
+    assert pico("optimize", "null", "p2", "cam", "-y").code == 0
+    assert pico("measure", "p1.angle").code == 0
+    listed = [r["document"] for r in pico("runs", "list", "--all", "--json").data["runs"]]
+    runs = [r["id"] for r in sorted(listed, key=lambda r: r["number"])]
+    answer = pico("recipe", "from", *runs, "-o", "recipes/again.yaml")
+    assert answer.code == 0 and "pico recipe check recipes/again.yaml" in answer.out
+    steps = [s for s in (shel / "recipes" / "again.yaml").read_text().split("\n") if s.startswith("  - ")]
+    assert steps[-4:] == [
+        "  - move: {p2: {x: 520.0, y: 420.0, yaw: 10.0}}", "  - set: {p1.angle: 2.0}",
+        "  - optimize: null p2 cam", "  - measure: p1.angle",
+    ]  # fmt: skip
+    assert pico("recipe", "from", *runs, "-o", "recipes/again.yaml").code == 1  # nothing is written over
+    assert pico("sim", "reset", "--seed", "7").code == 0
+    answer = pico("run", "again", "--yes")
+    assert answer.code == 0, answer.err
+    assert pico("get", "p1.angle").out.split()[1] == "2"
+    assert pico("recipe", "from", "2020").code == 1
+
+
+def test_a_seed_makes_a_new_world_first(turning: Path, pico: Pico) -> None:
+    assert pico("set", "hwp", "angle=40", "-y").code == 0
+    answer = pico("run", "turning", "--seed", "5", "--yes")
+    assert answer.code == 0 and "new simulated world of seed 5" in answer.out
+    assert json.loads((turning / ".pico" / "sim" / "world.json").read_text())["seed"] == 5
+    assert pico("get", "hwp.angle").out.split()[1] != "40"
+    assert pico("run", "--resume", "--seed", "5", "--yes").code == 1
+
+
+def test_revisions_that_a_recipe_makes_are_planned_to_before_there_are_any(shel: Path, pico: Pico) -> None:
+    shutil.rmtree(shel / "recipes")
+    (shel / "recipes").mkdir()
+    (shel / "recipes" / "there_and_back.yaml").write_text("""apiVersion: pico/v1
+kind: Recipe
+metadata: {name: there_and_back}
+steps:
+  - branch: new/e1
+  - set: {p1.angle: 20}
+  - commit: twenty
+  - tag: new/twenty
+  - set: {p1.angle: 30}
+  - commit: thirty
+  - checkout: new/twenty
+  - {measure: p1.angle, as: there}
+  - checkout: new/e1
+  - {measure: p1.angle, as: back}
+  - assert: there < 21 && back > 29
+  - apply: e1
+  - {optimize: null p1 cam, as: found}
+  - assert: found.met && found.measurements > 2.0
+""")
+    answer = pico("recipe", "check", "there_and_back")
+    assert answer.code == 0, answer.err
+    assert re.search(r"7 checkout new/twenty  0\.\d s", answer.out) and re.search(
+        r"9 checkout new/e1  0\.\d s", answer.out
+    )
+    answer = pico("run", "there_and_back", "--yes")
+    assert answer.code == 0, answer.err + answer.out

@@ -15,7 +15,7 @@ from pico.recipes.walking import Ask, walk
 
 
 def measured(value: float) -> Mapping[str, Any]:
-    return {"measurements": {"cam.power": {"value": value}}, "": value, "sigma": 1.0}
+    return {"measured": {"cam.power": {"value": value}}, "": value, "sigma": 1.0}
 
 
 def test_a_product_goes_round_with_the_last_name_fastest() -> None:

@@ -40,10 +40,11 @@ class SimulatedTable:
         found = {name: body_placement(self._setup, world, name) for name in world.components}
         return {name: place for name, place in found.items() if place is not None}
 
-    def reset(self) -> None:
-        """Put every part home, as in a new world, whatever the world's file holds."""
+    def reset(self, seed: int | None = None) -> None:
+        """Put every part home, as in a new world, whatever the world's file holds; `seed`: instead of the Lab's."""
         with self._held("sim reset"):
-            save_world(self._root, new_world(self._setup))
+            world = new_world(self._setup)
+            save_world(self._root, world if seed is None else replace(world, seed=seed))
 
     def put(self, seen: Observation) -> None:
         """Let every part stand and read as in `seen`, in a new world."""

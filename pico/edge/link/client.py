@@ -137,9 +137,9 @@ class RemoteWorld:
         found: dict[str, Placement] = self._line.call("world.placements")
         return found
 
-    def reset(self) -> None:
-        """Put every part home."""
-        self._line.call("world.reset")
+    def reset(self, seed: int | None = None) -> None:
+        """Put every part home, in a world of its own seed."""
+        self._line.call("world.reset", seed)
 
     def put(self, seen: Observation) -> None:
         """Let every part stand and read as in `seen`, in a new world."""

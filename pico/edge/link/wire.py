@@ -68,7 +68,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "memory.unsettled": ((), tuple[Unsettled, ...]),
     "world": ((), None),
     "world.placements": ((), dict[str, Placement]),
-    "world.reset": ((), None),
+    "world.reset": ((int | None,), None),
     "world.put": ((Observation,), None),
     "world.nudge": ((str, float, float, float), Pose),
     "world.bump": ((str | None, Triple, Triple), None),

@@ -81,7 +81,7 @@ def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
             error("unknown", f"{m.address} has no value: {m.unknown}", hint=advice(m), address=m.address)
             for m in without
         ])  # fmt: skip
-    return {"measurements": {address: as_json(m) for address, m in found.items()}, **_result(found, given["of"])}
+    return {"measured": {address: as_json(m) for address, m in found.items()}, **_result(found, given["of"])}
 
 
 def _result(found: Mapping[str, Measurement], of: tuple[str, ...]) -> dict[str, Any]:
