@@ -64,6 +64,7 @@ SMALLEST = {
     "startup": "--sizes 10 --repeat 1",
     "taken_up": "--moves 3",
     "teleop": "--stops 1 --arm 0 --sessions 2",
+    "through": "--seeds 1",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
     "undo": "--cycles 2 --held 1",

@@ -21,13 +21,12 @@ def text(goals: Mapping[str, Goal], standing: Sequence[Alignment], ready: Mappin
     rows = [[paint("dim", cell) for cell in ("goal", "stands", "by")]]
     below: list[list[str]] = [[]]
     for one in standing:
-        goal = goals[one.goal]
+        goal = goals.get(one.goal)
         said = paint(_STYLES[one.status], one.status) if one.status in _STYLES else one.status
         when = f", {ago(one.at)}" if one.at else ""
-        aim = ", ".join(goal.reach or ()) or goal.expressions[0]
-        rows.append([one.goal, f"{said}{when}", ", ".join(goal.tunables)])
+        rows.append([one.goal, f"{said}{when}", ", ".join(goal.tunables) if goal else ""])
         why = wrap(one.why, "  ") if one.why else []
-        below.append([*why, *(paint("dim", row) for row in wrap(goal.description or f"{goal.aim} {aim}", "  "))])
+        below.append([*why, *(paint("dim", row) for row in wrap(_aim(goal), "  "))])
     own = [line for row, more in zip(columns(rows), below, strict=True) for line in (row, *more)]
     left = max(map(len, ready), default=0) + len("  pico optimize   ")
     made = []
@@ -35,7 +34,14 @@ def text(goals: Mapping[str, Goal], standing: Sequence[Alignment], ready: Mappin
         first, *rest = wrap(what, " " * left)
         made += [f"  pico optimize {name}".ljust(left) + first[left:], *rest]
     none = ["The lab has no goals of its own: `goals:` in lab.yaml."]
-    return "\n".join([*(own if goals else none), "", "Ready made:", *made])
+    return "\n".join([*(own if standing else none), "", "Ready made:", *made])
+
+
+def _aim(goal: Goal | None) -> str:
+    """Return what a goal is, in words; nothing of one that can't be sought."""
+    if goal is None:
+        return ""
+    return goal.description or f"{goal.aim} {', '.join(goal.reach or ()) or goal.expressions[0]}"
 
 
 def data(goals: Mapping[str, Goal], standing: Sequence[Alignment], ready: Mapping[str, str]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from pico.diagnostics import PicoError
@@ -18,11 +19,12 @@ from pico.model.primitive import primitive
 from pico.model.quantities import convert
 from pico.model.record import as_json
 from pico.model.state import LabState
-from pico.planning.by_light import sought_in, with_goals
+from pico.planning.asked import Ready
+from pico.planning.by_light import told_of, with_goals
 from pico.planning.foreseen import foreseen
 from pico.planning.goal_light import goal_light
 from pico.planning.optimizing import Turn, seconds
-from pico.planning.sought import algorithm_for, before, sought
+from pico.planning.sought import algorithm_for, stages
 
 if TYPE_CHECKING:
     from pico.edge.protocol import Edge
@@ -104,9 +106,9 @@ def stands(
     """Return how the goals of a Lab stand, and those that set-points of a `state` are which light finds; `wanted`: as
     the light goes once its parts stand where that wants them. One that no light comes to is
     lost. `timed`: with what each takes."""
-    by_light = sought_in(bench, seen, state, wanted=wanted)
+    by_light = told_of(bench, seen, state, wanted=wanted)
     setup = with_goals(bench, by_light)
-    goals, dark = setup.lab.goals or {}, [Alignment(d.address, "lost", d.summary) for d in by_light.wrong]
+    goals, dark = setup.lab.goals or {}, [Alignment(name, "lost", d.summary) for name, d in by_light.wrong.items()]
     if not goals:
         return tuple(dark)
     records = since_last_sought(memory, goals) if memory else ()
@@ -194,7 +196,7 @@ def spoiled(
 ) -> Iterator[tuple[Alignment, str]]:
     """Yield each goal that is aligned now and will not be after a plan, where there still is light for it, with what
     changes in its light; in the order along the beam."""
-    then = foreseen(seen, operations)
+    then = foreseen(setup, seen, operations)
     for one in standing:
         wrong = _upset_by(setup, seen, one.goal, operations) if one.status == "aligned" else ""
         if wrong and goal_light(setup, then, (setup.lab.goals or {})[one.goal]).order is not None:
@@ -214,17 +216,18 @@ def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[O
     goal = (setup.lab.goals or {})[name]
     if own or not touched:
         return ""
-    return _upset(setup, seen, goal, touched) or _upset(setup, foreseen(seen, operations), goal, touched)
+    return _upset(setup, seen, goal, touched) or _upset(setup, foreseen(setup, seen, operations), goal, touched)
 
 
 def redone(
-    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
-) -> tuple[Turn, ...]:
+    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation],
+    ready: Mapping[str, Ready] = MappingProxyType({}),
+) -> tuple[Turn, ...]:  # fmt: skip
     """Return which goals are to be sought when operations are done, in the order along the beam as it then runs: those
     with light that are not aligned, that the operations spoil, or whose light comes through what another one tunes.
 
-    `standing`: as the bench is `seen` now."""
-    then = foreseen(seen, operations)
+    `standing`: as the bench is `seen` now. `ready`: goals that were made ready, by name."""
+    then = foreseen(setup, seen, operations)
     wrong = {one.goal: f"{what} changes" for one, what in spoiled(setup, seen, standing, operations)}
     wrong |= {one.goal: one.why or one.status for one in standing if one.status != "aligned"}
     found: list[tuple[float, Alignment, frozenset[str]]] = []
@@ -239,8 +242,7 @@ def redone(
         why = wrong.get(one.goal) or (f"{above} is sought before it" if above else "")
         if why:
             goal = (setup.lab.goals or {})[one.goal]
-            first = before(setup, then, goal)
-            asked = sought(setup, then, one.goal, goal, [stage.goal for stage in first])
+            asked, first = stages(setup, then, ready.get(one.goal) or Ready(one.goal, goal))
             chosen.append(Turn(asked, first, one.seconds, Reason(kind="align", text=why)))
     return tuple(chosen)
 
@@ -289,8 +291,8 @@ def _swapped(setup: Setup, seen: Observation, goal: Goal, arguments: Mapping[str
 
 def _wanted(goal: Mapping[str, Any]) -> dict[str, Any]:
     """Return what of a goal says when it is met; not how it is sought."""
-    same = ("tunables", "reach", "minimize", "maximize", "tolerance", "during", "offset")
-    return {key: goal.get(key) for key in same}
+    same = ("reach", "minimize", "maximize", "tolerance", "during", "offset")
+    return {"tunables": sorted(goal.get("tunables") or ()), **{key: goal.get(key) for key in same}}
 
 
 def _seeks(record: JournalRecord, name: str) -> bool:
@@ -349,10 +351,11 @@ def _upset(setup: Setup, seen: Observation, goal: Goal, touched: Collection[tupl
     """Return which of what is touched its light depends on: a tunable of the goal, or a part in the beams to where it
     is measured; empty for none."""
     light = goal_light(setup, seen, goal)
+    own = {*(goal.during or ())}.union(*(goal.looks or {}).values())
     for component, tunable in sorted(touched):
         if f"{component}.{tunable}" in goal.tunables:
             return f"{component}.{tunable}"
-        harmless = tunable in _LIT or f"{component}.{tunable}" in (goal.during or {}) or component in light.beyond
+        harmless = tunable in _LIT or f"{component}.{tunable}" in own or component in light.beyond
         if component in light.parts and not harmless and (tunable == "pose" or component not in light.detectors):
             return component if tunable == "pose" else f"{component}.{tunable}"
     return ""

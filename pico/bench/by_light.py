@@ -11,7 +11,7 @@ from pico.model.diff import Change
 from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, touched_by
-from pico.model.state import LabState, references_of
+from pico.model.state import LabState, goals_of, references_of
 
 if TYPE_CHECKING:
     from pico.model.plan import Plan
@@ -20,19 +20,20 @@ if TYPE_CHECKING:
 
 def unaligned(setup: Setup, memory: Memory | None, seen: Observation, state: LabState) -> dict[str, str]:
     """Return the references of a state that are not equal to the bench by their address, each with the reason."""
-    names = references_of(state)
-    if not names:
+    goals = goals_of(state)
+    if not goals:
         return {}
-    found = stands(setup, memory, seen, state)
-    return {one.goal: said(one) for one in found if one.goal in names and one.status != "aligned"}
+    off = [one for one in stands(setup, memory, seen, state) if one.status != "aligned"]
+    return {address: said(one) for one in off for address in goals.get(one.goal, ())}
 
 
 def unfound(setup: Setup, memory: Memory | None, seen: Observation, state: LabState) -> tuple[Change, ...]:
     """Return how the bench has left where light says that it should be, as it happened: `after` is live."""
     changes = []
+    references = references_of(state)
     for address, why in unaligned(setup, memory, seen, state).items():
         component, _, tunable = address.partition(".")
-        goal, live = references_of(state)[address], seen.known_values.get(component, {}).get(tunable)
+        goal, live = references[address], seen.known_values.get(component, {}).get(tunable)
         changes.append(
             Change(component=component, tunable=tunable, before=goal.as_json(), after=live, text=f"{goal.text}: {why}")
         )
@@ -43,16 +44,18 @@ def told(standing: Sequence[Alignment], state: LabState, operations: Sequence[Op
     """Yield for each reference of a state that is not aligned what it is to be, why it is not, and what that takes; a
     note where one of the operations of a plan seeks it."""
     sought = {str(op.arguments.get("goal")) for op in operations if op.primitive == "optimize"}
-    names = references_of(state)
+    goals = goals_of(state)
     for one in standing:
-        if one.goal not in names or one.status == "aligned":
+        if one.goal not in goals or one.status == "aligned":
             continue
-        text = f"{one.goal} is to stand {names[one.goal].text}: {said(one)}"
+        (address, reference), *more = goals[one.goal].items()
+        named, it = (", ".join(goals[one.goal]), "them") if more else (address, "it")
+        text = f"{named} {'are' if more else 'is'} to stand {reference.text}: {said(one)}"
         if one.goal in sought:
-            yield Diagnostic("note", "by-light", text, hint="this plan finds it", address=one.goal)
+            yield Diagnostic("note", "by-light", text, hint=f"this plan finds {it}", address=address)
             continue
-        hint = f"`pico optimize {one.goal}` finds it, about {one.seconds:.0f} s" if one.seconds else ""
-        yield warning("by-light", text, hint=hint, address=one.goal)
+        hint = f"`pico optimize {one.goal}` finds {it}, about {one.seconds:.0f} s" if one.seconds else ""
+        yield warning("by-light", text, hint=hint, address=address)
 
 
 def staying(plan: Plan, state: LabState) -> Iterator[Diagnostic]:
@@ -62,7 +65,7 @@ def staying(plan: Plan, state: LabState) -> Iterator[Diagnostic]:
     for address, one in references_of(state).items():
         if address in touched and plan.target.cause == "single":
             text = f"{address} stays {one.text} in the manifest, whatever it is set to"
-            hint = f"`pico optimize {address}` brings it there"
+            hint = f"`pico optimize {one.goal(address)}` brings it there"
             yield Diagnostic("note", "by-light", text, hint=hint, address=address)
 
 

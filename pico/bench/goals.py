@@ -9,18 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.bench.ready.asked import Ready
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.lab import Goal
-from pico.model.state import references_of
+from pico.model.state import goals_of, references_of
 from pico.optimize.problem import Problem, Variable
+from pico.planning.asked import Ready
 
 if TYPE_CHECKING:
     from pico.bench.aligned import Alignment
     from pico.model.event import Event
     from pico.model.plan import Plan
     from pico.model.report import RunReport
-    from pico.planning.by_light import ByLight
     from pico.planning.sought import Sought
 
 
@@ -90,16 +89,12 @@ class Goals:
     @property
     def named(self) -> Mapping[str, Goal]:
         """The goals of the Lab by name, and those that set-points of the manifest are which light finds, by address."""
-        found = self._by_light()
-        return {**(self.opened.setup.lab.goals or {}), **(found.goals if found else {})}
-
-    def _by_light(self) -> ByLight | None:
-        state = self.opened.folder.state_now()
+        state, setup = self.opened.folder.state_now(), self.opened.setup
         if state is None or not references_of(state):
-            return None
-        from pico.planning.by_light import sought_in
+            return setup.lab.goals or {}
+        from pico.planning.by_light import told_of
 
-        return sought_in(self.opened.setup, self.opened.observe(), state)
+        return {**(setup.lab.goals or {}), **told_of(setup, self.opened.observe(), state).goals}
 
     def alignments(self) -> tuple[Alignment, ...]:
         """Return how the goals stand, as the journal knows; nothing is measured."""
@@ -112,15 +107,13 @@ class Goals:
         and the algorithm, `algorithm` where that is said. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
         from pico.optimize.registry import made
-        from pico.planning.sought import before, sought
+        from pico.planning.sought import stages
 
         setup, seen = self.opened.setup, self.opened.observe()
         found = Ready(name, words) if isinstance(words, Goal) else self._of(list(words))
         for label, goal in (*found.first, (found.name, found.goal)):
             require_goal(setup, label, goal)
-        first = tuple(sought(setup, seen, label, goal) for label, goal in found.first)
-        first = first or before(setup, seen, found.goal)
-        one = sought(setup, seen, found.name, found.goal, [stage.goal for stage in first], algorithm)
+        one, first = stages(setup, seen, found, algorithm)
         made(one.algorithm, as_problem(one), one.goal.parameters)  # raises for what it cannot, or does not have
         return Chosen(one, first, self._takes(one, first))
 
@@ -135,17 +128,32 @@ class Goals:
     def _of(self, words: list[str]) -> Ready:
         from pico.bench.ready.registry import known, made_ready
 
-        what = words[0]
-        if what in self.named and len(words) == 1:
-            return Ready(what, self.named[what])
-        by_light = self._by_light() if "." in what and len(words) == 1 else None
-        if by_light and (wrong := [d for d in by_light.wrong if d.address == what]):
-            raise PicoError(wrong)
+        what, goals = words[0], self.opened.setup.lab.goals or {}
+        if what in goals and len(words) == 1:
+            return Ready(what, goals[what])
+        if (found := self._referred(words)) is not None:
+            return found
         if what not in known():
             names = (*self.named, *known())
             hint = did_you_mean(what[:40], names) or f"known: {', '.join(names)}"
             raise PicoError(error("goal", f"{self.opened.setup.lab.name} has no goal `{what[:40]}`", hint=hint))
         return made_ready(self.opened.setup, self.opened.observe(), words)
+
+    def _referred(self, words: Sequence[str]) -> Ready | None:
+        """Return the goal of set-points that light finds by its name (`through iris1 iris2`), or by the address of one
+        of them; None where the manifest has none such. Raises PicoError where it can't be sought."""
+        state = self.opened.folder.state_now()
+        goals = goals_of(state) if state else {}
+        said = {" ".join(words), " ".join((words[0], *sorted(words[1:])))}
+        name = next((n for n, of in goals.items() if n in said or (len(words) == 1 and words[0] in of)), None)
+        if name is None:
+            return None
+        from pico.planning.by_light import sought_in
+
+        found = sought_in(self.opened.setup, self.opened.observe(), state)
+        if name in found.wrong:
+            raise PicoError(found.wrong[name])
+        return found.ready[name]
 
     def plan(self, chosen: Chosen, *, absorb: bool = True) -> Plan:
         """Return the plan that brings light to a goal; raises PicoError. `absorb`: its tunables make up first for how

@@ -13,13 +13,12 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of
-from pico.model.lab import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Spoiled, Target
 from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
-from pico.model.state import LabState, place_of, references_of, state_from_json
+from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json
 from pico.motion.deferred import DeferredMotion
 from pico.vision.calibration import calibration_digest
 
@@ -136,12 +135,18 @@ class Plans:
         if plan.errored:
             return plan
         from pico.bench.aligned import redone, standing
-        from pico.planning.by_light import sought_in, with_goals
+        from pico.planning.by_light import as_meant, sought_in, with_goals
+        from pico.planning.foreseen import foreseen
         from pico.planning.realigning import realigned
 
         setup, state = self.opened.setup, state_from_json(plan.lab.name, plan.target.state)
-        goals = with_goals(setup, sought_in(setup, seen, state, wanted=True))
-        sought = redone(goals, seen, standing(self.opened, seen, state, wanted=True), plan.operations)
+        by_light = sought_in(setup, foreseen(setup, seen, plan.operations), state)
+        goals, here = with_goals(setup, by_light), as_meant(setup, seen, state)
+        stands = standing(self.opened, seen, state, wanted=True)
+        sought = tuple(
+            turn if turn.one.aim is None else replace(turn, right=(*self._met(turn.one.name, tuned=True),))
+            for turn in redone(goals, here, stands, plan.operations, by_light.ready)
+        )
         measured = () if plan.target.scope else self._recorded(plan.target)
         return realigned(setup, seen, plan, sought, motion, measured) if sought or measured else plan
 
@@ -193,21 +198,22 @@ class Plans:
             return (), ()
         from pico.bench.aligned import spoiled, standing
         from pico.bench.by_light import staying, told
-        from pico.planning.by_light import sought_in, with_goals
+        from pico.planning.by_light import told_of, with_goals
 
         stands = standing(opened, seen, state, wanted=True)
-        sought = with_goals(setup, sought_in(setup, seen, state, wanted=True))
+        sought = with_goals(setup, told_of(setup, seen, state, wanted=True))
         unmet = told(stands, state, plan.operations) if references_of(wanted) else staying(plan, state)
-        found = [*spoiled(sought, seen, stands, plan.operations)]
+        found, references = [*spoiled(sought, seen, stands, plan.operations)], goals_of(state)
         stale = tuple(
             warning(
                 "by-light", f"{one.goal} is aligned, and will not be: {why} changes",
-                hint=f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s", address=one.goal,
+                hint=f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s",
+                address=next(iter(references[one.goal])),
             )
-            for one, why in found if "." in one.goal  # a set-point of the state, which the bench will not equal then
+            for one, why in found if one.goal in references  # set-points of the state, which the bench will not equal
         )  # fmt: skip
         lost = (Spoiled(goal=o.goal, why=f"{w} changes", at=o.at, seconds=o.seconds) for o, w in found)
-        return (*unmet, *stale), tuple(one for one in lost if "." not in one.goal)
+        return (*unmet, *stale), tuple(one for one in lost if one.goal not in references)
 
     def leaves_manifest(self, plan: Plan) -> bool:
         """Whether a plan leads the whole bench to a revision, and away from what the manifest says."""
@@ -347,7 +353,7 @@ class Plans:
         setup, seen = self.opened.setup, self.opened.observe()
         found = planning.optimize_one(
             setup, seen, one, first=first, took=took, motion=DeferredMotion(setup),
-            right=[*self._right(one.name, one.goal, seen)] if absorb else (), **self.start_of(seen),
+            right=[*self._right(one, seen)] if absorb else (), **self.start_of(seen),
         )  # fmt: skip
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         judged, told = self.judged(found, seen), cut_short(self.opened, seen)
@@ -380,22 +386,28 @@ class Plans:
         judged, told = self.judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
 
-    def _right(self, name: str, goal: Goal, seen: Observation) -> Iterator[Right]:
+    def _right(self, one: Sought, seen: Observation) -> Iterator[Right]:
         """Yield benches with the light that a goal is to have: as it was met last, and as the manifest has it, where
         the tunables of the goal stand as that says."""
         from pico.optics.nominal.feeding import Right
-        from pico.runs.when_met import when_met
 
         setup, wanted = self.opened.setup, self.opened.folder.state_now()
-        if (met := when_met(self.opened.edge.memory, setup.lab.name, name)) is not None:
-            yield Right(met, met=True)
-        if wanted is None:
+        yield from self._met(one.name, tuned=one.aim is not None)
+        if wanted is None or one.aim is not None:
             return
         off = {f"{c.component}.{c.tunable}" for c in diff_observed(setup, seen, wanted) if not c.tolerated}
-        if not off & goal.tunables.keys():
+        if not off & one.goal.tunables.keys():
             live = seen.known_values
             parts = {n: replace(p, values={**live.get(n, {}), **p.values}) for n, p in wanted.components.items()}
             yield Right(replace(wanted, components=parts), met=False)
+
+    def _met(self, goal: str, *, tuned: bool) -> Iterator[Right]:
+        """Yield the bench as it was when a goal was met last, if it ever was."""
+        from pico.optics.nominal.feeding import Right
+        from pico.runs.when_met import when_met
+
+        if (met := when_met(self.opened.edge.memory, self.opened.setup.lab.name, goal)) is not None:
+            yield Right(met, met=True, tuned=tuned)
 
     def to_survey(self, seen: Observation, shots: Shots, dark: Sequence[str]) -> Plan:
         """Return the plan that reads `shots` and frames in the `dark` of cameras; see `pico.bench.mornings`. Raises

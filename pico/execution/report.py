@@ -17,7 +17,7 @@ from pico.model.observation import Aligned, Observation, ObservedComponent
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan
 from pico.model.report import GoalEnd, RunReport
-from pico.model.state import place_of, references_of, state_from_json
+from pico.model.state import goals_of, place_of, state_from_json
 
 
 def run_report(
@@ -117,9 +117,12 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
 def _by_light(plan: Plan, events: Sequence[Event]) -> tuple[str, ...]:
     """Return the set-points that light has yet to find: those of which the plan says so, and that no goal met."""
     met = {str(e.data.get("goal")) for e in events if e.kind == "operation_done" and e.data.get("met")}
-    wanted = references_of(state_from_json(plan.lab.name, plan.target.state))
-    found = [d.address for d in plan.diagnostics if d.code == "by-light" and d.address not in met]
-    return tuple(address for address in dict.fromkeys(found) if plan.asked or address in wanted)
+    said = {d.address for d in plan.diagnostics if d.code == "by-light"}
+    if plan.asked:
+        return tuple(address for address in sorted(said) if address not in met)
+    goals = goals_of(state_from_json(plan.lab.name, plan.target.state))
+    unmet = [of for name, of in goals.items() if name not in met and said & of.keys()]
+    return tuple(address for of in unmet for address in of)
 
 
 def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:

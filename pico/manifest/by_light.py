@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
-from pico.diagnostics import Diagnostic, did_you_mean, error
+from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.manifest.bench_view import BenchView
 from pico.manifest.text.source import Source
 from pico.manifest.text.splice import write_flow
@@ -12,7 +12,7 @@ from pico.manifest.text.tree import List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number
 from pico.manifest.wording import article, shown
 from pico.model.catalog import Tunable
-from pico.model.state import KINDS, NULL, OFFSET, THROUGH, LightReference
+from pico.model.state import KINDS, NULL, OFFSET, THROUGH, LabState, LightReference, goals_of
 
 EXAMPLES = {NULL: "{null_of: [p1, p2], offset: 1.0}", THROUGH: "{through: [iris1, iris2]}"}
 
@@ -24,6 +24,21 @@ def read_reference(
     reader = _Reader(source, view, component, name, kind, node)
     found = [*reader.problems()]
     return found or LightReference(**{reader.said: reader.named}, offset=reader.offset)  # type: ignore[arg-type]
+
+
+def too_many(state: LabState, place: Callable[[str, str], SourceRange]) -> Iterator[Diagnostic]:
+    """Yield which mirrors are one too many to bring a beam through two irises; `place`: where a component has a
+    tunable."""
+    for references in goals_of(state).values():
+        mirrors: dict[str, tuple[str, str]] = {}
+        for address, one in references.items():
+            if one.kind == THROUGH:
+                component, _, tunable = address.partition(".")
+                mirrors.setdefault(component, (component, tunable))
+        for third in [*mirrors.values()][2:]:
+            one = references[".".join(third)]
+            text = f"{', '.join(mirrors)} are all to bring a beam {one.text}, and two of them do"
+            yield error("by-light", text, hint="give one numbers", address=".".join(third), source=place(*third))
 
 
 class _Reader:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, slot_meant, warning
 from pico.manifest.bench_view import BenchView
-from pico.manifest.by_light import read_reference
+from pico.manifest.by_light import read_reference, too_many
 from pico.manifest.checks.labs import off_table
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.places import where, where_key
@@ -40,10 +40,9 @@ def read_states(
         reader.read(document)
     if whole:
         reader.check_slots()
-    if any(d.severity == "error" for d in reader.found):
-        return None, reader.found
     state = LabState(lab=view.lab or reader.lab, components=reader.components, expect=tuple(reader.expect))
-    return state, reader.found
+    reader.found.extend(too_many(state, reader.place))
+    return None if any(d.severity == "error" for d in reader.found) else state, reader.found
 
 
 class _Reader:
@@ -81,7 +80,7 @@ class _Reader:
                 continue
             if part.slot in owner:
                 other = owner[part.slot]
-                detail = f"{other} is put there at {self._place(other, 'slot')}"
+                detail = f"{other} is put there at {self.place(other, 'slot')}"
                 self._slot_error(name, f"{name} and {other} are both put into {part.slot}", detail)
             owner.setdefault(part.slot, name)
         for name, home in self.view.homes.items():
@@ -284,12 +283,13 @@ class _Reader:
                     self._error(document, value, "type", f"`{key}` is {shown(data[key])}", "expected text")
             self.expect.append(Expectation(that=data["that"], message=str(data.get("message") or "")))
 
-    def _place(self, name: str, key: str) -> SourceRange:
+    def place(self, name: str, key: str) -> SourceRange:
+        """Return where a component has what a key says of it."""
         return where(self.first[name], "components", name, key)
 
     def _slot_error(self, name: str, summary: str, detail: str) -> None:
         hint = "give one of them another slot or a pose, or take back with `git revert` the commit that did it"
-        at = self._place(name, "slot")
+        at = self.place(name, "slot")
         self.found.append(error("slot", summary, detail=detail, hint=hint, address=f"{name}.slot", source=at))
 
     def _error(

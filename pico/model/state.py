@@ -64,6 +64,11 @@ class LightReference:
         """It in words: `1° from the null of p1 and p2`."""
         return said(self.as_json())
 
+    def goal(self, address: str) -> str:
+        """Return the name of the goal that it is for the tunable at an address: that of its own, `p2.angle`; a beam
+        through two irises is one goal for all that bring it there, `through iris1 iris2`."""
+        return address if self.kind == NULL else " ".join((THROUGH, *sorted(self.parts)))
+
     def as_json(self) -> dict[str, Any]:
         """Return it as a manifest holds it; an offset of 0 is none."""
         return {self.kind: list(self.parts)} | ({OFFSET: self.offset} if self.offset else {})
@@ -173,6 +178,14 @@ def references_of(state: LabState) -> dict[str, LightReference]:
         for name, part in sorted(state.components.items())
         for tunable, one in sorted(part.by_light.items())
     }
+
+
+def goals_of(state: LabState) -> dict[str, dict[str, LightReference]]:
+    """Return the goals that references to light are, by name: each with its references by address."""
+    found: dict[str, dict[str, LightReference]] = {}
+    for address, one in references_of(state).items():
+        found.setdefault(one.goal(address), {})[address] = one
+    return found
 
 
 def place_of(setup: Setup, state: LabState, component: str) -> tuple[str | None, Pose]:

@@ -12,7 +12,7 @@ from pico.model.observation import Observation, left_standing
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
-from pico.model.state import LabState
+from pico.model.state import LabState, references_of
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings
 from pico.planning.checks.clearance import beams_in_the_way
@@ -26,7 +26,7 @@ from pico.planning.parts.selection import done_by, selection, told
 from pico.planning.parts.setdown import after_set_downs, parked_first, set_downs
 from pico.planning.parts.situation import Situation, read_situation
 from pico.planning.request import Preference, Request
-from pico.planning.values import OPERATOR_SECONDS, value_operations
+from pico.planning.values import OPERATOR_SECONDS, homing, value_operations
 
 if TYPE_CHECKING:
     from pico.planning.ordering.conflicts import Conflicts
@@ -81,6 +81,8 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     left = withheld(request, asked, undoing=target.cause == "undo")
     asked = tuple(c for c in asked if (c.component, c.tunable) not in left)
     values, notes = value_operations(setup, request.seen, asked, request.reason)
+    referred = [a for a in references_of(request.wanted) if request.only.chosen(*a.split("."))]
+    values += homing(setup, request.seen, referred)
     diagnostics = (*emptied.diagnostics, *situation.diagnostics, *moves.diagnostics, *notes)
     operations: tuple[Operation, ...] = ()
     if not any(d.severity == "error" for d in diagnostics):

@@ -11,8 +11,9 @@ from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.vocabulary import measured_in
-from pico.optics.axis import Meeting, beams
+from pico.optics.axis import Meeting, Values, beams
 from pico.optimize.choosing import CYCLES
+from pico.planning.nominal_bench import STEERS, straight
 
 
 @dataclass(frozen=True)
@@ -31,13 +32,22 @@ class GoalLight:
 
 
 def goal_light(setup: Setup, seen: Observation, goal: Goal) -> GoalLight:
-    """Return the light of a goal on the bench as `seen`, whatever is shut."""
+    """Return the light of a goal on the bench as `seen`, whatever is shut; as its mirrors were meant, where they are
+    turned so far that only then it comes there."""
+    found = _light(setup, seen, goal, seen.known_values)
+    if found.order is not None or not any(address.rpartition(".")[2] in STEERS for address in goal.tunables):
+        return found
+    meant = _light(setup, seen, goal, straight(seen.known_values))
+    return found if meant.order is None else meant
+
+
+def _light(setup: Setup, seen: Observation, goal: Goal, values: Values) -> GoalLight:
     detectors = frozenset(component for component, _ in measured_in(setup, goal.texts))
     tuned = frozenset(address.partition(".")[0] for address in goal.tunables)
     met, sources, reached, lengths = set[str](), set[str](), set[str](), list[float]()
     counting = set[str]()
     turned = tuned if _turns(setup, goal) else frozenset[str]()
-    for axis in beams(setup, standing_poses(seen), seen.known_values):
+    for axis in beams(setup, standing_poses(seen), values):
         for detector in detectors:
             for way in axis.ways(detector):
                 met |= {m.component for m in way}

@@ -4,14 +4,16 @@ how far off the best is likely to be, by how well the parts on the way are put d
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.model.lab import Goal, Setup
-from pico.model.observation import Observation
+from pico.model.observation import Observation, with_value
+from pico.model.pose import Pose, angle_between
 from pico.model.vocabulary import measured_in
 from pico.optimize.problem import Nominal
-from pico.planning.nominal_bench import Astray, NominalBench, places
+from pico.planning.nominal_bench import STEERS, Astray, NominalBench, places
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,6 +32,84 @@ of what a camera sees where a spot is to be reached."""
 _SURE = 5.0
 _USUAL = 4.0
 """By how much the logarithm of a power falls until it is dark, where the detector's noise is not known."""
+_ROOM = 2.0
+"""How far a mirror is searched, as a multiple of three standard deviations of what is likely to be wrong."""
+_LEAST = 1.0
+"""How far it is searched at least [mrad]."""
+_AIMED = 3
+"""How often the nominal beam is brought nearer to where it is wanted; once would do if light were linear."""
+_FOLLOWED = 8
+"""In how many steps parts are moved in thought from where they are meant to stand, so that no beam gets lost."""
+
+
+def within_reach(
+    setup: Setup, seen: Observation, goal: Goal, former: Sequence[Goal] = (), aim: Mapping[str, float] | None = None
+) -> Goal:
+    """Return a goal whose mirrors are searched no further than is likely to be wrong, around where they stand and
+    around where they are to `aim`: whole ranges send beams to where nothing ends them."""
+    steered = [a for a in goal.tunables if a.rpartition(".")[2] in STEERS]
+    if not steered or (told := nominal(setup, set_to(seen, aim or {}), goal, former)) is None:
+        return goal
+    bounds = dict(goal.tunables)
+    for n, address in enumerate(goal.tunables):
+        component, _, tunable = address.partition(".")
+        about = (seen.known_values.get(component, {}).get(tunable), (aim or {}).get(address))
+        known = [value for value in about if isinstance(value, int | float)]
+        if address in steered and known:
+            room, (low, high) = max(_ROOM * told.reach(n), _LEAST), bounds[address]
+            bounds[address] = max(low, round(min(known) - room, 3)), min(high, round(max(known) + room, 3))
+    return replace(goal, tunables=bounds)
+
+
+def aimed(setup: Setup, seen: Observation, goal: Goal, meant: Observation) -> dict[str, float]:
+    """Return the values of a goal's tunables with which the nominal beam of a bench as seen comes to the middles of
+    where it is wanted, within their bounds; nothing where nobody can tell. `meant`: the same bench with its parts where
+    they should stand, from where the beam is followed where it gets lost otherwise."""
+    for steps in (1, _FOLLOWED):
+        found = dict[str, float]()
+        try:
+            for step in range(steps):
+                here = _between(meant, seen, (step + 1) / steps)
+                found = _aimed(setup, set_to(here, found), goal)
+        except Astray:
+            continue
+        return found
+    return {}
+
+
+def _aimed(setup: Setup, seen: Observation, goal: Goal) -> dict[str, float]:
+    """Return the same by Newton's method from where the tunables stand; raises Astray."""
+    import numpy as np
+
+    found = dict[str, float]()
+    for _ in range(_AIMED):
+        bench = NominalBench(setup, seen, places(setup, seen, goal))
+        moves = np.stack([bench.moved_by(address, bounds) for address, bounds in goal.tunables.items()], axis=1)
+        steps = -np.linalg.pinv(moves, rcond=1e-6) @ bench.offsets
+        for (address, (low, high)), step in zip(goal.tunables.items(), steps.tolist(), strict=True):
+            found[address] = min(high, max(low, bench.value(address) + step))
+        seen = set_to(seen, found)
+    return found
+
+
+def _between(meant: Observation, seen: Observation, share: float) -> Observation:
+    """Return a bench whose parts stand a share of the way from where they are meant to where they are seen."""
+    parts = dict(seen.components)
+    for name, part in seen.components.items():
+        was, now = meant.components[name].pose if name in meant.components else None, part.pose
+        if was is not None and now is not None and was != now:
+            turn = share * angle_between(was.yaw, now.yaw)
+            pose = Pose(was.x + share * (now.x - was.x), was.y + share * (now.y - was.y), was.yaw + turn)
+            parts[name] = replace(part, pose=pose)
+    return replace(seen, components=parts)
+
+
+def set_to(seen: Observation, values: Mapping[str, float]) -> Observation:
+    """Return a bench whose tunables are set to values, by address."""
+    for address, value in values.items():
+        component, _, tunable = address.partition(".")
+        seen = with_value(seen, component, tunable, value)
+    return seen
 
 
 def nominal(setup: Setup, seen: Observation, goal: Goal, former: Sequence[Goal] = ()) -> Nominal | None:

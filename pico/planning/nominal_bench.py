@@ -118,7 +118,7 @@ class NominalBench:
 
     def moved_by(self, address: str, bounds: tuple[float, float]) -> Array:
         """Return by how much the offsets change with a unit of a tunable."""
-        here = self._value(address)
+        here = self.value(address)
         step = _STEP * (bounds[1] - bounds[0]) * (1 if here + _STEP * (bounds[1] - bounds[0]) <= bounds[1] else -1)
         return (self._offsets(self._lit(self.poses, self._with(address, here + step))) - self.offsets) / step
 
@@ -126,7 +126,7 @@ class NominalBench:
         """Return how the logarithm of the power at its best, at the first `many` places, falls with a tunable along the
         light, how far its top is, and the variance of that by how parts scatter along it; raises Astray where it has no
         top."""
-        (low, high), here = bounds, self._value(address)
+        (low, high), here = bounds, self.value(address)
         step = _ALONG * (high - low)
         before, middle, after = (
             sum(math.log(f.power) for f in self.falling(self._with(address, value))[:many])
@@ -161,7 +161,8 @@ class NominalBench:
             leans = SEEN.sitting(error.seat(1), self.setup.type_of(name).frames.optical)
             yield {**self.poses, name: error.of(pose)}, {name: leans}
 
-    def _value(self, address: str) -> float:
+    def value(self, address: str) -> float:
+        """Return what a tunable is at: as seen, or as it was meant where only that brings light there."""
         return float(self.values.get(_part(address), {}).get(address.partition(".")[2], 0.0))
 
     def _with(self, address: str, value: float) -> Values:

@@ -147,15 +147,15 @@ class _Block:
         self.latest[address] = self._add(setting(self.setup, need, need.value, need.live, _texts(after), text))
 
     def _optimize(self, turn: Turn) -> None:
-        setup, here = self.setup, foreseen(self.seen, self.out)
+        setup, here = self.setup, foreseen(self.setup, self.seen, self.out)
         begin = {a: v for stage in turn.stages for a, v in _from(setup, here, stage.name, stage.goal).items()}
         only = {a: v for stage in turn.stages for a, v in _to_measure(setup, here, stage.goal).items()}
         light = goal_light(setup, self.seen, turn.one.goal).parts
         own = [n for n, op in enumerate(self.before) if _touches(op, light)]
         own += [n for n, made in self.made_of if any(a.partition(".")[0] in light for a in made.one.goal.tunables)]
         made_up = (absorbed(setup, here, turn.one.goal, bench) for bench in turn.right)
-        for address, value in next((found for found in made_up if found is not None), {}).items():
-            self.latest[address] = self._add(_absorbing(setup, address, begin[address], value, _texts(self.arms)))
+        for address, value in next((found for found in made_up if found is not None), _aim(turn.one, begin)).items():
+            self.latest[address] = self._add(_absorbing(setup, address, begin[address], value, self._waits(address)))
             begin = {**begin, address: value}
         parts = sorted({address.partition(".")[0] for address in begin})
         looked = {a for stage in turn.stages for found in (stage.goal.looks or {}).values() for a in found}
@@ -174,7 +174,7 @@ class _Block:
         self.made_of.append((index, turn))
 
     def _verify(self, turn: Turn) -> None:
-        setup, here, goal = self.setup, foreseen(self.seen, self.out), turn.one.goal
+        setup, here, goal = self.setup, foreseen(self.setup, self.seen, self.out), turn.one.goal
         begin = {address: live_number(here, address) for address in goal.tunables}
         looked = {address for settings in (goal.looks or {}).values() for address in settings}
         measured = measured_in(setup, goal.texts)
@@ -191,6 +191,9 @@ class _Block:
             )),
         ))  # fmt: skip
         self.made_of.append((index, turn))
+
+    def _waits(self, address: str) -> tuple[str, ...]:
+        return _texts([*self.arms, *self._after(address)])
 
     def _after(self, address: str) -> list[int]:
         """Return what set a tunable last: of this block, else of what comes before it."""
@@ -247,6 +250,12 @@ def _absorbing(setup: Setup, address: str, before: float, after: float, waits: S
         arguments={"tunable": tunable, "from": before, "to": after}, after=tuple(waits),
         resources=(address, component), seconds=set_seconds(setup.type_of(component).tunables[tunable], before, after),
     )  # fmt: skip
+
+
+def _aim(one: Sought, begin: Mapping[str, float]) -> dict[str, float]:
+    """Return the tunables that do not stand where a goal is likely to be met, with what they are set to."""
+    aim = {a: round(v, 3) for a, v in (one.aim or {}).items()}
+    return {address: value for address, value in aim.items() if value != begin.get(address)}
 
 
 def specimens(setup: Setup) -> Mapping[str, str]:

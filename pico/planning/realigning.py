@@ -26,7 +26,7 @@ def realigned(
     an error of the plan."""
     number = {op.id: str(n) for n, op in enumerate(plan.operations)}
     before = [replace(op, after=tuple(number[e] for e in op.after)) for op in plan.operations]
-    then = foreseen(seen, before)
+    then = foreseen(setup, seen, before)
     try:
         whole = [*before, *optimizing(setup, then, sought, motion, before)] if sought else before
     except PicoError as exc:

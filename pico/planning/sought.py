@@ -14,7 +14,8 @@ from pico.model.record import as_json
 from pico.model.vocabulary import measured_in
 from pico.optimize.choosing import Tuned, choose, usual_parameters
 from pico.optimize.problem import Nominal, nominal_from_json
-from pico.planning.nominal import nominal
+from pico.planning.asked import Ready
+from pico.planning.nominal import nominal, set_to
 
 _NUMBER = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
 """One number of what is measured, and nothing else."""
@@ -22,24 +23,40 @@ _NUMBER = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
 
 @dataclass(frozen=True)
 class Sought:
-    """A goal by name, the algorithm that brings light to it, why that one, and what is known before it begins."""
+    """A goal by name, the algorithm that brings light to it, why that one, and what is known before it begins. `aim`:
+    to what its tunables are set first, where nobody knows what they were when it was met."""
 
     name: str
     goal: Goal
     algorithm: str
     why: str = ""
     known: Nominal | None = None
+    aim: Mapping[str, float] | None = None
 
 
 def sought(
-    setup: Setup, seen: Observation, name: str, goal: Goal, former: Sequence[Goal] = (), algorithm: str | None = None
-) -> Sought:
+    setup: Setup, seen: Observation, name: str, goal: Goal, former: Sequence[Goal] = (), algorithm: str | None = None,
+    aim: Mapping[str, float] | None = None,
+) -> Sought:  # fmt: skip
     """Return a goal with its algorithm: `algorithm`, else its own, else the one that suits it; `former`: goals that
-    will have been met before it."""
-    known = nominal(setup, seen, goal, former)
+    will have been met before it. `aim`: where its tunables will begin."""
+    known = nominal(setup, set_to(seen, aim or {}), goal, former)
     if asked := algorithm or goal.algorithm:
-        return Sought(name, goal, asked, "as asked" if algorithm else "as the goal says", known)
-    return Sought(name, goal, *algorithm_for(setup, goal, known=known is not None), known)
+        return Sought(name, goal, asked, "as asked" if algorithm else "as the goal says", known, aim)
+    return Sought(name, goal, *algorithm_for(setup, goal, known=known is not None), known, aim)
+
+
+def stages(
+    setup: Setup, seen: Observation, ready: Ready, algorithm: str | None = None
+) -> tuple[Sought, tuple[Sought, ...]]:  # fmt: skip
+    """Return what a goal that was made ready is sought as, and what is sought first where it is dark."""
+    aim = ready.aim or {}
+    first = tuple(
+        sought(setup, seen, label, goal, aim={a: v for a, v in aim.items() if a in goal.tunables})
+        for label, goal in ready.first
+    ) or before(setup, seen, ready.goal)  # fmt: skip
+    former = [stage.goal for stage in first]
+    return sought(setup, seen, ready.name, ready.goal, former, algorithm, ready.aim), first
 
 
 def before(setup: Setup, seen: Observation, goal: Goal) -> tuple[Sought, ...]:

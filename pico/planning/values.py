@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
@@ -16,6 +16,7 @@ from pico.model.setpoint import home_seconds, set_seconds
 
 OPERATOR_SECONDS = 60.0
 """What a plan reckons with for something that a person does by hand [s]."""
+UNKNOWN = "nobody knows where its axis is"
 
 
 def value_operations(
@@ -44,6 +45,15 @@ def value_operations(
     return operations, found
 
 
+def homing(setup: Setup, seen: Observation, addresses: Collection[str]) -> Iterator[Operation]:
+    """Yield the homing of those axes that can be homed of which nobody knows where they stand."""
+    for component, _, tunable in (address.partition(".") for address in addresses):
+        kind, part = setup.type_of(component).tunables[tunable], seen.components.get(component)
+        live = part.values.get(tunable) if part is not None and part.presence == "seen" else None
+        if live is not None and live.status == "unknown" and kind.axis is not None and kind.axis.kind == "homed":
+            yield home_operation(component, tunable, kind, None, Reason(kind="changed", text=UNKNOWN))
+
+
 def _drive(seen: Observation, change: Change, kind: Tunable, reason: Reason) -> Iterator[Operation]:
     name, tunable = change.component, change.tunable
     resource = f"motor/{name}.{tunable}" if kind.mover == "motor" else f"{name}.{tunable}"
@@ -52,7 +62,7 @@ def _drive(seen: Observation, change: Change, kind: Tunable, reason: Reason) -> 
     before: Value | None = change.before
     if homing and kind.axis:
         before = kind.axis.home
-        yield home_operation(name, tunable, kind, None, Reason(kind=reason.kind, text="nobody knows where its axis is"))
+        yield home_operation(name, tunable, kind, None, Reason(kind=reason.kind, text=UNKNOWN))
     yield Operation(
         id="", primitive="set", component=name, arguments={"tunable": tunable, "from": before, "to": change.after},
         resources=(resource, name), after=("home",) if homing else (), reason=reason,

@@ -141,3 +141,32 @@ def test_one_is_written_into_a_manifest_as_one_value_and_taken_out_again(offset:
 def test_block_style_becomes_one_line_with_its_comments() -> None:
     laid = format_text(text_of("  # why\n      null_of: [p1, p2]\n      offset: 1.0   # one"))
     assert "    # why\n    angle: {null_of: [p1, p2], offset: 1.0}   # one\n" in laid
+
+
+def test_a_third_mirror_is_one_too_many_for_two_irises() -> None:
+    lab = f"""{LAB}  m3: {{type: mirror_tip_tilt, pose: {{x: 400, y: 600}}}}
+"""
+    bench = load_files({"lab.yaml": lab.encode()}).setup
+    lines = [
+        f"  {name}:\n    tip: {{through: [near, far]}}\n    tilt: {{through: [far, near]}}\n"
+        for name in ("m1", "m2", "m3")
+    ]
+    text = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: irises}\ncomponents:\n" + "".join(lines)
+    found = load_files({"state.yaml": text.encode()}, setup=bench).diagnostics
+    assert [d.summary for d in found] == ["m1, m2, m3 are all to bring a beam through far and near, and two of them do"]
+    assert str(found[0].source).endswith("state.yaml:13:11") and found[0].address == "m3.tilt"
+    two = load_files({"state.yaml": text.replace(lines[2], "").encode()}, setup=bench)
+    assert two.state is not None and not two.diagnostics
+
+
+LAB = """apiVersion: pico/v1
+kind: Lab
+metadata: {name: irises}
+table: {size: [1500, 900], beam_height: 70}
+robots: {arm1: {model: xarm7, mount: {x: 750, y: 850, yaw: -90}}}
+inventory:
+  m1: {type: mirror_tip_tilt, pose: {x: 400, y: 260, yaw: -45}}
+  m2: {type: mirror_tip_tilt, pose: {x: 400, y: 440, yaw: 135}}
+  near: {type: iris, pose: {x: 560, y: 440, yaw: 0}}
+  far: {type: iris, pose: {x: 1000, y: 440, yaw: 0}}
+"""

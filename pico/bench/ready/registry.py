@@ -4,25 +4,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Protocol, cast
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.diagnostics import Diagnostic, PicoError
 from pico.manifest.checks.goals import goal_errors
-from pico.model.lab import Goal, Setup
+from pico.model.lab import Setup
 from pico.model.observation import Observation
-from pico.planning.nominal_bench import STEERS
+from pico.planning.asked import Asked, Ready
+from pico.planning.nominal import within_reach
 
 FOLDER = "pico.bench.ready.goals"
 GROUP = "pico.goals"
-_ROOM = 2.0
-"""How far a mirror is searched, as a multiple of three standard deviations of what is likely to be wrong."""
-_LEAST = 1.0
-"""How far it is searched at least [mrad]."""
 
 
 class GoalFile(Protocol):
@@ -64,8 +59,7 @@ def made_ready(setup: Setup, seen: Observation, words: Sequence[str]) -> Ready:
     if len(asked.words) < file.LEAST:
         raise asked.refused("more must be said", f"{words[0]} {file.TAKES}")
     made = file.make(asked)
-    former = tuple((label, _near(asked, goal)) for label, goal in made.first)
-    return replace(made, goal=_near(asked, made.goal, [goal for _, goal in former]), first=former)
+    return made.mapped(lambda goal, former: within_reach(setup, seen, goal, former))
 
 
 def wrong_words(setup: Setup, words: Sequence[str]) -> Iterator[Diagnostic]:
@@ -79,21 +73,3 @@ def wrong_words(setup: Setup, words: Sequence[str]) -> Iterator[Diagnostic]:
             asked.part(word.partition(".")[0])
     except PicoError as exc:
         yield from exc.diagnostics
-
-
-def _near(asked: Asked, goal: Goal, former: Sequence[Goal] = ()) -> Goal:
-    """Return a goal whose mirrors are searched no further than is likely to be wrong: whole ranges send beams to where
-    nothing ends them."""
-    from pico.planning.nominal import nominal
-
-    steered = [a for a in goal.tunables if a.rpartition(".")[2] in STEERS]
-    if not steered or (told := nominal(asked.setup, asked.seen, goal, former)) is None:
-        return goal
-    bounds = dict(goal.tunables)
-    for n, address in enumerate(goal.tunables):
-        component, _, tunable = address.partition(".")
-        here = asked.seen.known_values.get(component, {}).get(tunable)
-        if address in steered and isinstance(here, int | float):
-            room, (low, high) = max(_ROOM * told.reach(n), _LEAST), bounds[address]
-            bounds[address] = max(low, round(here - room, 3)), min(high, round(here + room, 3))
-    return replace(goal, tunables=bounds)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pico.bench.ready.asked import Asked
+from pico.planning.asked import Asked
 
 ACROSS = ("stage_y", "stage_z", "tip", "tilt", "pinhole_y", "pinhole_z")
 TURNED = ("angle",)

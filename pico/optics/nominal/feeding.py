@@ -30,10 +30,12 @@ Limits = Mapping[str, tuple[float, float]]
 @dataclass(frozen=True)
 class Right:
     """A bench with the light that a goal is to have: where parts stood and what tunables were set to. `met`: the goal
-    was met there; else it is so as somebody wrote it down."""
+    was met there; else it is so as somebody wrote it down. `tuned`: nothing but light says where the tunables belong,
+    so they are brought to where they were even where all parts stand as they stood."""
 
     state: LabState
     met: bool
+    tuned: bool = False
 
 
 def fed_forward(setup: Setup, seen: Observation, goal: Goal, right: Right, limits: Limits) -> dict[str, float] | None:
@@ -50,12 +52,13 @@ def fed_forward(setup: Setup, seen: Observation, goal: Goal, right: Right, limit
     if not steering or not numbers:
         return None
     start = {address: _value(before, address, limits) for address in steering}
-    was, found = before.numbers(numbers), _with(now, start).numbers(numbers)
-    if was is None or found is None or not _same(setup, before, now, numbers):
+    then = _with(now, start)
+    was, found = before.numbers(numbers), then.numbers(numbers)
+    if was is None or found is None or not _same(setup, before, then if right.tuned else now, numbers):
         return None
     near = np.array([goal.near(number) for number in numbers])
     if bool((np.abs(found - was) <= near).all()):
-        return {}
+        return {a: value for a, value in start.items() if right.tuned and _differs(setup, now, a, value)}
     reach = goal.reach or {}
     wanted = was if right.met or not reach.keys() >= set(numbers) else np.array([reach[n] for n in numbers])
     solved = _solved(now, numbers, wanted, start, limits)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.bench.ready.tuning import ACROSS, tuned
 from pico.model.lab import Goal
+from pico.planning.asked import Asked, Ready
 
 TAKES = "PART... CAMERA: its spot in the middle of the camera, to 5 um"
 LEAST = 2

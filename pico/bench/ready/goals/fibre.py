@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.bench.ready.tuning import ACROSS, ALONG, tuned
 from pico.model.lab import Budget, Goal
+from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_bench import STEERS
 
 TAKES = "[PART...] COUPLER: as much light in it as can be, by two mirrors and a focus before it"

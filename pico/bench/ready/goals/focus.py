@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.bench.ready.tuning import ALONG, tuned
 from pico.model.lab import Goal
+from pico.planning.asked import Asked, Ready
 
 TAKES = "PART... CAMERA: the smallest spot on the camera"
 LEAST = 2

@@ -3,9 +3,9 @@ after the other, and what moves one of them brings it to where the other is."""
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.model.lab import Budget, Goal
 from pico.model.quantities import Value
+from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_bench import STEERS
 
 TAKES = "[MIRROR MIRROR] NEAR FAR: two arms one on the other on both cameras, to 10 um"

@@ -3,10 +3,10 @@ as can be, as a detector beside the way sees it."""
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked, Ready
-from pico.bench.ready.openings import stopped_down
 from pico.model.lab import Goal
+from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_bench import STEERS
+from pico.planning.openings import stopped_down
 
 TAKES = "MIRROR [IRIS] [DETECTOR]: back through the iris that the light came through"
 LEAST = 1

@@ -3,8 +3,8 @@ a pinhole across and along."""
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.model.lab import Goal
+from pico.planning.asked import Asked, Ready
 
 TAKES = "FILTER|PINHOLE [DETECTOR]: as much light through it as can be, by its stages or its lens"
 LEAST = 1

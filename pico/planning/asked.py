@@ -3,8 +3,8 @@ name. Whatever is missing is refused by name."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -23,11 +23,18 @@ LIGHT = ("power", "voltage")
 
 @dataclass(frozen=True)
 class Ready:
-    """A goal that was made, by the name it goes by, and goals that are sought `first` where it is dark."""
+    """A goal that was made, by the name it goes by, and goals that are sought `first` where it is dark. `aim`: where
+    its tunables are likely to be right, by the nominal way of the light."""
 
     name: str
     goal: Goal
     first: tuple[tuple[str, Goal], ...] = ()
+    aim: Mapping[str, float] | None = None
+
+    def mapped(self, to: Callable[[Goal, Sequence[Goal]], Goal]) -> Ready:
+        """Return it with each goal as `to` makes it of that and of those that come before it."""
+        first = tuple((label, to(goal, ())) for label, goal in self.first)
+        return replace(self, goal=to(self.goal, [goal for _, goal in first]), first=first)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pico.bench.ready.asked import Asked
+from pico.planning.asked import Asked
 
 _RADII = 1.0
 """Beam radii to which an iris is stopped down: narrow enough for its middle to be sharp, wide enough for light."""
