@@ -128,13 +128,13 @@ class Measurements:
         from pico.bench.light import Lights
         from pico.bench.plans import Plans
         from pico.model.vocabulary import measured_in
-        from pico.planning.by_light import sought_in
+        from pico.planning.by_light import told_of
         from pico.planning.verifying import readable
 
         opened, setup, seen = self.opened, self.opened.setup, self.opened.observe()
         state = opened.folder.state_at(revision) if revision else opened.state
         able, recorded = self._measurables(), Lights(opened).recorded(revision)
-        goals = {**(setup.lab.goals or {}), **sought_in(setup, seen, state).goals}
+        goals = {**(setup.lab.goals or {}), **told_of(setup, seen, state).goals}
         turns, told = readable(setup, seen, state, goals, self._when_met(goals, recorded.goals), able)
         spoken = measured_in(setup, [one.that for one in state.expect])
         light = [(one.component, one.measurable) for _, one in sorted(recorded.measured.items())]
