@@ -103,7 +103,7 @@ def light_back(session: Session, bench: Bench, plan: Plan, report: RunReport) ->
 
     found = bench.light.compared(plan.target.revision, report.measurements)
     if found:
-        session.show(view, found, goal=plan.target.name)
+        session.show(view, found, goal=plan.target.name, suspects=bench.light.suspected(found))
 
 
 def _after(plan: Plan) -> str:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.bench.drifting.drift import Drift, Drifted
+from pico.bench.drifting.drift import Drift, Drifted, LightLost
 from pico.model.record import as_json
 from pico.model.state import is_reference
 
 from .diff import lines
-from .style import count, listed, paint, wrap
+from .style import ago, count, listed, paint, wrap
 
 
 def text(found: Drifted) -> str:
@@ -18,11 +18,31 @@ def text(found: Drifted) -> str:
     beyond, near, head = found.beyond, len(found.within), found.head
     within = f"{count(near, 'tunable')} {'deviates' if near == 1 else 'deviate'} within tolerance." if near else ""
     ignored = f"Ignored by the policy of the lab: {listed(found.ignored)}." if found.ignored else ""
+    light = [line for one in found.light or () for line in _light(one)]
     if not beyond:
-        return "\n".join(x for x in (f"No drift: the bench is as {head} says.", within, ignored) if x)
+        title = f"No part has left {head}, and light is lost:" if light else f"No drift: the bench is as {head} says."
+        return "\n".join(x for x in (title, *light, within, ignored) if x)
     title = f"{count(len(beyond), 'tunable')} of the bench {'has' if len(beyond) == 1 else 'have'} left {head}:"
     rest = [*([within] if within else []), *([ignored] if ignored else []), _hint(found)]
-    return "\n".join([title, "", *(line for one in _ordered(beyond) for line in _entry(one)), "", *rest])
+    entries = [line for one in _ordered(beyond) for line in _entry(one)]
+    return "\n".join([title, "", *entries, "", *light, *rest])
+
+
+def _light(one: LightLost) -> list[str]:
+    """Return whether light is lost with a part that moved, or without."""
+    through = f"{listed(one.moved)} {'has' if len(one.moved) == 1 else 'have'} left it, where its light comes through"
+    if not one.lost:
+        said = f"{one.goal} was aligned {ago(one.at)}; {through}: `pico verify --measure` tells whether it still is."
+    elif one.moved:
+        said = f"{one.goal} is lost ({one.why}, {ago(one.at)}), and {through}."
+    else:
+        said = (
+            f"{one.goal} is lost by light alone ({one.why}, {ago(one.at)}): every part in its light is where it was. "
+        )
+        said += f"`pico optimize {one.goal}` seeks it; `pico verify --measure` tells which part is suspected."
+    mark = paint("red", "✗") if one.lost else paint("yellow", "?")
+    first, *more = wrap(said, "    ")
+    return [f"  {mark} {first.strip()}", *more]
 
 
 def _hint(found: Drifted) -> str:
@@ -75,10 +95,11 @@ def about(one: Drift) -> str:
 
 def data(found: Drifted) -> dict[str, Any]:
     """Return schema `pico.drift/v1`: `head`, `changes` (from committed, `before`, to live, `after`; `tolerance`, `age`,
-    `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`."""
+    `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`, `light`: goals whose light is lost, or may be, with
+    what `moved`."""
     changes = [entry(d) for d in (*found.beyond, *found.within)]
     own = {"head": found.head, "observed_at": found.observed_at, "ignored": list(found.ignored), "held": found.held}
-    own |= {"cut_short": as_json(found.cut_short)}
+    own |= {"cut_short": as_json(found.cut_short), "light": as_json(found.light or ())}
     return {"schema": "pico.drift/v1", **own, "changes": changes}
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pico.model.expectation import GoalRead, NumberRead, Standing, Verified
 from pico.model.record import as_json
@@ -15,11 +15,15 @@ from .report import expectations
 from .runs import shown
 from .style import columns, count, paint, wrap
 
+if TYPE_CHECKING:
+    from pico.diagnosis.suspects import Suspect
+
 _ON: dict[str | None, str] = {"emulated": "emulated devices, never hardware", "hardware": "hardware"}
 
 
-def text(found: Verified) -> str:
-    """Return what differs beyond tolerance, and what became of the expectations."""
+def text(found: Verified, *, suspects: Sequence[Suspect] = ()) -> str:
+    """Return what differs beyond tolerance, and what became of the expectations, of goals and of light; `suspects`: why
+    that differs, perhaps."""
     within = len(found.changes) - len(found.off)
     if found.off:
         verb = "is" if len(found.off) == 1 else "are"
@@ -28,9 +32,9 @@ def text(found: Verified) -> str:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
         said = [f"The bench equals {found.goal}{near}."]
     said += goals(found.goals or ())
-    said += (
-        [light_back.text(found.light, goal=found.standing.commit[:7] if found.standing else "")] if found.light else []
-    )
+    if found.light:
+        commit = found.standing.commit[:7] if found.standing else ""
+        said.append(light_back.text(found.light, goal=commit, suspects=suspects))
     said += expectations(found.expectations) or ["Nothing more is expected: `expect:` in a LabState says what is."]
     return "\n".join([*said, *(proof(found.standing, left=found.left) if found.standing else [])])
 
@@ -84,10 +88,10 @@ def _said(standing: Standing) -> list[str]:
     return [what, f"The run ended{when}, {where}; `pico runs show {standing.run}`."]
 
 
-def data(found: Verified) -> dict[str, Any]:
-    """Return schema `pico.verified/v1`: `goal`, `changes` (`after` is live), `expectations`, `standing`; `goals` and
-    `light` where they were measured."""
+def data(found: Verified, *, suspects: Sequence[Suspect] = ()) -> dict[str, Any]:
+    """Return schema `pico.verified/v1`: `goal`, `changes` (`after` is live), `expectations`, `standing`; `goals`,
+    `light` and `suspects` where it was measured."""
     written: dict[str, Any] = as_json(found)
     if found.light is not None:
-        written["light"] = light_back.numbers(found.light)
+        written |= {"light": light_back.numbers(found.light), "suspects": [as_json(one) for one in suspects]}
     return written

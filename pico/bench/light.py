@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 
 if TYPE_CHECKING:
+    from pico.diagnosis.suspects import Suspect
     from pico.drawing.picture import Image
     from pico.history.runs.recorded_light import RecordedLight
     from pico.model.lab import Setup
@@ -88,6 +89,24 @@ class Lights:
         aligned = {one.goal for one in standing(self.opened, seen) if one.status == "aligned"} & before.goals.keys()
         held = {name: goal for name, goal in (setup.lab.goals or {}).items() if name in aligned}
         return light_compared(setup, before.measured, now, open_to, held, lasers, dark)
+
+    def suspected(self, numbers: Sequence[Compared]) -> tuple[Suspect, ...]:
+        """Return what may have happened where light is not as it was (see `compared`), the likeliest first, nothing
+        unusual among it; none where no number differs. By the ray model of the bench as it is seen."""
+        from pico.diagnosis.recorded import nominal_of, suspected
+        from pico.optics.axis import beams
+        from pico.planning.goal_light import standing_poses
+
+        if not any(one.differs for one in numbers):
+            return ()
+        setup, seen = self.opened.setup, self.opened.observe()
+        detectors = {one.address.partition(".")[0] for one in numbers}
+        parts = set(detectors)
+        for axis in beams(setup, standing_poses(seen), seen.known_values):
+            for way in (way for d in detectors for way in axis.ways(d)):
+                parts |= {axis.source, *(m.component for m in way)}
+        found = suspected(nominal_of(setup, seen), numbers, parts & setup.lab.inventory.keys())
+        return found.suspects if found else ()
 
     def picture(
         self, revision: str | None = None, *, manifest: bool = False, source: str | None = None, out: Path | None = None

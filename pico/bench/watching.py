@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.by_light import unaligned, unfound
 from pico.bench.cut_short import told_first
-from pico.bench.drifting.drift import Drift, Drifted, calibration_drift, drift, news, require_heal
+from pico.bench.drifting.drift import PASSING, Drift, Drifted, LightLost, calibration_drift, drift, news, require_heal
 from pico.bench.in_use import moved_by
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened
@@ -22,6 +22,7 @@ from pico.model.record import record
 from pico.model.report import RunReport
 
 if TYPE_CHECKING:
+    from pico.model.state import LabState
     from pico.model.status import Status
     from pico.runs.journal import JournalRecord
 
@@ -79,8 +80,34 @@ class Watch:
             head=self.opened.history.head_name(), observed_at=seen.observed_at, beyond=beyond,
             within=tuple(d for d in found if d.change.tolerated),
             ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
-            cut_short=told_first(self.opened, seen),
+            cut_short=told_first(self.opened, seen), light=tuple(self._light_lost(seen, head, beyond)) or None,
         )  # fmt: skip
+
+    def _light_lost(self, seen: Observation, head: LabState, beyond: Sequence[Drift]) -> Iterator[LightLost]:
+        """Yield the goals whose light is lost, or comes through what has moved; nothing is measured."""
+        setup = self.opened.setup
+        if not setup.lab.goals:
+            return
+        from pico.bench.aligned import standing
+        from pico.planning.goal_light import goal_light
+        from pico.planning.verifying import as_wanted
+
+        right = as_wanted(setup, seen, head)
+        try:
+            stands = standing(self.opened, seen, timed=False)
+        except PicoError:  # a journal that can't be read: looking must not fail for it
+            return
+        for one in stands:
+            goal = setup.lab.goals.get(one.goal)
+            light = goal_light(setup, right, goal) if goal else None
+            if goal is None or light is None or light.order is None:
+                continue
+            inside = [d for d in beyond if d.change.component in light.parts - light.beyond]
+            moved = tuple(
+                d.address for d in inside if d.address not in goal.tunables and d.change.tunable not in PASSING
+            )
+            if one.status == "lost" or (one.status == "aligned" and moved):
+                yield LightLost(goal=one.goal, lost=one.status == "lost", why=one.why, at=one.at, moved=moved)
 
     def _records(self) -> Sequence[JournalRecord]:
         """Return what the bench remembers; nothing where that can't be read: looking must not fail for it."""

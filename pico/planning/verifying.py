@@ -30,7 +30,7 @@ def readable(
     told = []
     for name, goal in goals.items():
         light = goal_light(setup, seen, goal)
-        if light.order is None and goal_light(setup, _as_wanted(setup, seen, wanted), goal).order is None:
+        if light.order is None and goal_light(setup, as_wanted(setup, seen, wanted), goal).order is None:
             continue
         if why := _unknown(setup, seen, goal, measurables) or _shut(setup, seen, goal, light.parts):
             told.append(GoalRead(goal=name, why=why))
@@ -48,7 +48,7 @@ def _shut(setup: Setup, seen: Observation, goal: Goal, parts: Set[str]) -> str:
     return kept_back(setup, seen, parts, {need.address: need.value for need in wants} | dict(goal.during or {}))
 
 
-def _as_wanted(setup: Setup, seen: Observation, wanted: LabState) -> Observation:
+def as_wanted(setup: Setup, seen: Observation, wanted: LabState) -> Observation:
     """Return the bench as it would be seen, were it as a state wants it."""
     found = {}
     for name, part in seen.components.items():

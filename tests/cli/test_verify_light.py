@@ -68,6 +68,8 @@ def test_a_goal_that_is_lost_is_told_with_what_it_was_and_counts_as_lost_from_th
     assert code == 6 and goal["met"] is False and "cam.centroid.y is +1" in goal["why"]
     light = {n["address"]: n for n in found["light"]}
     assert abs(light["cam.centroid.y"]["now"] - light["cam.centroid.y"]["before"]) > 100
+    assert {s["part"] for s in found["suspects"][:3]} <= {"laser", "cam", "lx_100", "ly_150"}
+    assert "ly_150" in {found["suspects"][0]["part"], *found["suspects"][0]["like"]}, "no reading tells them apart"
     told = pico("verify", "--measure", "--yes")
     assert told.code == 6 and "✗  ly_150_centred" in told.out and "✗  cam.centroid.y" in told.out
     standing = pico("optimize", "--json").data["alignments"]
@@ -76,6 +78,34 @@ def test_a_goal_that_is_lost_is_told_with_what_it_was_and_counts_as_lost_from_th
     assert [op["arguments"]["goal"] for op in pico("plan", "--align", "--json").data["operations"]
             if op["primitive"] == "optimize"] == ["ly_150_centred"]  # fmt: skip
     assert pico("apply", "--align", "--yes").code == 0 and verified(pico)[1]["goals"][0]["met"] is True
+
+
+def test_a_laser_that_lost_power_is_suspected_first(built: Path, pico: Pico) -> None:
+    pico("sim", "upset", "laser", "loss=0.3")
+    code, found = verified(pico)
+    assert code == 6 and found["goals"][0]["met"] is True
+    first = found["suspects"][0]
+    assert (first["part"], first["kind"]) == ("laser", "power") and first["probability"] > 0.9
+    assert "%  laser: power, -3" in pico("verify", "--measure", "--yes").out
+
+
+def test_drift_tells_light_lost_from_a_part_that_moved(built: Path, pico: Pico) -> None:
+    assert pico("drift", "--json").data["light"] == []
+    pico("sim", "nudge", "lx_100", "--dy", "3")
+    (may,) = pico("drift", "--json").data["light"]
+    assert may["lost"] is False and may["moved"] == ["lx_100"]
+    assert "lx_100 has left it, where its light comes through" in " ".join(pico("drift").out.split())
+    pico("verify", "--measure", "--yes")
+    (lost,) = pico("drift", "--json").data["light"]
+    assert lost["lost"] is True and lost["moved"] == ["lx_100"]
+    pico("sim", "nudge", "lx_100", "--dy", "-3")
+    pico("sim", "upset", "ly_150", "up=0.05")
+    pico("verify", "--measure", "--yes")
+    (lost,) = pico("drift", "--json").data["light"]
+    assert lost["lost"] is True and lost["moved"] == [] and "cam.centroid.y is +1" in lost["why"]
+    told = " ".join(pico("drift").out.split())
+    assert "ly_150_centred is lost by light alone" in told and "`pico optimize ly_150_centred` seeks it" in told
+    assert pico("optimize", "ly_150_centred", "-y").code == 0 and pico("drift", "--json").data["light"] == []
 
 
 def test_what_was_stale_and_is_still_met_is_aligned_again(built: Path, pico: Pico) -> None:

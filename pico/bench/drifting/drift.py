@@ -23,6 +23,10 @@ ALIKE = 0.3
 """Displacements that differ by no more than this are one, that of what measures them [mm]."""
 
 
+PASSING = ("exposure", "gain", "illumination")
+"""Tunables that change no light."""
+
+
 @record
 class Drift:
     """One tunable that has left HEAD: the change from committed to live, as it happened, and `tolerance` in words.
@@ -48,8 +52,22 @@ class Drift:
 
 
 @record
+class LightLost:
+    """A goal of the lab whose light is lost, or may be: `lost` where it was measured so, and `why`, `at` by the wall.
+    `moved`: what has left HEAD, by address, of the parts that its light comes through; where that is nothing, light
+    alone is lost."""
+
+    goal: str
+    lost: bool
+    why: str = ""
+    at: str = ""
+    moved: tuple[str, ...] = ()
+
+
+@record
 class Drifted:
-    """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address.
+    """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address; goals
+    whose light is lost with that, or without (`light`), as far as the journal knows.
 
     `held`: why nothing may be healed now; empty where that is allowed. `cut_short`: see `told_first`.
     """
@@ -61,6 +79,7 @@ class Drifted:
     ignored: tuple[str, ...] = ()
     held: str = ""
     cut_short: tuple[Diagnostic, ...] = ()
+    light: tuple[LightLost, ...] | None = None
 
 
 def news(before: Sequence[Drift], now: Sequence[Drift]) -> tuple[list[Drift], list[str]]:
@@ -195,7 +214,7 @@ def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalR
 
 
 def _intends(r: JournalRecord, change: Change) -> bool:
-    if r.kind != "intent":
+    if r.kind != "intent" or r.data.get("primitive") == "verify":  # which sets back what it set
         return False
     arguments = r.data.get("arguments", {})
     if "what" in arguments or r.component != change.component:

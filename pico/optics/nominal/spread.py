@@ -1,5 +1,5 @@
-"""How far light on detectors may be off because parts come to stand only so well: by the nominal way of light, to first
-order in what the catalog says of a placement."""
+"""How far light on detectors may be off because parts come to stand only so well, and lasers point only so well: by the
+nominal way of light, to first order in what the catalog says of a placement."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from pico.geometry.seat import scatter_of
+from pico.geometry.seat import Seat, scatter_of
 from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.optics.axis import Values
 from pico.optics.light import Light, light_of
-from pico.optics.unseen import Unseen
+from pico.optics.unseen import SEEN, Unseen
+
+WALK = 6e-4
+"""How far the beam of a laser walks each way from one day to the next, one standard deviation [deg]."""
 
 
 @dataclass(frozen=True)
@@ -28,12 +31,14 @@ class Spread:
 def spread(
     setup: Setup, poses: Mapping[str, Pose], values: Values, placed: Collection[str], detectors: Collection[str]
 ) -> dict[str, Spread]:
-    """Return how far the light on each detector may be off where each part of `placed` was put down once; nothing for a
-    detector in the dark."""
+    """Return how far the light on each detector may be off where each part of `placed` was put down once, and the beams
+    of lasers have walked; nothing for a detector in the dark."""
     nominal = {name: found for name, found in _seen(light_of(setup, poses, values), detectors).items() if found[0] > 0}
     squares = {name: [0.0, 0.0, 0.0] for name in nominal}
-    for part in placed:
-        for off in _errors(setup, part):
+    walked = [Unseen(yaw=WALK), Unseen(pitch=WALK)]
+    sources = [(name, walked) for name in poses if setup.type_of(name).optics.element == "source"]
+    for part, errors in (*((name, _errors(setup, name)) for name in placed), *sources):
+        for off in errors:
             there = _seen(light_of(setup, poses, values, unseen={part: off}), nominal)
             for name, (power, left, up) in nominal.items():
                 one = there.get(name, (0.0, left, up))
@@ -43,11 +48,12 @@ def spread(
 
 
 def _errors(setup: Setup, part: str) -> list[Unseen]:
-    """Return a placement that is off by one standard deviation in each way that tells."""
-    one = scatter_of(setup, part)
-    found = [Unseen(ahead=one.x), Unseen(left=one.y), Unseen(up=one.height)]
-    found += [Unseen(roll=one.roll), Unseen(pitch=one.pitch), Unseen(yaw=one.yaw)]
-    return [off for off in found if off.displaced]
+    """Return a placement that is off by one standard deviation in each way that tells; what leans does so about its
+    foot, by which its optic is displaced as well."""
+    one, about = scatter_of(setup, part), setup.type_of(part).frames.optical
+    found = [Unseen(ahead=one.x), Unseen(left=one.y), Unseen(yaw=one.yaw)]
+    leans = (Seat(pitch=one.pitch), Seat(roll=one.roll), Seat(height=one.height))
+    return [off for off in (*found, *(SEEN.sitting(seat, about) for seat in leans)) if off.displaced]
 
 
 def _seen(light: Light, detectors: Collection[str]) -> dict[str, tuple[float, float, float]]:
