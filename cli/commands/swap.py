@@ -37,7 +37,7 @@ def swap(
     is in use.
 
     Examples:
-      pico swap lx_100 --serial B7 --type plano_convex --focal-length "100.3 mm"
+      pico swap lx_100 --serial B7 --focal-length "100.3 mm"
     """
     from pico.bench import updating
     from pico.manifest.load import find_lab

@@ -8,13 +8,13 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
 from pico.bench.running.loop import LoopThread
-from pico.diagnostics import Diagnostic, PicoError
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import write_all
 from pico.edge import own_lab
 from pico.edge.link.opening import opened
@@ -33,7 +33,8 @@ DOING = "pico bench update"
 @dataclass(frozen=True)
 class Swap:
     """Another specimen for a part: serials before and after, the Labs of bench and tree with it, and the tree's as a
-    unified diff. `stays`: parameters of the part's own that nobody gave anew; `same`: it is what is there already."""
+    unified diff. `kind` and `parameters` as they were asked for. `stays`: parameters of the part's own that nobody gave
+    anew; `same`: it is what is there already."""
 
     name: str
     before: str
@@ -42,6 +43,8 @@ class Swap:
     tree: OwnLab
     patch: str
     stays: Mapping[str, Value]
+    kind: str | None = None
+    parameters: Mapping[str, Value] = field(default_factory=dict)
     same: bool = False
 
 
@@ -126,21 +129,39 @@ def swapped(root: Path, name: str, serial: str, kind: str | None, parameters: Ma
     kept_as = {k: v for k, v in (before.parameters or {}).items() if k not in parameters}
     patch = "".join(_patch(tree.files, made[1].files))
     same = made[0].files == own.files and not patch
-    return Swap(name, before.serial, serial, made[0], made[1], patch, kept_as, same)
+    return Swap(name, before.serial, serial, made[0], made[1], patch, kept_as, kind, parameters, same)
 
 
 def swap(root: Path, backend: str, change: Swap) -> None:
-    """Let the bench of the lab in `root` have the specimen, and write the same into the tree; raises PicoError."""
+    """Write the specimen into the tree of the lab in `root`, and let its bench have it; raises PicoError, of a bench
+    that does not take it with the tree as it was, and where either was changed since `change` was made.
+
+    The tree is written first: killed in between, it proposes the specimen to the bench, and `pico bench update` does
+    the rest. The other way round that would put the one before back."""
+    again = swapped(root, change.name, change.after, change.kind, change.parameters)
+    if again != change:
+        text = "lab.yaml or the bench was changed meanwhile, so nothing was swapped"
+        raise PicoError(error("edit", text, hint="the same `pico swap` once more starts from what is there now"))
     setup = own_lab.setup_of(kept(root) or own_lab.proposed(root))
+    before = own_lab.proposed(root).as_bytes()
+    written = {path: data for path, data in change.tree.as_bytes().items() if before.get(path) != data}
     thread = LoopThread()
     edge = opened(setup, root, backend, setup.lab.sim.fidelity, kept(root))
     try:
+        write_all({root / path: data for path, data in written.items()})
         thread.wait(edge.adopt(change.own, "pico swap"))
+    except PicoError:
+        _put_back(root, {path: (data, before[path]) for path, data in written.items() if path in before})
+        raise
     finally:
         thread.wait(edge.close())
         thread.close()
-    now = own_lab.proposed(root).as_bytes()
-    write_all({root / path: data for path, data in change.tree.as_bytes().items() if now.get(path) != data})
+
+
+def _put_back(root: Path, written: Mapping[str, tuple[bytes, bytes]]) -> None:
+    """Let files be what they were before they were written, but for those that somebody has changed since."""
+    still = {root / path: old for path, (new, old) in written.items() if (root / path).read_bytes() == new}
+    write_all(still)
 
 
 class BenchLab:

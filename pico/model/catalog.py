@@ -379,6 +379,8 @@ class ComponentType:
             return None
 
 
+RADII = ("radius_of_curvature", "radius_of_curvature_back")
+"""Of a lens, the side that light comes to first and the other, each above 0 where it is convex."""
 LIFTED = "from `optics.properties`"
 """What a parameter is described as that a file has there alone."""
 _WRITTEN_TWICE: Mapping[str, tuple[str, ...]] = {
@@ -533,7 +535,30 @@ def _otherwise_restored(kind: ComponentType, given: Mapping[str, Restore]) -> Co
 def _made_of(kind: ComponentType, given: Mapping[str, Value]) -> ComponentType:
     own = {name: replace(kind.parameters[name], value=value_of(kind.parameters[name], v)) for name, v in given.items()}
     said = ", ".join(f"{name} {_said(parameter)}" for name, parameter in own.items())
+    own = {**_bent_alike(kind, own), **own}
     return replace(kind, parameters={**kind.parameters, **own}, title=f"{kind.title}; {said}" if said else kind.title)
+
+
+def _bent_alike(kind: ComponentType, own: Mapping[str, Parameter]) -> dict[str, Parameter]:
+    """Return the radii of a lens of whose specimen only the focal length is known, where its type gives them: all
+    scaled by the one factor k that makes the thick lens of its type P = A + B as strong as f says, P f/f' = A/k + B/k^2
+    (the lensmaker's equation; B is the term of its thickness)."""
+    radii = [name for name in RADII if name in kind.parameters]
+    if kind.optics.element != "lens" or "focal_length" not in own or not radii or own.keys() & {*RADII}:
+        return {}
+    before, after = (one["focal_length"].value for one in (kind.parameters, own))
+    curved = [1 / (kind.number(name, "mm") or math.inf) for name in radii]
+    thick, index = kind.number("center_thickness", "mm") or 0.0, kind.number("refractive_index", "") or 1.5
+    bends, thickness = sum(curved), -(index - 1) * thick / index * math.prod(curved) * (len(curved) > 1)
+    if not isinstance(before, int | float) or not isinstance(after, int | float) or not after or not bends:
+        return {}
+    wanted = (bends + thickness) * before / after
+    root = math.sqrt(max(0.0, bends**2 + 4 * wanted * thickness))
+    scale = (bends + math.copysign(root, bends)) / (2 * wanted)
+    return {
+        name: replace(kind.parameters[name], value=scale / one if one else math.inf)
+        for name, one in zip(radii, curved, strict=True)
+    }
 
 
 def value_of(parameter: Parameter, given: Value) -> Value:

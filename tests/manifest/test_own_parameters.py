@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from pico.diagnostics import Diagnostic
 from pico.manifest.load import load_folder
+from pico.model.catalog import RADII, ComponentType, Parameter, with_parameters
 from pico.model.lab import Lab, Setup
 from pico.model.pose import Pose
 from pico.optics.light import light_of
@@ -69,7 +70,12 @@ def test_a_part_has_parameters_of_its_own_in_the_unit_of_its_type(tmp_path: Path
         ("plano_convex", "radius_of_curvature: 40", "has no parameter `radius_of_curvature`", ""),
         ("plano_convex", "form: 3", "is not a word", "its type has plano"),
         ("plano_convex", "form: round", "`form` is `round`", "`bi`, `plano`"),
-        ("plano_convex_100", "focal_length: 80", "one of `focal_length` and `radius_of_curvature`", "with a `form`"),
+        (
+            "plano_convex_100",
+            "radius_of_curvature: 41.2",
+            "`radius_of_curvature` is its own",
+            "give its `focal_length`",
+        ),
         ("neutral_density_filter", "optical_density: -2", "`optical_density` is -2", "from 0 to 20"),
     ],
 )
@@ -121,3 +127,36 @@ def _catalog() -> dict[str, object]:
 
 SETUP = load_folder(labs_dir() / "shel").require()[0]
 CATALOG = _catalog()
+
+
+@given(st.floats(20, 400), st.sampled_from(["plano_convex_100", "plano_convex_150_stage"]))
+def test_the_radius_of_a_lens_follows_its_measured_focal_length(length: float, name: str) -> None:
+    kind = SETUP.catalog[name]
+    own = with_parameters(kind, {"focal_length": length})
+    before, after = (one.number("radius_of_curvature", "mm") or 0.0 for one in (kind, own))
+    assert after / before == pytest.approx(length / (kind.number("focal_length", "mm") or 0.0))
+    both = with_parameters(kind, {"focal_length": length, "radius_of_curvature": 60.0})
+    assert both.number("radius_of_curvature", "mm") == 60
+
+
+@given(st.floats(30, 400), st.floats(30, 400), st.floats(1, 8), st.floats(0.5, 2))
+def test_both_sides_of_a_lens_are_bent_alike(front: float, back: float, thick: float, share: float) -> None:
+    """1/f = (n - 1) (1/R1 + 1/R2 - (n - 1) t / (n R1 R2)), for any lens, before and after."""
+    index = 1.5151
+
+    def strength(kind: ComponentType) -> float:
+        one, other = (1 / (kind.number(r, "mm") or 0.0) for r in ("radius_of_curvature", "radius_of_curvature_back"))
+        return (index - 1) * (one + other - (index - 1) * thick / index * one * other)
+
+    def mm(value: float) -> Parameter:
+        return Parameter(value=value, unit="mm")
+
+    kind = replace(SETUP.catalog["plano_convex_100"], parameters={
+        **SETUP.catalog["plano_convex_100"].parameters, "radius_of_curvature": mm(front),
+        "radius_of_curvature_back": mm(back), "center_thickness": mm(thick),
+    })  # fmt: skip
+    kind = replace(kind, parameters={**kind.parameters, "focal_length": mm(1 / strength(kind))})
+    own = with_parameters(kind, {"focal_length": share / strength(kind)})
+    assert 1 / strength(own) == pytest.approx(share / strength(kind), rel=1e-9)
+    ratio = [(own.number(r, "mm") or 0.0) / (kind.number(r, "mm") or 1.0) for r in RADII]
+    assert ratio[0] == pytest.approx(ratio[1])

@@ -68,7 +68,7 @@ def _radius_and_focal_length(
     kind: ComponentType, given: Mapping[str, Value], places: Callable[[str], SourceRange], name: str
 ) -> Iterator[Diagnostic]:
     radius = "radius_of_curvature"
-    if kind.optics.element == "lens" and radius in kind.parameters and (radius in given) != ("focal_length" in given):
-        text = f"of {name} one of `focal_length` and `{radius}` is its own, the other that of {kind.name}: they differ"
-        hint = "take a type with a `form`, such as `plano_convex`, whose radius follows; or give both"
-        yield error("value", text, hint=hint, source=places("focal_length" if "focal_length" in given else radius))
+    if kind.optics.element == "lens" and radius in given and "focal_length" not in given:
+        text = f"of {name} `{radius}` is its own, and `focal_length` that of {kind.name}: they differ"
+        hint = "give its `focal_length`, from which the radius follows; or both"
+        yield error("value", text, hint=hint, source=places(radius))
