@@ -7,8 +7,8 @@ It meets what `pico.optics.axis` says that a ray meets next, and what an element
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import import_module
 from typing import cast
@@ -58,14 +58,21 @@ class Crossing:
     before: int | None
 
 
+Made = tuple[tuple[str, Event, float], Crossing, tuple[Beam, ...]]
+"""What a beam met, how far ahead [mm], and what became of it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Light:
     """The light of all sources: crossings in the order in which they were followed. `endless`: sources whose beam goes
-    round and round, and was not followed to its end."""
+    round and round, and was not followed to its end. `begun`: the beams of the sources; `made`: what became of each
+    beam, by its identity and the component that it leaves."""
 
     crossings: tuple[Crossing, ...]
     parts: Mapping[str, Part]
     endless: tuple[str, ...] = ()
+    begun: Mapping[str, Beam] = field(default_factory=dict)
+    made: Mapping[tuple[int, str], Made] = field(default_factory=dict)
 
     def at(self, component: str) -> tuple[Arrival, ...]:
         """Return what of the light a detector takes."""
@@ -138,29 +145,59 @@ def element(name: str) -> Element:
 def light_of(
     setup: Setup, poses: Mapping[str, Pose], values: Values | None = None, *, lit: Callable[[str], bool] | None = None,
     astray: Least | None = None, unseen: Mapping[str, Unseen] | None = None,
+    like: Light | None = None, changed: Collection[str] = (),
 ) -> Light:  # fmt: skip
     """Return the light of the sources among what stands at `poses`.
 
     `values`: tunables by component, in the units of the catalog; those of shutters, stages, mirrors, irises, polarizers
     and wave plates count. `lit`: which sources shine; without, all that `values` do not say are off or shut.
     `astray`: follow what faces of glass send astray, too, and all down to so many mW; without, down to `FAINT`.
-    `unseen`: how components are otherwise than they are seen.
+    `unseen`: how components are otherwise than they are seen. `like`: the light of the same components, all as
+    they are now but those `changed`; what became of beams before these is not worked out again.
     """
     known, hidden = values or {}, unseen or {}
-    parts = {name: _part(setup, name, pose, known, hidden.get(name, SEEN)) for name, pose in poses.items()}
+    parts = {
+        name: like.parts[name]
+        if like and name not in changed
+        else _part(setup, name, pose, known, hidden.get(name, SEEN))
+        for name, pose in poses.items()
+    }
     shines = lit or (lambda name: not is_dark(known.get(name, {})))
+    before = _Before({} if like is None else like.begun, {} if like is None else like.made, changed)
     crossings: list[Crossing] = []
     endless: list[str] = []
+    begun: dict[str, Beam] = {}
+    made: dict[tuple[int, str], Made] = {}
     for name in sorted(parts):
         if parts[name].kind.optics.element == "source" and shines(name):
-            begun = len(crossings)
-            follow = _followed(setup.lab.table.size, parts, name, begun, astray)
+            first = len(crossings)
+            begun[name] = before.first(parts[name])
+            follow = _followed(setup.lab.table.size, parts, begun[name], name, first, astray, before, made)
             for crossing in follow:
-                if len(crossings) - begun == (MOST_ASTRAY if astray else MOST):
+                if len(crossings) - first == (MOST_ASTRAY if astray else MOST):
                     endless.append(name)
                     break
                 crossings.append(crossing)
-    return Light(tuple(crossings), parts, tuple(endless))
+    return Light(tuple(crossings), parts, tuple(endless), begun, made)
+
+
+@dataclass(frozen=True)
+class _Before:
+    """What is known of a light that is the same but for what is `changed`."""
+
+    begun: Mapping[str, Beam]
+    made: Mapping[tuple[int, str], Made]
+    changed: Collection[str]
+
+    def first(self, source: Part) -> Beam:
+        """Return the beam of a source."""
+        known = None if source.name in self.changed else self.begun.get(source.name)
+        return known or emit(source)
+
+    def became(self, beam: Beam, leaves: str, meets: tuple[str, Event, float]) -> Made | None:
+        """Return what became of this very beam at what it meets; None where that may be another now."""
+        made = None if meets[0] in self.changed else self.made.get((id(beam), leaves))
+        return made if made is not None and made[0] == meets else None
 
 
 def is_dark(laser: Mapping[str, object]) -> bool:
@@ -176,27 +213,32 @@ def _part(setup: Setup, name: str, pose: Pose, values: Values, unseen: Unseen) -
 
 
 def _followed(
-    table: tuple[float, float], parts: Mapping[str, Part], source: str, begun: int, astray: Least | None
-) -> Iterator[Crossing]:
-    """Yield the crossings of a source's beam, breadth first; the first has the number `begun`."""
+    table: tuple[float, float], parts: Mapping[str, Part], first: Beam, source: str, number: int, astray: Least | None,
+    known: _Before, made: dict[tuple[int, str], Made],
+) -> Iterator[Crossing]:  # fmt: skip
+    """Yield the crossings of a source's beam, breadth first, from a number on; what is made of beams goes to `made`."""
     optics = [part.optic for part in parts.values()]
-    first = emit(parts[source])
-    least, number = astray(first) if astray else FAINT * first.power, begun
+    least = astray(first) if astray else FAINT * first.power
     rays: list[tuple[Beam, str, int | None]] = [(first, source, None)]
     for beam, leaves, before in rays:
-        crossing, onward = _crossing(table, parts, optics, beam, leaves, before, astray is not None)
-        yield crossing
-        rays += [(b, crossing.component, number) for b in onward if b.power > least]
+        ray = Ray(_point(beam.at), _point(beam.along), beam.length, leaves)
+        optic, event, far = first_met(table, optics, ray)
+        meets = (optic.name if optic else "", event, far)
+        found = known.became(beam, leaves, meets) or (
+            meets,
+            *_crossing(parts, beam, ray, optic, event, far, bool(astray)),
+        )
+        made[id(beam), leaves] = found
+        yield replace(found[1], before=before)
+        rays += [(b, found[1].component, number) for b in found[2] if b.power > least]
         number += 1
 
 
 def _crossing(
-    table: tuple[float, float], parts: Mapping[str, Part], optics: list[Optic], beam: Beam, leaves: str,
-    before: int | None, astray: bool,
+    parts: Mapping[str, Part], beam: Beam, ray: Ray, optic: Optic | None, event: Event, far: float, astray: bool
 ) -> tuple[Crossing, tuple[Beam, ...]]:  # fmt: skip
-    """Return what a beam comes to next, and the beams that go on from there, with those that go `astray`."""
-    ray = Ray(_point(beam.at), _point(beam.along), beam.length, leaves)
-    optic, event, far = first_met(table, optics, ray)
+    """Return what becomes of a beam at what it comes to next, and the beams that go on from there, with those that go
+    `astray`."""
     met = Met(forward(beam, far))
     if optic is not None and event != "blocked":
         met = element(optic.element).meet(parts[optic.name], beam)
@@ -209,7 +251,7 @@ def _crossing(
         met = replace(met, onward=tuple(_cleared(b, parts[optic.name]) for b in met.onward))
     onward = sum(b.power for b in met.onward)
     name = optic.name if optic else ""
-    crossing = Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, before)
+    crossing = Crossing(name, met.event or event, met.came, beam.power, onward, met.clipped, None)
     return crossing, (*met.onward, *_strays(parts[name], beam, met)) if astray and met.onward else met.onward
 
 
