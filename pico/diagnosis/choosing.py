@@ -20,7 +20,7 @@ NULL_POINTS = (-2.0, 0.0, 2.0)
 PEAK_POINTS = (-1.0, 0.0, 1.0)
 BESIDE = 0.6
 """How far a beam is moved across an iris [of its radius]: what passes is still Gaussian."""
-OPEN = 3.0
+OPEN = 3.2
 """How far an iris is opened for that [radii of the beam]."""
 FULL = 0.12
 """The share of what a camera can tell that is aimed at."""
