@@ -55,7 +55,9 @@ class Nominal:
             return self._last[key]
         if key not in self._kept:
             values, unseen = self._changed(set_to, light_steps)
-            found = light_of(self.setup, self.poses, values, unseen=unseen)
+            like = self.light(at) if light_steps else self.light() if set_to else None
+            changed = {s.part for s in light_steps} if light_steps else {k.partition(".")[0] for k in set_to}
+            found = light_of(self.setup, self.poses, values, unseen=unseen, like=like, changed=changed)
             if light_steps:  # each is asked for a few times in a row
                 self._last = {**(self._last if len(self._last) < _MOST else {}), key: found}
                 return found
@@ -120,6 +122,10 @@ class Nominal:
             total = sum(coupled(a.part, a.beam) * a.power for a in strong)
         return {measurable: total * gain * math.exp(-factor["loss"])}
 
+    def matters(self, shot: Shot, part: str) -> bool:
+        """Return whether a reading may depend on a part."""
+        return part in self._on_the_way(shot.address.partition(".")[0])
+
     def _on_the_way(self, component: str) -> frozenset[str]:
         """Return what a reading of a component may depend on: itself, and what its light has met."""
 
@@ -168,8 +174,7 @@ class Nominal:
         """Return what a quantity would be."""
         readings = []
         for shot in wanted.shots:
-            own = self._on_the_way(shot.address.partition(".")[0]) if steps else frozenset()
-            found = self.numbers(shot, tuple(step for step in steps if step.part in own))
+            found = self.numbers(shot, tuple(step for step in steps if self.matters(shot, step.part)))
             if found is None or wanted.number not in found:
                 return None
             readings.append((found[wanted.number], 0.0))

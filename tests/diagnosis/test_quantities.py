@@ -23,7 +23,7 @@ def test_a_null_is_found_where_the_law_of_malus_has_it(null: float, depth: float
     points = [88.0, 90.0, 92.0]
     values = [bright * (depth + math.sin(math.radians(harmonic / 2 * (p - 90 - null))) ** 2) for p in points]
     found = quantity(scan("null", points, harmonic), [(v, 1e-4 * v) for v in values])
-    assert found is not None and found.value == pytest.approx(90 + null, abs=1e-6)
+    assert found is not None and found.value == pytest.approx(90 + null, abs=1e-5)
     low = quantity(scan("depth", points, harmonic), [(v, 1e-4 * v) for v in values])
     assert low is not None and low.value == pytest.approx(math.log(bright * depth), abs=max(0.01, 4 * low.sigma))
 

@@ -12,23 +12,6 @@ from pico.diagnosis.choosing import Chosen, chosen, darks
 from pico.diagnosis.nominal import Nominal, Step
 from pico.diagnosis.quantities import Got
 from pico.diagnosis.suspects import NOTHING, Compared, Verdict, suspects
-from pico.manifest.load import load_folder
-from pico.model.pose import Pose
-from pico.resources import labs_dir
-
-POSES = {"laser": (120, 0), "hwp": (222, 0), "p1": (290, 0), "lx_125": (395, 0), "p2": (520, 30), "ly_150": (670, 0),
-         "cam": (1060, 0)}  # fmt: skip
-VALUES = {
-    "laser": {"emission": True, "shutter": "open"}, "hwp": {"angle": 22.75}, "p1": {"angle": 1.0},
-    "p2": {"angle": 90.0},
-    "ly_150": {"stage_y": 0.0, "stage_z": 0.0}, "cam": {"exposure": 10.0},
-}  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def nominal() -> Nominal:
-    setup = load_folder(labs_dir() / "shel").require()[0]
-    return Nominal(setup, {name: Pose(x, 420, yaw) for name, (x, yaw) in POSES.items()}, VALUES)
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +53,11 @@ def test_nothing_is_suspected_where_nothing_happened(nominal: Nominal, what: Cho
         ("p1", "zero:angle", 0.4, "zero of angle"),
         ("p2", "zero:angle", -0.4, "zero of angle"),
         ("hwp", "zero:angle", 0.3, "zero of angle"),
+        ("p1", "zero:angle", -1.4, "zero of angle"),
+        ("p2", "zero:angle", 1.9, "zero of angle"),
+        ("hwp", "zero:angle", -1.8, "zero of angle"),
+        ("p1", "leak", 3.3, "extinction"),
+        ("p2", "leak", 4.5, "extinction"),
         ("cam", "gain", -0.1, "gain"),
         ("cam", "dark", 150.0, "dark level"),
         ("lx_125", "up", 0.1, "moved across"),
