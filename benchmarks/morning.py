@@ -15,7 +15,7 @@ import math
 import random
 import tempfile
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import morning_lab
@@ -112,14 +112,72 @@ def night(bench: Bench, root: Path, draw: Draw, fault: Fault | None) -> tuple[Mo
     return found, part
 
 
+@dataclass
+class Tally:
+    """Of one kind: how often the right part came first, and was first or one that no reading tells from the first."""
+
+    right: int = 0
+    like: int = 0
+    many: int = 0
+
+
+@dataclass
+class Told:
+    """What many nights gave: `tallies` by kind, the probability of the part that came first with whether it was right,
+    the quiet nights and those that raised an alarm, and the longest morning [s]."""
+
+    tallies: dict[str, Tally]
+    told: list[tuple[float, bool]]
+    quiet: int = 0
+    alarms: int = 0
+    longest: float = 0.0
+
+    def judge(self, kind: str, found: Morning, part: str) -> None:
+        """Count a night in which something happened."""
+        parts, top = by_part(found), next(s for s in found.suspects if s.kind != NOTHING)
+        first = bool(parts) and parts[0][0] == part
+        self.longest = max(self.longest, found.seconds)
+        mine = self.tallies.setdefault(kind, Tally())
+        mine.many += 1
+        mine.right += found.unusual and first
+        mine.like += found.unusual and (first or part in top.like)
+        self.told.append((parts[0][1] if parts else 0.0, first))
+
+    def judge_quiet(self, number: int, found: Morning) -> None:
+        """Count a night in which nothing happened."""
+        self.quiet += 1
+        self.longest = max(self.longest, found.seconds)
+        if found.unusual:
+            self.alarms += 1
+            lost = ", ".join(r.name for r in found.readings if r.then is not None and r.now is None)
+            first = next((f"{s.part} {s.kind}" for s in found.suspects if s.kind != NOTHING), "")
+            print(f"  quiet night {number}: {first}{f', not read: {lost}' if lost else ''}", flush=True)
+
+    def show(self) -> None:
+        """Print all of it."""
+        for kind, mine in self.tallies.items():
+            print(f"{kind:25} right part first {mine.right:2} of {mine.many}, or not to be told from it {mine.like:2}")
+        right, like, many = (sum(getattr(t, n) for t in self.tallies.values()) for n in ("right", "like", "many"))
+        if many:
+            print(f"\nright part first in {right} of {many} ({100 * right / many:.0f} %), ", end="")
+            print(f"or not to be told from it in {like} ({100 * like / many:.0f} %)")
+        for low, high in ((0.0, 0.3), (0.3, 0.6), (0.6, 0.9), (0.9, 1.01)):
+            own = [(p, ok) for p, ok in self.told if low <= p < high]
+            if own:
+                mean, true = sum(p for p, _ in own) / len(own), sum(ok for _, ok in own)
+                print(f"told with {100 * mean:.0f} % on average: true in {true} of {len(own)}")
+        print(f"{self.alarms} false alarms in {self.quiet} quiet nights")
+        print(f"the longest morning took {self.longest:.0f} s of the bench", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--nights", type=int, default=50, help="quiet ones")
     parser.add_argument("--faults", type=int, default=10, help="of each kind")
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
-    told: list[tuple[float, bool]] = []
-    right = among = many = alarms = 0
+    found = Told({}, [])
+    rounds = args.faults or 1
     with tempfile.TemporaryDirectory() as place:
         root = Path(place) / "lab"
         morning_lab.make(root, args.seed)
@@ -128,34 +186,13 @@ def main() -> None:
             bench.sim.wait(7200)  # the laser is warm
             first = bench.morning()
             print(f"a morning takes {first.seconds:.0f} s of the bench, {len(first.readings)} quantities", flush=True)
-            for kind, fault in KINDS.items():
-                good = like = 0
-                for number in range(args.faults):
-                    found, part = night(bench, root, Draw(f"{args.seed}/{kind}/{number}"), fault)
-                    top = next(s for s in found.suspects if s.kind != NOTHING)
-                    parts = by_part(found)
-                    good += found.unusual and parts[0][0] == part
-                    like += found.unusual and part in (parts[0][0], *top.like)
-                    told.append((parts[0][1], parts[0][0] == part))
-                right, among, many = right + good, among + like, many + args.faults
-                print(
-                    f"{kind:25} right part first {good:2} of {args.faults}, or not to be told from it {like:2}",
-                    flush=True,
-                )
-            for number in range(args.nights):
-                found, _ = night(bench, root, Draw(f"{args.seed}/quiet/{number}"), None)
-                if found.unusual:
-                    alarms += 1
-                    print(f"  quiet night {number}: {found.suspects[0].part} {found.suspects[0].kind}", flush=True)
-    if many:
-        share = 100 * right / many
-        print(f"\nright part first in {right} of {many} ({share:.0f} %), or not to be told from it in {among}")
-    for low, high in ((0.0, 0.3), (0.3, 0.6), (0.6, 0.9), (0.9, 1.01)):
-        own = [(p, ok) for p, ok in told if low <= p < high]
-        if own:
-            mean, true = sum(p for p, _ in own) / len(own), sum(ok for _, ok in own)
-            print(f"told with {100 * mean:.0f} % on average: true in {true} of {len(own)}")
-    print(f"{alarms} false alarms in {args.nights} quiet nights")
+            for number in range(rounds):  # some of each kind and quiet ones in each round, so that any time tells
+                for kind, fault in KINDS.items() if number < args.faults else ():
+                    found.judge(kind, *night(bench, root, Draw(f"{args.seed}/{kind}/{number}"), fault))
+                for quiet in range(args.nights * number // rounds, args.nights * (number + 1) // rounds):
+                    found.judge_quiet(quiet, night(bench, root, Draw(f"{args.seed}/quiet/{quiet}"), None)[0])
+                print(f"-- after round {number + 1} of {rounds}", flush=True)
+                found.show()
 
 
 if __name__ == "__main__":
