@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from pico.diagnostics import PicoError, error
+
 from ..arguments import Scoped, group, scope_of
 from ..session import Session
 from ..terminal.waiting import waiting
-from ..views import compared, published
+from ..views import compared, exported, published
 from ..views import recorded as view
 from ..views import runs as table
 
@@ -101,15 +103,26 @@ def export(
     pictures: Annotated[
         Literal["all", "none"], typer.Option("--pictures", metavar="all|none", help="With pictures of the table?")
     ] = "all",
+    form: Annotated[
+        Literal["crate", "csv", "documents"],
+        typer.Option("--as", metavar="crate|csv|documents", help="One run's measurements, or event-model documents."),
+    ] = "crate",
 ) -> None:
     """Write a revision with its runs and pictures as an RO-Crate.
 
     Runs, measurements, plan and pictures of the table, to publish. The same commit gives the same bytes. Refused where
-    an artifact of a run is not here.
+    an artifact of a run is not here. `--as csv` writes what one run measured (`--run`, or the last), a row each;
+    `--as documents` the run in the documents of bluesky's event model, a line each; without `--out` to the terminal.
 
     Examples:
       pico runs export e1 --out e1.zip
+      pico runs export --as csv --run 20260101 --out scan.csv
     """
+    if form != "crate":
+        if revision != "HEAD" or len(run or ()) > 1:
+            raise PicoError(error("usage", f"--as {form} writes one run", hint=f"`--as {form} --run RUN`, or the last"))
+        _export_run(Session.of(context), form, run[0] if run else None, out)
+        return
     from pico.bench.publishing import publish
     from pico.history.lab.folder import LabFolder
 
@@ -120,3 +133,24 @@ def export(
         made = publish(folder, revision, path, runs=run or (), pictures=pictures == "all", beside=session.folder)
     session.show(published, made)
     session.tell(made.diagnostics)
+
+
+def _export_run(session: Session, form: Literal["csv", "documents"], run: str | None, out: Path | None) -> None:
+    """Write one run, or print it."""
+    import json
+
+    from pico.disk import write_whole
+    from pico.runs.event_model import documents, units_of
+    from pico.runs.table import as_csv, rows
+
+    bench = session.bench()
+    found, _ = bench.history.recorded_run(run)
+    if form == "csv":
+        text = as_csv(rows(found.trace))
+    else:
+        text = "".join(f"{json.dumps(pair)}\n" for pair in documents(found, units_of(bench.setup)))
+    if out is None:
+        session.say(text.removesuffix("\n"))
+        return
+    write_whole(session.folder / out, text.encode())
+    session.show(exported, found.document.id, form, out)

@@ -15,11 +15,14 @@ from pico.model.plan import Plan
 from pico.model.quantities import Value
 from pico.model.report import RunReport
 from pico.model.state import LabState
+from pico.runs.event_model import documents, units_of
+from pico.runs.table import rows
 from pico.scripting.outcome import require_done, require_possible
 from pico.scripting.parts import Part
 from pico.scripting.readings import Measurable, Reading
 from pico.scripting.recording import Recording
 from pico.scripting.status import Queue, Status
+from pico.scripting.tables import Table
 from pico.scripting.tunables import Tunable
 
 T = TypeVar("T")
@@ -174,8 +177,23 @@ class Bench(Services):
         return Status(self._queue.ask(work), what, self.halt)
 
     def halt(self) -> None:
-        """Bring everything that moves to its safe end."""
-        self.wait(self.edge.halt())
+        """Bring what was asked for and is not over to its safe end; nothing where nothing is under way."""
+        if self._queue.busy:
+            self.wait(self.edge.halt())
+
+    def documents(self, run: str | None = None) -> Iterator[tuple[str, dict[str, Any]]]:
+        """Return the documents of bluesky's event model of a run (the last one without it), each with its kind's name;
+        raises PicoError for a run that there is not."""
+        found, _ = self.history.recorded_run(run)
+        return documents(found, units_of(self.setup))
+
+    def table(self, run: str | None = None) -> Table:
+        """Return what was measured in a run (the last one without it), a row each, beside the tunables that the run
+        changed; raises PicoError for a run that there is not.
+
+        >>> bench.table().to_pandas().plot(x="p1.angle", y="cam.centroid.x")
+        """
+        return Table(rows(self.history.recorded_run(run)[0].trace))
 
     def metadata(self) -> dict[str, Any]:
         """Return what a scan of another tool should say of this bench: `pico_lab`, `pico_commit`, whether the manifests

@@ -20,6 +20,8 @@ from pico.model.observation import live_state
 from pico.model.plan import LabRef, Plan, Target
 from pico.model.report import RunReport
 from pico.model.run import RunOutcome
+from pico.runs.table import rows
+from pico.scripting.tables import Table
 
 if TYPE_CHECKING:
     from pico.model.measurement import Measurement
@@ -58,6 +60,14 @@ class Recording:
         records = memory.records(run=self.id) if memory is not None and self.id else ()
         found = (r.data.get("data", {}).get("measurement") for r in records if r.kind == "done")
         return tuple(measurement_from_json(one) for one in found if one)
+
+    @property
+    def table(self) -> Table:
+        """What was measured in the run until now, a row each, beside the tunables that it changed."""
+        return Table(rows(self.opened.history.recorded_run(self.id)[0].trace) if self.measurements else ())
+
+    def _repr_html_(self) -> str:
+        return self.opened.history.recorded_run(self.id)[0]._repr_html_() if self.id else repr(self)[1:-1]
 
     def __enter__(self) -> Self:
         """Take the bench; raises PicoError where somebody else has it (exit code LOCKED), or records on it already."""

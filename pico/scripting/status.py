@@ -82,6 +82,11 @@ class Queue:
             self._last = future
             return future
 
+    @property
+    def busy(self) -> bool:
+        """Whether something that was asked for is not over."""
+        return self._last is not None and not self._last.done()
+
     def idle(self) -> None:
         """Wait until all that was asked for is over, whatever came of it; in the thread itself at once."""
         last = self._last

@@ -99,7 +99,7 @@ class Tunable:
         return {"setpoint": value, "readback": value}
 
     def stop(self, *, success: bool = True) -> None:
-        """Bring what is under way on the bench to its safe end."""
+        """Bring what was asked for and is not over to its safe end; nothing where nothing is under way."""
         self._bench.halt()
 
     @property

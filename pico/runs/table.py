@@ -1,0 +1,93 @@
+"""What was measured in a run as a table: a row for each measurement, beside the tunables that the run changed."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from pico.model.measurement import Measurement, measurement_from_json
+from pico.model.operation import touched_by
+from pico.model.record import record
+from pico.model.run import TraceEvent
+
+FIRST = ("seq", "t", "at", "measured")
+"""Columns of every row: its number in the trace, seconds on the bench's clock, the wall time (UTC), and what was
+measured, by address."""
+
+
+@record
+class Row:
+    """One measurement of a run: at event `seq` of its trace, `t` seconds after its first operation began, by the wall
+    `at`; `tunables` that the run changed as they then stood, by address (`p2.pose.x`)."""
+
+    seq: int
+    t: float
+    at: str
+    measurement: Measurement
+    tunables: Mapping[str, Any]
+
+    @property
+    def numbers(self) -> dict[str, float | None]:
+        """The numbers that were measured and their sigmas, by address: `cam.centroid.x`, `cam.centroid.x_sigma`."""
+        found: dict[str, float | None] = {}
+        for name, (value, sigma, _) in self.measurement.numbers.items():
+            key = f"{self.measurement.address}.{name}" if name else self.measurement.address
+            found |= {key: value, f"{key}_sigma": sigma}
+        return found
+
+    @property
+    def flat(self) -> dict[str, Any]:
+        """All of it in columns, those of `FIRST` before the others."""
+        first = (self.seq, self.t, self.at, self.measurement.address)
+        array = {f"{self.measurement.address}.sha256": a.sha256} if (a := self.measurement.array) else {}
+        return dict(zip(FIRST, first, strict=True)) | dict(self.tunables) | self.numbers | array
+
+
+def rows(trace: Sequence[TraceEvent]) -> tuple[Row, ...]:
+    """Return the measurements of a trace in their order, with where what the run changed stood at each. A tunable that
+    was not looked at yet is left out."""
+    changed = {(c, t) for event in trace if event.kind == "intent" for c, t in _changed(event)}
+    known: dict[str, Any] = {}
+    found = []
+    for event in trace:
+        if event.component is not None:
+            part = event.data.get("before" if event.kind == "started" else "after")
+            known |= dict(_values(event.component, part, changed)) if isinstance(part, Mapping) else {}
+        taken = event.data.get("data", {}).get("measurement") if event.kind == "done" else None
+        if isinstance(taken, Mapping):
+            found.append(Row(
+                seq=event.seq, t=event.t, at=event.at, measurement=measurement_from_json(taken),
+                tunables=dict(sorted(known.items())),
+            ))  # fmt: skip
+    return tuple(found)
+
+
+def _changed(event: TraceEvent) -> Iterator[tuple[str, str]]:
+    if event.component is None or event.data.get("primitive") not in ("measure", "park"):
+        yield from touched_by(event.component or "", event.data.get("arguments", {}))
+
+
+def _values(name: str, part: Mapping[str, Any], changed: set[tuple[str, str]]) -> Iterator[tuple[str, Any]]:
+    for tunable, live in part.get("values", {}).items():
+        if (name, tunable) in changed and live.get("status") == "known":
+            yield f"{name}.{tunable}", live.get("value")
+    if (name, "pose") in changed and isinstance(part.get("pose"), Mapping):
+        yield from ((f"{name}.pose.{axis}", part["pose"].get(axis)) for axis in ("x", "y", "yaw"))
+
+
+def columns(found: Sequence[Row]) -> list[str]:
+    """Return the columns of some rows: those of all, then tunables, then what was measured."""
+    tunables = sorted({name for row in found for name in row.tunables})
+    rest = dict.fromkeys(name for row in found for name in row.flat if name not in tunables and name not in FIRST)
+    return [*FIRST, *tunables, *rest]
+
+
+def as_csv(found: Sequence[Row]) -> str:
+    """Return rows as CSV with a head; what a row does not have is empty."""
+    out = io.StringIO()
+    writer = csv.DictWriter(out, columns(found), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(row.flat for row in found)
+    return out.getvalue()
