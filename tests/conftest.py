@@ -12,12 +12,13 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # neither a process that a test
 import pytest
 from asked_once import ASKING, once
 from commanding import Answer, Pico
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 sys.dont_write_bytecode = False  # nor does the next run of the tests
-settings.register_profile("ci", derandomize=True)
-if os.environ.get("CI"):
-    settings.load_profile("ci")
+settings.register_profile(  # no test measures time: a busy machine fails none
+    "ours", derandomize=bool(os.environ.get("CI")), deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("ours")
 
 
 def pytest_configure(config: pytest.Config) -> None:

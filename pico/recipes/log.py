@@ -50,8 +50,8 @@ class About:
 class Log:
     """The log of one run of a recipe. Raises PicoError where it can't be written."""
 
-    def __init__(self, path: Path, about: About, steps: dict[str, Logged]) -> None:
-        self.path, self.about, self.steps = path, about, steps
+    def __init__(self, path: Path, about: About, steps: dict[str, Logged], times: int = 0) -> None:
+        self.path, self.about, self.steps, self.times = path, about, steps, times
 
     @classmethod
     def begin(cls, root: Path, about: About) -> Log:
@@ -70,14 +70,15 @@ class Log:
             known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at")}
             if first.get("schema") != SCHEMA:
                 raise ValueError(f"it is {first.get('schema')}")
-            ended, steps = "", dict[str, Logged]()
+            ended, steps, times = "", dict[str, Logged](), 0
             for line in rest:
+                times = int(line.get("taken_up", times))
                 ended = line.get("ended", "")
                 _take(steps, line)
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
             hint = "begin the recipe anew: what it did is in the runs of the bench"
             raise PicoError(error("recipe-log", f"{path} can't be read: {exc}", hint=hint)) from exc
-        return cls(path, About(**known, ended=ended), steps)
+        return cls(path, About(**known, ended=ended), steps, times)
 
     def begun(self, path: str, given: Any, head: str | None) -> Logged:
         """Note that a step begins; return what is known of it, which is what it was where it began before.
@@ -102,6 +103,12 @@ class Log:
         """Note what came of a step."""
         self.steps[path].told = result
         self._write({"step": path, "told": result, "digest": digest(result)})
+
+    def taken_up(self) -> int:
+        """Note that the run goes on after it was cut short; return how often it has by now."""
+        self.times += 1
+        self._write({"taken_up": self.times})
+        return self.times
 
     def end(self, how: str) -> None:
         """Note how the run ended: `done`, `failed`; one that was interrupted has no end, and can be taken up."""

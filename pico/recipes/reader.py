@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
@@ -106,6 +107,18 @@ class Reader:
             return self.text(scope, node, f"{name} of {component}")
         choice = read_value(source, component, name, kind, node)
         return self._told(choice) if isinstance(choice, Diagnostic) else literal(choice)
+
+    def all_of_tunable(self, scope: Scope, component: str, name: str, kind: Tunable, node: Node) -> tuple[Term, Name]:
+        """Return the values that a tunable takes, in its unit, and in its range as far as they are known."""
+        term, each = self.values(scope, node, f"{name} of {component}", kind.unit)
+        if kind.datatype != "float":
+            return self.wrong(node, "type", f"{component}.{name} is no number"), Name("number")
+        low, high = kind.range or (-math.inf, math.inf)
+        beyond = [v for v in term.literal if not low <= v <= high] if isinstance(term.literal, list) else []
+        if beyond:
+            text = f"{beyond[0]:g} {kind.unit} is outside of the range of {component}.{name}"
+            self.wrong(node, "range", text, f"{low:g} to {high:g} {kind.unit}")
+        return term, each
 
     def text(self, scope: Scope, node: Node, what: str, *, empty: bool = False) -> Term:
         """Return a text, with the expressions in it."""

@@ -8,17 +8,19 @@ from typing import Any
 
 from pico.diagnostics import did_you_mean
 from pico.manifest.text.tree import List, Map, Node, Scalar
-from pico.recipes.reader import NOTHING, Reader
-from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Parameter, Recipe, Step, While
+from pico.recipes.reader import NOTHING, Reader, scalar_texts
+from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Parameter, Recipe, Scan, Step, While
 from pico.recipes.registry import CONTROL, known, step_file
+from pico.recipes.scanning import column
 from pico.recipes.scope import Scope
+from pico.recipes.steps.measure import numbers_at
 from pico.recipes.terms import Term, literal
 
 BESIDE = ("as", "name", "retries")
 """Keys that may stand beside any step."""
 _OF: Mapping[str, tuple[str, ...]] = {
     "foreach": ("steps",), "if": ("then", "else"), "while": ("most", "steps"), "call": ("with",), "let": (),
-    "assert": ("message",),
+    "assert": ("message",), "scan": ("read",),
 }  # fmt: skip
 
 
@@ -147,6 +149,28 @@ def _foreach(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, No
     return Each(**common, over=over, steps=steps)
 
 
+def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:
+    reader, example = reading.reader, "`scan: {p1.angle: {from: 1, to: 5, count: 9}}`, and `read: cam.power`"
+    over, names = dict[str, Term](), dict[str, Name]()
+    if not isinstance(body, Map) or not body.entries:
+        reader.wrong(body, "type", "`scan` takes tunables with their values", example)
+        return Scan(**common)
+    for address, (at, node) in body.entries.items():
+        if (known := reader.tunable_at(at, address)) is not None:
+            over[address], each = reader.all_of_tunable(scope, *known, node)
+            names[column(address)] = Name("numbers", each.unit)
+    listed = scalar_texts(beside["read"]) if "read" in beside else None
+    if not listed:
+        reader.wrong(beside.get("read", body), "missing-key", "`scan` does not say what to read", example)
+    of = tuple(text for node, text in listed or () if reader.measurable(node, text))
+    measured = {f"{a.partition('.')[0]}.{n}": unit for a in of for n, unit in numbers_at(reader, a).items()}
+    for address, unit in measured.items():
+        names |= {column(address): Name("numbers", unit), f"{column(address)}_sigma": Name("numbers", unit)}
+    names["part"] = Name("numbers")
+    scope.measured |= measured.keys()
+    return Scan(**common, over=over, of=of, binds=_bind(reading, scope, beside.get("as"), "scan", names), names=names)
+
+
 def _inside(reading: Reading, scope: Scope, beside: Mapping[str, Node], key: str, at: str) -> tuple[Step, ...]:
     if key not in beside:
         hint = f"`{key}:` and a list of steps below it"
@@ -235,4 +259,5 @@ def _argument(reader: Reader, scope: Scope, node: Node, parameter: Parameter) ->
 
 _CONTROL: Mapping[str, Callable[..., Step]] = {
     "foreach": _foreach, "if": _if, "while": _while, "let": _let, "assert": _assert, "call": _call,
+    "scan": _scan,
 }  # fmt: skip

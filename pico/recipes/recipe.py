@@ -84,6 +84,17 @@ class Each(Step):
 
 
 @dataclass(frozen=True)
+class Scan(Step):
+    """Tunables are set to each value of a list, or each combination of several, and measurables measured there.
+    `binds`: the name of what it finds; `names`: its columns."""
+
+    over: Mapping[str, Term] = field(default_factory=dict)
+    of: tuple[str, ...] = ()
+    binds: str = ""
+    names: Mapping[str, Name] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Choice(Step):
     """Steps where something holds, and others where it does not."""
 

@@ -17,7 +17,7 @@ from pico.recipes.scope import Scope
 
 FOLDER = "pico.recipes.steps"
 GROUP = "pico.recipe_steps"
-CONTROL = ("foreach", "if", "while", "call", "let", "assert")
+CONTROL = ("foreach", "if", "while", "call", "let", "assert", "scan")
 """Steps that are the language itself."""
 
 

@@ -62,12 +62,14 @@ class _Run:
         self.bench, self.recipe, self.log, self.doing, self.watching = bench, recipe, log, doing, watching
         self.acted = self.before = 0
         self.at = self.failed = ""
+        self.taken_up = 0
 
     def run(self) -> Outcome:
         steps = walk(self.recipe, self.log.about.arguments, self._entered)
         found: tuple[Diagnostic, ...] = ()
         code = ExitCode.DONE
         try:
+            self.taken_up = self.log.taken_up() if self.log.steps else 0
             returns = self._to_the_end(steps)
         except _Until:
             steps.close()
@@ -121,6 +123,8 @@ class _Run:
             self.watching.ended(ask.path, known.told, True)
             return known.told
         told = self._act(ask, ask.step, known.runs, known.head, again) if ask.step else self._looked(ask.names)
+        if self.taken_up and ask.step:
+            told = {**told, "taken_up": self.taken_up}
         self.log.told(ask.path, told)
         if ask.step:
             self.acted += 1

@@ -13,7 +13,8 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, SourceRange, error
 from pico.expressions import ExpressionError, UnknownValue
-from pico.recipes.recipe import MOST_TURNS, Act, Assert, Call, Choice, Each, Let, Recipe, Step, While
+from pico.recipes.recipe import MOST_TURNS, Act, Assert, Call, Choice, Each, Let, Recipe, Scan, Step, While
+from pico.recipes.scanning import apart, column, columns, row
 from pico.recipes.terms import Term
 
 
@@ -114,6 +115,8 @@ class _Walker:
                 yield from self.act(step, names, path, depth)
             elif isinstance(step, Each):
                 yield from self.each(step, names, path, depth)
+            elif isinstance(step, Scan):
+                yield from self.scan(step, names, path, depth)
             elif isinstance(step, While):
                 yield from self.again(step, names, path, depth)
             elif isinstance(step, Choice):
@@ -154,6 +157,42 @@ class _Walker:
             for number, one in value.items() if isinstance(value, Mapping) else ((measurable, value),):
                 if isinstance(one, int | float) and not isinstance(one, bool):
                     self.measured[f"{component}.{_full(measurable, number)}"] = float(one)
+
+    def scan(self, step: Scan, names: _Names, path: str, depth: int) -> Walk:
+        lists = []
+        for address, term in step.over.items():
+            lists.append((yield from self.value(term, names, f"{path}.{address}", step.source)))
+        turns = [] if _unknown(lists) else list(itertools.product(*lists))
+        rows: list[dict[str, float]] = []
+        point, taken, part = dict[str, Any](), 0, 0.0
+        for n, values in enumerate(turns):
+            self.count(step)
+            before, point = point, dict(zip(step.over, values, strict=True))
+            self.enter(Entered(path, step, depth, point, (n + 1, len(turns))))
+            told = yield from self.point(step, point, f"{path}[{n + 1}]", depth)
+            if rows and told.get("taken_up", 0) > taken:
+                again = yield from self.point(step, before, f"{path}[{n + 1}].again", depth)
+                part += apart(rows[-1], row(again))
+            taken = told.get("taken_up", 0)
+            rows.append({**{column(a): v for a, v in point.items()}, **row(told), "part": part})
+        found = columns(rows)
+        for name in step.names if step.binds else ():
+            names.give(f"{step.binds}.{name}", found.get(name, UNKNOWN if self.ahead else []))
+        return {}
+
+    def point(self, step: Scan, values: Mapping[str, Any], path: str, depth: int) -> Generator[Ask, Told, Told]:
+        """Set what is scanned, and measure there."""
+        told: Told = {}
+        asked = (
+            ("set", values, ", ".join(f"{a}: {v:g}" for a, v in values.items())),
+            ("measure", {"of": step.of}, ", ".join(step.of)),
+        )
+        for kind, given, title in asked:
+            act = Act(at=step.at, title=f"{kind} {title}", source=step.source, retries=step.retries, kind=kind)
+            self.enter(Entered(f"{path}.{kind}", act, depth + 1, given))
+            told = yield Ask(f"{path}.{kind}", act, given)
+            self.hear(told)
+        return told
 
     def each(self, step: Each, names: _Names, path: str, depth: int) -> Walk:
         lists = []

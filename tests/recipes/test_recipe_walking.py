@@ -35,6 +35,30 @@ def test_what_is_measured_is_known_by_its_address_and_by_name() -> None:
     assert asked(recipe, lambda _: measured(21.0))[1] == {"q": 42.0}
 
 
+SCAN = (
+    "steps:\n- {scan: {p1.angle: {from: 1, to: 3, step: 1}}, read: cam.power, as: s}\n"
+    "returns: {at: s.p1_angle, power: s.cam_power, off: s.cam_power_sigma, part: s.part}\n"
+)
+
+
+@pytest.mark.parametrize(("again", "parts"), [(1.5, [0, 0, 0]), (9.0, [0, 0, 1])])
+def test_a_scan_that_was_cut_short_measures_its_last_point_again_and_is_split_where_that_is_another(
+    again: float, parts: list[float]
+) -> None:
+    def answer(ask: Ask) -> Mapping[str, Any]:
+        if ask.step is None or ask.step.kind == "set":
+            return {}
+        value = again if ".again" in ask.path else {"1[1]": 0.0, "1[2]": 1.0, "1[3]": 2.0}[ask.path.partition(".")[0]]
+        late = {"taken_up": 1} if ask.path.startswith("1[3]") else {}
+        return {"measured": {"cam.power": {"value": value, "sigma": 0.5}}, **late}
+
+    asks, found = asked(right(SCAN), answer)
+    assert found == {"at": [1, 2, 3], "power": [0, 1, 2], "off": [0.5] * 3, "part": parts}
+    assert asks[-2:] == [("1[3].again.set", {"p1.angle": 2.0}), ("1[3].again.measure", {"of": ("cam.power",)})]
+    asks, found = asked(right(SCAN), lambda ask: {k: v for k, v in answer(ask).items() if k != "taken_up"})
+    assert found["part"] == [0, 0, 0] and len(asks) == 6
+
+
 def test_names_of_the_bench_are_asked_for_as_they_are_then() -> None:
     recipe = right("steps:\n- if: p1.angle > 45\n  then: [{set: {p1.angle: 0}}]\n  else: [{set: {p1.angle: 90}}]\n")
     asks, _ = asked(recipe, lambda ask: {"p1.angle": 50.0} if ask.names else {})

@@ -30,7 +30,7 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
         reader.wrong(body, "type", "`measure` takes measurables", f"`{KIND.example}`")
         return Given({"of": ()})
     of = [text for node, text in listed if reader.measurable(node, text)]
-    numbers = {a: _numbers(reader, a) for a in of}
+    numbers = {a: numbers_at(reader, a) for a in of}
     names = _result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
     return Given(
         {"of": tuple(of)},
@@ -39,7 +39,7 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
     )
 
 
-def _numbers(reader: Reader, address: str) -> dict[str, str]:
+def numbers_at(reader: Reader, address: str) -> dict[str, str]:
     """Return the numbers of a measurable, each with its unit where that is one for all."""
     component, _, measurable = address.partition(".")
     unit = reader.setup.measurables_of(component)[measurable].unit
