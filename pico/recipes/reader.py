@@ -276,6 +276,12 @@ class Reader:
             return True
         return False
 
+    def numbers(self, address: str) -> dict[str, str]:
+        """Return the numbers of a measurable, each with its unit where that is one for all."""
+        component, _, measurable = address.partition(".")
+        unit = self.setup.measurables_of(component)[measurable].unit
+        return {n: unit for n, m in numbers_of(self.setup, component).items() if m == measurable}
+
     def slot(self, node: Node, name: str) -> None:
         """Say that there is no slot of that name."""
         self.wrong(node, "unknown-slot", f"there is no slot `{name[:40]}`", slot_meant(name[:40], self.setup.lab.slots))

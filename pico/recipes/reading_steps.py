@@ -13,7 +13,6 @@ from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Para
 from pico.recipes.registry import CONTROL, known, step_file
 from pico.recipes.scanning import column
 from pico.recipes.scope import Scope
-from pico.recipes.steps.measure import numbers_at
 from pico.recipes.terms import Term, literal
 
 BESIDE = ("as", "name", "retries")
@@ -163,7 +162,7 @@ def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node]
     if not listed:
         reader.wrong(beside.get("read", body), "missing-key", "`scan` does not say what to read", example)
     of = tuple(text for node, text in listed or () if reader.measurable(node, text))
-    measured = {f"{a.partition('.')[0]}.{n}": unit for a in of for n, unit in numbers_at(reader, a).items()}
+    measured = {f"{a.partition('.')[0]}.{n}": unit for a in of for n, unit in reader.numbers(a).items()}
     for address, unit in measured.items():
         names |= {column(address): Name("numbers", unit), f"{column(address)}_sigma": Name("numbers", unit)}
     names["part"] = Name("numbers")

@@ -12,7 +12,6 @@ from pico.manifest.text.tree import Node
 from pico.model.measurement import Measurement
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.model.vocabulary import numbers_of
 from pico.recipes.doing import Doing
 from pico.recipes.reader import Reader, scalar_texts
 from pico.recipes.recipe import Name
@@ -30,20 +29,13 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
         reader.wrong(body, "type", "`measure` takes measurables", f"`{KIND.example}`")
         return Given({"of": ()})
     of = [text for node, text in listed if reader.measurable(node, text)]
-    numbers = {a: numbers_at(reader, a) for a in of}
+    numbers = {a: reader.numbers(a) for a in of}
     names = _result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
     return Given(
         {"of": tuple(of)},
         names=names,
         measured=tuple(f"{a.partition('.')[0]}.{n}" for a in of for n in numbers[a]),
     )
-
-
-def numbers_at(reader: Reader, address: str) -> dict[str, str]:
-    """Return the numbers of a measurable, each with its unit where that is one for all."""
-    component, _, measurable = address.partition(".")
-    unit = reader.setup.measurables_of(component)[measurable].unit
-    return {n: unit for n, m in numbers_of(reader.setup, component).items() if m == measurable}
 
 
 def _result_names(reader: Reader, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
