@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from pico.model.record import as_json
 from pico.model.state import is_reference
 from pico.model.status import Status, StatusRow
 
-from .style import columns, count, paint, place, valued
+from .style import columns, count, paint, place, valued, wrap
 
 LONG = 40
 
@@ -27,11 +28,19 @@ def text(status: Status, *, every: bool = False) -> str:
         [name, "-", "-", f"{place(as_json(pose))}  {paint('yellow', 'an obstacle, not in the inventory')}"]
         for name, pose in sorted(status.unknown.items())
     ]
-    lines = columns(table) if len(table) > 1 else []
+    below = [[], *_below(rows), *([] for _ in status.unknown)]
+    lines = [own for row, more in zip(columns(table), below, strict=True) for own in (row, *more)] * (len(table) > 1)
     hidden = len(status.rows) - len(rows)
     if hidden:
         lines.append(paint("dim", f"and {hidden} more that are equal in all three; --all shows them"))
     return "\n".join([*lines, "", *_summary(status)]).lstrip("\n")
+
+
+def _below(rows: Sequence[StatusRow]) -> Iterator[list[str]]:
+    """Yield for each row why the bench is not where light says that it should be: it would widen the table. What is said
+    of several that are one goal is said once, below the last of them."""
+    last = {row.near: row for row in rows if row.off and is_reference(row.desired) and not row.note}
+    yield from (wrap(row.near, "    ") if last.get(row.near) is row else [] for row in rows)
 
 
 def _cells(row: StatusRow) -> list[str]:
@@ -50,7 +59,7 @@ def _cells(row: StatusRow) -> list[str]:
     elif row.live is None:
         live = "unknown"
     elif row.off and is_reference(row.desired):
-        live = paint("yellow" if row.edited else "red", f"{valued(row.live, row.unit)} !  {row.near}")
+        live = paint("yellow" if row.edited else "red", f"{valued(row.live, row.unit)} !")
     elif row.off:
         aside = f", {row.aside}" * bool(row.aside)
         live = paint("yellow" if row.edited else "red", f"{place(row.live)}{aside}{unit} !")

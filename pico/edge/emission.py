@@ -4,6 +4,7 @@ and a laser whose arming is over is shut."""
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -57,6 +58,10 @@ def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[D
 def with_licences(setup: Setup, root: Path, able: Capabilities, now: str, seen: Observation) -> Observation:
     """Return the observation with what lets lasers emit now."""
     known = [one.arming for one in armings.kept(root) if one.arming is not None]
+    for one in known:
+        if not one.seen_over and arming.at_its_end(one, now):
+            with suppress(PicoError, OSError):  # a clock that is set back must not bring it back
+                armings.keep(root, replace(one, seen_over=True))
     return replace(seen, licences=arming.licences(setup, able.evidence, known, able.name, now))
 
 

@@ -46,7 +46,8 @@ class ArmingPolicy:
 class Arming:
     """That a person lets a laser emit: `by` (Git's user.name) in a `role`, up to a class, from `begins` to `ends` (ISO
     8601, UTC), on a `backend`. `unattended`: given beforehand, for runs that nobody watches; that person answers.
-    `ended_by`: who disarmed it, at `ends`."""
+    `ended_by`: who disarmed it, at `ends`. `seen_over`: its end was seen, so that it never counts again, whatever a
+    clock says later."""
 
     schema: str = FORMAT.schema
     laser: str
@@ -58,6 +59,7 @@ class Arming:
     backend: str
     unattended: bool | None = None
     ended_by: str | None = None
+    seen_over: bool | None = None
 
     def __post_init__(self) -> None:
         for name in ("begins", "ends"):

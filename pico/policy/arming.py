@@ -77,13 +77,18 @@ def refusal(setup: Setup, arming: Arming, now: str) -> Diagnostic | None:
 
 def over(setup: Setup, arming: Arming, now: str) -> str:
     """Return why an arming is over, in words; empty for one that counts, or will."""
-    if datetime.fromisoformat(now) >= datetime.fromisoformat(arming.ends):
+    if arming.seen_over or at_its_end(arming, now):
         who = f"the arming by {arming.by}"
         return f"{arming.ended_by} disarmed it" if arming.ended_by else f"{who} ended at {arming.ends}"
     role = policy_of(setup).roles.get(arming.role)
     if role is None or _beyond(role, arming.by, arming.laser_class, 0.0):
         return f"{arming.by} is no {arming.role} for class {arming.laser_class} any more"
     return ""
+
+
+def at_its_end(arming: Arming, now: str) -> bool:
+    """Return whether the time of an arming is up."""
+    return datetime.fromisoformat(now) >= datetime.fromisoformat(arming.ends)
 
 
 def ended(setup: Setup, known: Arming | None, laser: str, by: str, backend: str, now: str) -> Arming:

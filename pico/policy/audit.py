@@ -58,7 +58,8 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
     wanted = state_from_json(plan.lab.name, plan.target.state)
     poses = {n: _settled(setup, wanted, n, c.pose) for n, c in seen.components.items()
              if c.pose is not None and c.presence == "seen" and n in setup.lab.inventory}  # fmt: skip
-    values = {n: _set(setup, wanted, n, own) for n, own in seen.known_values.items() if n in setup.lab.inventory}
+    known = {n: {**own, **_maybe_on(setup, seen, n)} for n, own in seen.known_values.items()}
+    values = {n: _set(setup, wanted, n, own) for n, own in known.items() if n in setup.lab.inventory}
     opened, scanned = set[str](), False
     lifted = {(op.component, op.arguments.get("tunable")) for op in plan.operations if _opens(setup, op)}
     for op in plan.operations:
@@ -221,4 +222,11 @@ def _shining(setup: Setup, seen: Observation, sources: Iterable[str]) -> tuple[s
     """Return the lasers among `sources` that shine before a plan begins."""
     there = [n for n in sources if n in seen.components and seen.components[n].presence == "seen"]
     values = {n: {k: v.value for k, v in seen.components[n].values.items() if v.status == "known"} for n in there}
-    return lasers_of(setup, there, values)
+    return lasers_of(setup, there, {n: {**own, **_maybe_on(setup, seen, n)} for n, own in values.items()})
+
+
+def _maybe_on(setup: Setup, seen: Observation, name: str) -> dict[str, bool]:
+    """Return that a laser emits of which nobody knows whether it does."""
+    live = seen.components[name].values.get("emission") if name in setup.lab.inventory else None
+    source = live is not None and setup.type_of(name).optics.element == "source"
+    return {"emission": True} if source and live is not None and live.status == "unknown" else {}

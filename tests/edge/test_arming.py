@@ -21,6 +21,7 @@ from pico.history.examples.example import make_example
 from pico.model.arming import Arming
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
+from pico.planning.checks.emission import lets_out
 
 OPENED = {"tunable": "shutter", "from": "closed", "to": "open"}
 NOON, LATER, EVENING = (f"2026-11-24T{hour}:00:00Z" for hour in ("12", "13", "18"))
@@ -69,7 +70,7 @@ def arming(**changes: Any) -> Arming:
     return Arming(**(usual | changes))
 
 
-def setting(to: str = "open", tunable: str = "shutter") -> Operation:
+def setting(to: Any = "open", tunable: str = "shutter") -> Operation:
     return Operation(id="op1", primitive="set", component="laser", reason=Reason(kind="asked"), seconds=0.05,
                      arguments={"tunable": tunable, "from": None, "to": to}, resources=("laser",))  # fmt: skip
 
@@ -146,6 +147,30 @@ def test_an_arming_counts_until_its_end_and_then_who_has_the_bench_shuts_the_las
         assert any("laser was shut: the arming by Ada Lovelace ended" in d.summary for d in report.diagnostics)
         assert shutter(bench) == "closed" and not armings.kept(lab)
         assert bench.single("laser", "set", shutter="open").exit_code == ExitCode.DENIED
+
+
+def test_a_clock_that_is_set_back_does_not_bring_back_an_arming_whose_end_was_seen(lab: Path) -> None:
+    clock = Clock()
+    with at(lab, clock) as bench:
+        bench.wait(bench.edge.arm(arming()))
+        assert bench.observe().licences
+        clock.now = EVENING
+        assert not bench.observe().licences
+    clock.now = LATER
+    with at(lab, clock) as bench:
+        assert not bench.observe().licences, "nobody had the bench meanwhile, who would have tidied it up"
+        assert bench.single("laser", "set", shutter="open").exit_code == ExitCode.DENIED
+        bench.wait(bench.edge.arm(arming(begins=LATER)))
+        assert bench.observe().licences
+
+
+@pytest.mark.parametrize(
+    ("tunable", "to"), [("emission", "closed"), ("emission", 0), ("shutter", 0), ("shutter", False), ("shutter", "")]
+)
+def test_what_a_device_may_take_for_light_lets_it_out(lab: Path, tunable: str, to: Any) -> None:
+    with Bench.open(lab) as bench:
+        assert lets_out(bench.setup, setting(to, tunable))
+        assert not lets_out(bench.setup, setting("closed")) and not lets_out(bench.setup, setting(False, "emission"))
 
 
 def test_it_survives_the_death_of_the_process_and_begins_when_it_says(lab: Path) -> None:

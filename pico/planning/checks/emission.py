@@ -21,8 +21,14 @@ from pico.optics.audit.limits import above_class_2
 
 SEARCHING = ("optimize", "teleoperate", "survey")
 """Primitives that set the tunables which they name, within bounds."""
-DARK = ("closed", False, 0)
-"""What a tunable of a source or a shutter is at where it lets no light out."""
+
+
+def is_dark(tunable: str, value: object) -> bool:
+    """Return whether a tunable of a source or a shutter lets no light out at a value; only what it surely means counts,
+    for a device may take anything else otherwise."""
+    if tunable == "shutter":
+        return value == "closed"
+    return value is False if tunable == "emission" else _number(value) and value == 0
 
 
 def lets_out(setup: Setup, op: Operation) -> bool:
@@ -35,7 +41,7 @@ def lets_out(setup: Setup, op: Operation) -> bool:
     element = setup.type_of(op.component).optics.element
     tunable = op.arguments.get("tunable")
     if op.primitive in ("set", "operator"):
-        dark = op.arguments.get("to") in DARK
+        dark = is_dark(str(tunable), op.arguments.get("to"))
         return not dark and (tunable == "shutter" or (element == "source" and tunable is not None))
     gates = element == "source" or (element == "shutter" and "shutter" in setup.type_of(op.component).tunables)
     return gates and op.kind.mutating and op.kind.by == "device"
@@ -68,8 +74,9 @@ def let_out(setup: Setup, seen: Observation, operations: Sequence[Operation]) ->
     values = seen.known_values
     if not any(lets_out(setup, op) for op in opening):  # what is shut for the while that a shutter is moved stays so
         for op in operations:
-            if op.primitive == "set" and op.arguments.get("to") in DARK:
-                values.setdefault(op.component, {})[str(op.arguments.get("tunable"))] = op.arguments["to"]
+            tunable = str(op.arguments.get("tunable"))
+            if op.primitive == "set" and is_dark(tunable, op.arguments.get("to")):
+                values.setdefault(op.component, {})[tunable] = op.arguments["to"]
     for op in opening:
         for component, tunable, to in _settings(setup, op):
             own = values.setdefault(component, {})
