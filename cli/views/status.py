@@ -37,8 +37,8 @@ def text(status: Status, *, every: bool = False) -> str:
 
 
 def _below(rows: Sequence[StatusRow]) -> Iterator[list[str]]:
-    """Yield for each row why the bench is not where light says that it should be: it would widen the table. What is said
-    of several that are one goal is said once, below the last of them."""
+    """Yield for each row why the bench is not where light says that it should be: it would widen the table. What is
+    said of several that are one goal is said once, below the last of them."""
     last = {row.near: row for row in rows if row.off and is_reference(row.desired) and not row.note}
     yield from (wrap(row.near, "    ") if last.get(row.near) is row else [] for row in rows)
 
