@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
-from pico.model.run import TRIALS, Run
+from pico.model.run import TRIALS, GoalStood, Run
 from pico.runs.operations import operations
 
 from .diff import lines
-from .measured import line, ranged, solved
+from .measured import line, ranged, solved, value
 from .report import expectations
 from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
@@ -64,7 +64,20 @@ def _changed(d: Run) -> list[str]:
     block += [f"  {count(within, 'tunable')} within tolerance"] if within else []
     if d.afterwards:
         block += ["Between its end and the commit, by no operation:", *lines(d.afterwards)]
+    if d.goals:
+        block += [
+            "",
+            "Goals when it was committed:",
+            *columns([_goal(n, g) for n, g in sorted(d.goals.items())], indent="  "),
+        ]
     return block
+
+
+def _goal(name: str, one: GoalStood) -> list[str]:
+    """Return how a goal stood, and what was measured of it."""
+    known = one.last or {}
+    numbers = [f"{n} {value(v, '', known[f'{n}_sigma'])}" for n, v in known.items() if f"{n}_sigma" in known]
+    return [shown(name), one.status, shown(", ".join(numbers) if one.status == "aligned" else one.why)]
 
 
 def _operation(op: OperationRun) -> list[str]:

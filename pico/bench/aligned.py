@@ -262,7 +262,7 @@ def _alignment(
     end, begun = ends[-1], sought[ends[-1].key]
     data: Mapping[str, Any] = end.data.get("data") or {}
     if not data.get("met"):
-        return standing("lost", str(data.get("why") or "it did not come to its end"), end.at)
+        return standing("lost", str(data.get("why") or "it did not come to its end"), end.at, data.get("last"))
     last = data.get("last")
     upset = _upset_since(setup, seen, goal, _begun_since(records, end))
     old = bool(goal.valid_for) and _age(end.at, now) > convert(goal.valid_for or "0 s", "s")

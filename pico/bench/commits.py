@@ -12,6 +12,7 @@ from datetime import datetime
 from types import MappingProxyType
 from typing import Literal
 
+from pico.bench.aligned import stands as goals_stand
 from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
@@ -29,6 +30,7 @@ from pico.model.address import Named, holds, read_addresses
 from pico.model.diff import Change, as_trimmed, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.report import Captured, Committed
+from pico.model.run import GoalStood
 from pico.model.state import LabState, home_state, references_of
 from pico.model.status import refuse_unapplied
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
@@ -116,7 +118,8 @@ class Commits:
             content = contents(folder, named)
             missed = _unaligned(folder, seen, content.state)
             realized = stands(folder.setup, seen, content.state) and not missed
-            runs = recording.pending(folder, seen, content.state) if realized else {}
+            goals = _goals(folder, seen, content.state) if realized else None
+            runs = recording.pending(folder, seen, content.state, goals) if realized else {}
             if not (content.paths or runs or ending or empty):
                 raise PicoError([*repository.noticed, nothing(named)])
             changes = _changes(folder, content.state)
@@ -163,6 +166,17 @@ def _unaligned(folder: LabFolder, seen: Observation, state: LabState) -> Mapping
         return {}
     with remembered(folder.root) as memory:
         return unaligned(folder.setup, memory, seen, state)
+
+
+def _goals(folder: LabFolder, seen: Observation, state: LabState) -> Mapping[str, GoalStood] | None:
+    """Return how goals stand that have light, or were sought; None where there are none."""
+    if not (folder.setup.lab.goals or references_of(state)):
+        return None
+    with remembered(folder.root) as memory:
+        found = goals_stand(folder.setup, memory, seen, state, timed=False)
+    told = [one for one in found if one.order is not None or one.status != "never measured"]
+    stood = {one.goal: GoalStood(status=one.status, why=one.why, at=one.at, last=one.last) for one in told}
+    return stood or None
 
 
 def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named | None, *, used: bool) -> None:

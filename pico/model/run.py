@@ -85,6 +85,17 @@ class Seen:
 
 
 @record
+class GoalStood:
+    """How a goal stood: `aligned`, `stale`, `lost` or `never measured`, and `why` where it is not aligned; `at` by the
+    wall, and `last`, what was measured then, by address, with one standard deviation as `<number>_sigma`."""
+
+    status: Literal["aligned", "stale", "lost", "never measured"]
+    why: str = ""
+    at: str = ""
+    last: Mapping[str, float] | None = None
+
+
+@record
 class Run:
     """One run.
 
@@ -99,8 +110,9 @@ class Run:
     `resumed`: how often the run was taken up again until then; a document whose id ends with `-r1` has what came after
     the first time, when a commit had the rest already. `changes`: what the run changed on the bench, `tolerated` where
     by less than the tolerance; `afterwards`: what has changed since then, beyond it, when the commit was made: by hand,
-    or by itself. `unmet`: goals that were sought and not met. `files`: those beside this one. `planned` evidence never
-    occurs: a run ran.
+    or by itself. `unmet`: goals that were sought, or measured, and not met. `goals`: how those stood whose light came
+    by, and set-points that light finds, when the commit was made; of the last run that it brings. `files`: those beside
+    this one. `planned` evidence never occurs: a run ran.
 
     `folded`: what this run was put together from when it was committed, in the order in which it ran: of each the
     document, without what all of them have in common (`SHARED`). `pico.runs.folding` gives each back as it was.
@@ -137,6 +149,7 @@ class Run:
     artifacts: tuple[Artifact, ...] = ()
     folded: tuple[Mapping[str, Any], ...] = ()
     unmet: tuple[str, ...] | None = None
+    goals: Mapping[str, GoalStood] | None = None
 
     @property
     def order(self) -> tuple[str, int, str]:

@@ -108,6 +108,31 @@ def test_drift_tells_light_lost_from_a_part_that_moved(built: Path, pico: Pico) 
     assert pico("optimize", "ly_150_centred", "-y").code == 0 and pico("drift", "--json").data["light"] == []
 
 
+def of_commit(folder: Path, revision: str = "HEAD") -> dict[str, dict[str, object]]:
+    """Return how goals stood as the runs of a commit have it."""
+    import json
+
+    words = ("git", "diff", "--name-only", f"{revision}~", revision, "--", "runs")
+    names = subprocess.run(words, check=True, capture_output=True, text=True, cwd=folder).stdout.split()
+    documents = [json.loads((folder / name).read_text()) for name in names if name.endswith("run.json")]
+    return {goal: one for document in documents for goal, one in (document.get("goals") or {}).items()}
+
+
+def test_a_commit_records_how_goals_stand_with_value_and_reason(built: Path, pico: Pico) -> None:
+    ((goal, stood),) = of_commit(built).items()
+    assert goal == "ly_150_centred" and stood["status"] == "aligned" and stood["at"]
+    last = stood["last"]
+    assert abs(last["cam.centroid.x"]) < 5 and 0 < last["cam.centroid.x_sigma"] < 1
+    run = next(line.split()[0] for line in pico("runs", "list").out.splitlines() if "-fold" in line)
+    told = pico("runs", "show", run).out
+    assert "Goals when it was committed:" in told and "aligned  cam.centroid.x" in told
+    assert pico("swap", "lx_100", "--serial", "B7", "-y").code == 0
+    pico("measure", "laser.monitor")
+    assert pico("commit", "-m", "swapped").code == 0
+    stood = of_commit(built)["ly_150_centred"]
+    assert stood["status"] == "stale" and "lx_100 was swapped" in stood["why"]
+
+
 def test_what_was_stale_and_is_still_met_is_aligned_again(built: Path, pico: Pico) -> None:
     assert pico("swap", "lx_100", "--serial", "B7", "-y").code == 0
     status = {one["goal"]: one for one in pico("optimize", "--json").data["alignments"]}

@@ -20,8 +20,8 @@ _ALONG = ("interlock", "parked")
 
 @dataclass(frozen=True)
 class RecordedLight:
-    """What a commit recorded: measurements by address, all of which was assured; and the goals that were met, by name
-    with what was measured then."""
+    """What a commit recorded: measurements by address, all of which was assured; and the goals that were met, or
+    aligned when it was made, by name with what was measured then."""
 
     measured: Mapping[str, Measurement] = field(default_factory=dict)
     goals: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
@@ -34,6 +34,8 @@ def recorded_light(folder: LabFolder, commit: str) -> RecordedLight:
     goals: dict[str, Mapping[str, float]] = {}
     for run in runs_in(folder, commit):
         _follow(run.trace, measured, goals)
+        stood = (run.document.goals or {}).items()
+        goals = {**goals, **{name: one.last for name, one in stood if one.status == "aligned" and one.last}}
     sure = {address: one for address, one in measured.items() if not one.not_assured and not one.unknown}
     return RecordedLight(sure, goals)
 

@@ -21,7 +21,7 @@ from pico.history.runs.proof import Standings
 from pico.model.drift import drift_of
 from pico.model.expectation import Standing
 from pico.model.observation import Observation, live_state
-from pico.model.run import FOLD, TRIALS, Run
+from pico.model.run import FOLD, TRIALS, GoalStood, Run
 from pico.model.state import LabState
 from pico.runs.document import RecordedRun, recorded
 from pico.runs.files import DOCUMENT, MEASUREMENTS, TRACE, Keep, run_files, run_folder
@@ -30,19 +30,23 @@ from pico.runs.journal import RunRecord
 from pico.runs.states import changes
 
 
-def pending(folder: LabFolder, seen: Observation | None = None, state: LabState | None = None) -> dict[str, bytes]:
+def pending(
+    folder: LabFolder, seen: Observation | None = None, state: LabState | None = None,
+    goals: Mapping[str, GoalStood] | None = None,
+) -> dict[str, bytes]:  # fmt: skip
     """Return the files of the runs that the next commit takes, by path relative to the lab; raises PicoError.
 
     Single operations that came one after the other are folded into one. Trials of a search stay where they are.
 
     `seen`: the bench as it is, which makes the `state` that is to be committed (None: that of the manifests) the one to
-    which the last run led, where it stands so (see `Run.state_after`). What is too big for a commit goes to the
-    content store of the repository. What a commit that failed left of them in the working tree goes.
+    which the last run led, where it stands so (see `Run.state_after`), and `goals` how those then stand. What is too
+    big for a commit goes to the content store of the repository. What a commit that failed left of them in the working
+    tree goes.
     """
     runs = unrecorded(folder)
     here = [i for i, run in enumerate(runs) if seen and is_awaited(run.document) and _of(run.document, seen)]
     if here and seen is not None:  # what moved a simulated bench says nothing of a real one, and the other way around
-        runs[here[-1]] = _committed(folder, runs[here[-1]], seen, state or folder.state)
+        runs[here[-1]] = _committed(folder, runs[here[-1]], seen, state or folder.state, goals)
     files: dict[str, bytes] = {}
     for run in fold(folder.setup, runs):
         if is_awaited(run.document):
@@ -127,12 +131,14 @@ def _names(run: RunRecord) -> list[str]:
     return [run.run, *(f"{run.run}-r{n}" for n in range(1, run.resumed + 1))]
 
 
-def _committed(folder: LabFolder, run: RecordedRun, seen: Observation, state: LabState) -> RecordedRun:
+def _committed(
+    folder: LabFolder, run: RecordedRun, seen: Observation, state: LabState, goals: Mapping[str, GoalStood] | None
+) -> RecordedRun:
     """Return the last run, as leading to the `state` that is committed, where the bench stands so."""
     live, after = live_state(folder.setup, seen), run.after
     assert after is not None  # of a journal
     since = changes(folder.setup, after, live, after.components.keys() | live.components.keys())
-    document = replace(run.document, afterwards=tuple(c for c in since if not c.tolerated))
+    document = replace(run.document, afterwards=tuple(c for c in since if not c.tolerated), goals=goals)
     if not any(not c.tolerated for c in drift_of(folder.setup, seen, state)):
         document = replace(document, state_after=state.digest())
     return replace(run, document=document)
