@@ -36,6 +36,7 @@ class Logged:
 @dataclass(frozen=True)
 class About:
     """A run of a recipe: its id, the recipe by name, path and digest, the values of its parameters, when it began;
+    `texts`: of it and of those that it calls, by path, for a checkout may take their files away;
     `ended` as what, empty while it has not."""
 
     id: str
@@ -44,6 +45,7 @@ class About:
     digest: str
     arguments: Mapping[str, Any]
     at: str
+    texts: Mapping[str, str] = field(default_factory=dict)
     ended: str = ""
 
 
@@ -67,7 +69,7 @@ class Log:
         try:
             lines = path.read_text(encoding="utf-8").split("\n")[:-1]
             first, *rest = [json.loads(line) for line in lines]
-            known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at")}
+            known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at", "texts")}
             if first.get("schema") != SCHEMA:
                 raise ValueError(f"it is {first.get('schema')}")
             ended, steps, times = "", dict[str, Logged](), 0

@@ -44,6 +44,8 @@ class Recipes:
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
+        self.texts: dict[str, bytes] = {}
+        self.kept: Mapping[str, str] = {}
 
     def names(self) -> tuple[str, ...]:
         """Return the recipes of the lab by name: files of its folder `recipes`, without their ending."""
@@ -55,7 +57,7 @@ class Recipes:
         folders = [Path(beside).parent] if beside else [Path()]
         for folder in (*folders, self.bench.root / FOLDER):
             for name in (word, f"{word}.yaml"):
-                if (folder / name).is_file():
+                if (folder / name).is_file() or str((folder / name).resolve()) in self.kept:
                     return folder / name
         known = self.names()
         hint = did_you_mean(word[:40], known) or f"a path, or a file in `{FOLDER}/` of the lab"
@@ -65,7 +67,7 @@ class Recipes:
         """Return a recipe, and all that is wrong with it on this bench; nothing moves. Raises PicoError where there is
         none of that name, or it can't be read."""
         path = self.path(word)
-        made, found = read_recipe(Source(str(path), _text(path).decode("utf-8", "replace")), self.bench.setup,
+        made, found = read_recipe(Source(str(path), self._text(path).decode("utf-8", "replace")), self.bench.setup,
                                   self._fetch, self._able())  # fmt: skip
         return made, tuple(found)
 
@@ -106,7 +108,8 @@ class Recipes:
 
         at = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
         path = str(Path(recipe.path).resolve())
-        return Log.begin(self.bench.root, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at))
+        texts = {p: t.decode("utf-8", "replace") for p, t in self.texts.items()}
+        return Log.begin(self.bench.root, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
 
     def cut_short(self) -> tuple[About, ...]:
         """Return the runs of recipes that have no end, the latest first."""
@@ -130,7 +133,9 @@ class Recipes:
         )
 
     def taken_up(self, log: Log) -> Recipe:
-        """Return the recipe of a run that was cut short; raises PicoError where it was edited since."""
+        """Return the recipe of a run that was cut short; raises PicoError where it was edited since. Where its file is
+        gone, with the commit that it checked out, it is taken as it was."""
+        self.kept = log.about.texts
         recipe = self.read(log.about.path)
         if recipe.digest != log.about.digest:
             text = f"{log.about.path} was edited since run {log.about.id} began"
@@ -149,10 +154,18 @@ class Recipes:
 
     def _fetch(self, word: str, caller: str) -> tuple[str, bytes]:
         path = self.path(word, caller)
-        return str(path), _text(path)
+        return str(path), self._text(path)
+
+    def _text(self, path: Path) -> bytes:
+        name = str(path.resolve())
+        if not path.exists() and name in self.kept:
+            self.texts[name] = self.kept[name].encode()
+        else:
+            self.texts[name] = _read(path)
+        return self.texts[name]
 
 
-def _text(path: Path) -> bytes:
+def _read(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as exc:

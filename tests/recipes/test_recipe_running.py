@@ -143,6 +143,18 @@ def test_a_recipe_that_was_edited_is_not_taken_up(lab: Path) -> None:
         resume(lab)
 
 
+def test_a_recipe_whose_file_a_checkout_took_away_goes_on_as_it_was(lab: Path) -> None:
+    (lab.parent / "turn.yaml").write_text(TEXT.replace("name: scan", "name: turn").partition("  - commit")[0])
+    (lab.parent / "scan.yaml").write_text(TEXT.replace("steps:", "steps:\n  - call: turn", 1))
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})), Watching(until="3[2].1"))
+    for name in ("scan", "turn"):
+        (lab.parent / f"{name}.yaml").unlink()
+    assert resume(lab).outcome == "done"
+
+
 def test_it_stops_before_a_step_and_goes_on(lab: Path) -> None:
     with Bench.open(lab) as bench:
         recipes = Recipes(bench)
