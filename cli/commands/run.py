@@ -118,7 +118,10 @@ def _carry_out(session: Session, recipes: Recipes, recipe: Recipe, log: Log, unt
     )
     how: dict[str, Any] = {"attended": attended, "say": say}
     if attended:
+        from ..runs.steering import steer
+
         how["ask"] = lambda question: session.confirm(question, False)
+        how["steer"] = lambda jog: steer(session, recipes.bench, jog, None, None)
     outcome = recipes.run(recipe, log, watching, **how)
     if session.json:
         session.document(view.outcome_data(outcome, recipe))

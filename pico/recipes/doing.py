@@ -11,6 +11,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
+    from pico.bench.teleoperation import Teleoperation
     from pico.model.event import Event
     from pico.model.measurement import Measurement
     from pico.model.plan import Plan
@@ -26,14 +27,19 @@ def nobody(question: str) -> bool:
     raise PicoError(error("unattended", f"nobody is there to be asked: {question}", hint=hint))
 
 
+def nobody_steers(jog: Teleoperation) -> None:
+    """Refuse to steer where nobody is there; raises PicoError."""
+    nobody(f"steer {jog.operation.component}")
+
+
 @dataclass
 class Doing:
     """One recipe under way on a bench.
 
     `recipe`, `step`: what runs are recorded as caused by. `begin` is told the id of each run before it begins;
     `begun`: runs that this step began before it was cut short, as it was where it is done `again`. `head`: the commit
-    checked out when it first began. `attended`: a person is there, to whom `ask` puts questions; `show` hears events,
-    `say` what a signal leads to.
+    checked out when it first began. `attended`: a person is there, to whom `ask` puts questions, and who can `steer`;
+    `show` hears events, `say` what a signal leads to.
     """
 
     bench: Bench
@@ -45,6 +51,7 @@ class Doing:
     head: str | None = None
     begin: Callable[[str], None] = _deaf
     ask: Callable[[str], bool] = nobody
+    steer: Callable[[Teleoperation], object] = nobody_steers
     show: Callable[[Event], None] = _deaf
     say: Callable[[str], None] = _deaf
 

@@ -40,6 +40,7 @@ from asking import read, right
         ("steps:\n- {scan: {p1.angle: [1, 400]}, read: cam.power}\n", 2, "range", "400 deg is outside"),
         ("steps:\n- scan: {p1.angle: [1, 2]}\n", 2, "missing-key", "what to read"),
         ("steps:\n- {scan: {laser.shutter: [1, 2]}, read: cam.power}\n", 2, "type", "is no number"),
+        ("steps:\n- teleop: p2.angel\n", 2, "unknown-tunable", "to be steered"),
         ("steps: 3\n", 1, "type", "no list of steps"),
         ("stps: []\n", 1, "unknown-key", "unknown key `stps`"),
         ("steps:\n- set: {p1.angle: \"'text'\"}\n", 2, "expression", "it is text"),

@@ -183,6 +183,24 @@ def test_parameters_are_read_with_units_and_refused_out_of_range(lab: Path) -> N
                 recipes.arguments(recipe, words)
 
 
+def test_what_a_person_steers_needs_a_person_and_is_recorded_as_of_the_recipe(lab: Path) -> None:
+    (lab.parent / "scan.yaml").write_text("\n".join([*TEXT.splitlines()[:3], "steps:", "  - teleop: p1.angle\n"]))
+    assert "nobody is there" in begin(lab).diagnostics[0].summary
+
+    def steer(jog: Any) -> None:
+        with jog:
+            jog.step("angle", 0.5)
+
+    with Bench.open(lab) as bench:
+        recipes, before = Recipes(bench), bench.measurements.read("p1", "angle")["angle"]["value"]
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        log = recipes.begin(recipe, recipes.arguments(recipe, {}))
+        found = recipes.run(recipe, log, attended=True, steer=steer)
+        assert found.outcome == "done", found.diagnostics
+        assert bench.measurements.read("p1", "angle")["angle"]["value"] == pytest.approx(before + 0.5, abs=0.02)
+        assert bench.history.recorded_run(None)[0].document.cause.kind == "recipe"
+
+
 def test_a_failure_names_its_step_and_what_the_bench_said(lab: Path) -> None:
     (lab.parent / "scan.yaml").write_text(TEXT.replace("p1.angle: angle}", "p1.angle: angle * 100}"))
     found = begin(lab)
