@@ -12,7 +12,7 @@ from pico.diagnostics import PicoError, error
 from ..arguments import Scoped, group, scope_of
 from ..session import Session
 from ..terminal.waiting import waiting
-from ..views import compared, exported, published
+from ..views import compared, exported, plotted, published
 from ..views import recorded as view
 from ..views import runs as table
 
@@ -20,8 +20,14 @@ if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic
 
 app = group(
-    help="List, show, compare and export the runs that commits carry.",
-    examples=("pico runs", "pico runs list main..e1 -- p2", "pico runs show", "pico runs export e1 --out e1.zip"),
+    help="List, show, compare, plot and export the runs that commits carry.",
+    examples=(
+        "pico runs",
+        "pico runs list main..e1 -- p2",
+        "pico runs show",
+        "pico runs export e1 --out e1.zip",
+        "pico runs plot",
+    ),
     alone=True,
 )
 Run = Annotated[
@@ -154,3 +160,37 @@ def _export_run(session: Session, form: Literal["csv", "documents"], run: str | 
         return
     write_whole(session.folder / out, text.encode())
     session.show(exported, found.document.id, form, out)
+
+
+@app.command()
+def plot(
+    context: typer.Context,
+    run: Run = None,
+    x: Annotated[
+        str | None, typer.Option("--x", metavar="COLUMN", help="Without it the first tunable that the run changed.")
+    ] = None,
+    y: Annotated[
+        str | None, typer.Option("--y", metavar="COLUMN", help="Without it the first number that was measured.")
+    ] = None,
+    picture: Annotated[Path | None, typer.Option("--picture", metavar="PNG", help="Write it as a picture.")] = None,
+) -> None:
+    """Plot what a run measured, against what it changed.
+
+    Columns are those of `pico runs export --as csv`: `t`, `p1.angle`, `cam.centroid.x`. Bars are one standard
+    deviation.
+
+    Examples:
+      pico runs plot
+      pico runs plot 20260101 --x p1.angle --y cam.centroid.x --picture scan.png
+    """
+    from pico.bench.picturing.plots import points_of
+    from pico.drawing.picture import write_png
+    from pico.drawing.plots import scatter
+
+    session = Session.of(context)
+    bench = session.bench()
+    found, _ = bench.history.recorded_run(run)
+    points = points_of(bench.setup, found, x, y)
+    title = f"{found.document.goal}, {found.document.id}"
+    session.show(plotted, title, points)
+    session.draw(picture, points.y_name, lambda path: write_png(scatter.picture(title, points), path))

@@ -16,7 +16,6 @@ from pico.model.quantities import Value
 from pico.model.report import RunReport
 from pico.model.state import LabState
 from pico.runs.event_model import documents, units_of
-from pico.runs.table import rows
 from pico.scripting.outcome import require_done, require_possible
 from pico.scripting.parts import Part
 from pico.scripting.readings import Measurable, Reading
@@ -42,7 +41,8 @@ class Bench(Services):
         return Queue()
 
     def __repr__(self) -> str:
-        return f"<bench {self.setup.lab.name}: {len(self)} parts, {self.backend_name} ({self.fidelity}), {self.root}>"
+        where = f"{self.backend_name} ({self.fidelity}), {self.root.name}/"
+        return f"<bench {self.setup.lab.name}: {len(self)} parts, {where}>"
 
     def _repr_html_(self) -> str:
         return self.live()._repr_html_()
@@ -191,9 +191,9 @@ class Bench(Services):
         """Return what was measured in a run (the last one without it), a row each, beside the tunables that the run
         changed; raises PicoError for a run that there is not.
 
-        >>> bench.table().to_pandas().plot(x="p1.angle", y="cam.centroid.x")
+        >>> bench.table().plot(x="p1.angle", y="cam.centroid.x")
         """
-        return Table(rows(self.history.recorded_run(run)[0].trace))
+        return Table(self.setup, self.history.recorded_run(run)[0])
 
     def metadata(self) -> dict[str, Any]:
         """Return what a scan of another tool should say of this bench: `pico_lab`, `pico_commit`, whether the manifests

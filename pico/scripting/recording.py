@@ -20,7 +20,6 @@ from pico.model.observation import live_state
 from pico.model.plan import LabRef, Plan, Target
 from pico.model.report import RunReport
 from pico.model.run import RunOutcome
-from pico.runs.table import rows
 from pico.scripting.tables import Table
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ class Recording:
     @property
     def table(self) -> Table:
         """What was measured in the run until now, a row each, beside the tunables that it changed."""
-        return Table(rows(self.opened.history.recorded_run(self.id)[0].trace) if self.measurements else ())
+        return Table(self.opened.setup, self.opened.history.recorded_run(self.id)[0])
 
     def _repr_html_(self) -> str:
         return self.opened.history.recorded_run(self.id)[0]._repr_html_() if self.id else repr(self)[1:-1]

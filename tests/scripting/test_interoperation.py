@@ -106,6 +106,38 @@ def test_a_run_is_exported_by_the_command(bench: Bench, pico: Pico) -> None:
     assert lines == [[name, document] for name, document in bench.documents(run)]
 
 
+def test_what_was_measured_is_plotted_for_people_and_as_a_picture(bench: Bench, pico: Pico, tmp_path: Path) -> None:
+    with bench.record("scan"):
+        for angle in (10, 20, 30):
+            bench["p1"].angle = angle
+            bench.set({"p2.angle": 2 * angle})
+            bench.measure("p2.angle")
+    plot = bench.table().plot(x="p1.angle", y="p2.angle")
+    assert (plot.points.x, plot.points.y) == ((10.0, 20.0, 30.0), (20.0, 40.0, 60.0))
+    assert str(plot).count("•") == 3 and "p1.angle [deg]" in str(plot) and "p2.angle [deg]" in str(plot)
+    assert plot._repr_png_().startswith(b"\x89PNG") and "3 points" in repr(plot)
+    words = ("-C", str(bench.root), "runs", "plot", "--x", "p1.angle", "--y", "p2.angle")
+    answer = pico(*words, "--picture", str(tmp_path / "scan.png"))
+    assert answer.code == 0 and answer.out.count("•") == 3 and (tmp_path / "scan.png").stat().st_size > 2000
+    assert [p["y"] for p in json.loads(pico("--json", *words).out)["points"]] == [20.0, 40.0, 60.0]
+    wrong = pico("-C", str(bench.root), "runs", "plot", "--y", "p2.angel")
+    assert wrong.code == 1 and "did you mean" in wrong.err
+    bench.apply("C3")
+    assert pico("-C", str(bench.root), "runs", "plot").code == 1
+
+
+@pytest.mark.parametrize("points", [[(1, 1)], [(1, 2), (1, 2)], [(-1e-9, 0), (1e-9, 1e12)], [(0, -5), (3, -5)]])
+def test_a_plot_has_room_for_any_points(points: list[tuple[float, float]]) -> None:
+    from pico.drawing.plots import scatter
+
+    found = scatter.Points(*zip(*points, strict=True), (None,) * len(points), "x", "y")  # type: ignore[arg-type]
+    assert scatter.picture("t", found).shape == (480, 800, 3)
+    lines = scatter.text("t", found).splitlines()
+    assert all(len(line) <= scatter.WIDTH for line in lines)
+    (low, high), _ = found.limits()
+    assert all(low <= tick <= high for tick in scatter.ticks(low, high))
+
+
 @pytest.mark.slow
 def test_bluesky_scans_the_twin_in_one_recorded_run(bench: Bench) -> None:
     bluesky = pytest.importorskip("bluesky", reason="the extra `bluesky` is not installed")
