@@ -144,14 +144,22 @@ def main() -> None:
             found.append(one)
             print(f"seed {seed:3}: {one.why or _said(one)}", flush=True)
     good, shares = sum(one.good for one in found), [one.share for one in found if not one.why]
-    every = [each for one in found for each in one.each]
-    spread = (
-        f"; one axis is off by {math.sqrt(sum(e * e for e in every) / len(every)):.2f} sigma (rms)" if every else ""
-    )
     print(f"\n{good} of {len(found)} back with at least {100 * KEPT:g} % of their light, the spot where it was, and "
           f"alignment within {100 * LIKE:g} % of what the plan said; least light "
-          f"{100 * min(shares, default=math.nan):.1f} %{spread}; {args.fidelity}, "
+          f"{100 * min(shares, default=math.nan):.1f} %{_as_predicted(found)}; {args.fidelity}, "
           f"{'passive lenses' if args.passive else 'lenses on stages'}")  # fmt: skip
+
+
+def _as_predicted(found: list[Came]) -> str:
+    """Return how well the prediction of where spots are fits all seeds: how many are farther off than is likely, beside
+    how many are by chance, and one axis over all seeds, which is to be off by 1 standard deviation."""
+    each = [one.each for one in found if one.each]
+    if not each:
+        return ""
+    far = sum(math.hypot(*one) > LIKELY for one in each)
+    rms = math.sqrt(sum(e * e for one in each for e in one) / (2 * len(each)))
+    chance = len(each) * math.exp(-(LIKELY**2) / 2)
+    return f"; {far} farther off than {LIKELY:.2f} sigma, {chance:.1f} by chance; one axis off by {rms:.2f} sigma (rms)"
 
 
 def _said(one: Came) -> str:

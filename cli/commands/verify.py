@@ -52,7 +52,7 @@ def verify(
             return report.exit_code
     found = bench.measurements.verify(revision, asked.told if asked else (), report)
     session.tell(goes_on(bench))
-    session.show(view, found, suspects=bench.light.suspected(found.light or ()))
+    session.show(view, found, suspects=bench.light.suspected(found.light or (), found.changes))
     if found.standing and not session.json:
         session.report(found.standing.diagnostics)
     return found.exit_code

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pico.diagnosis.suspects import Suspect
     from pico.drawing.picture import Image
     from pico.history.runs.recorded_light import RecordedLight
+    from pico.model.diff import Change
     from pico.model.lab import Setup
     from pico.model.measurement import Compared, Measurement
     from pico.model.observation import Observation
@@ -90,16 +91,18 @@ class Lights:
         held = {name: goal for name, goal in (setup.lab.goals or {}).items() if name in aligned}
         return light_compared(setup, before.measured, now, open_to, held, lasers, dark)
 
-    def suspected(self, numbers: Sequence[Compared]) -> tuple[Suspect, ...]:
+    def suspected(self, numbers: Sequence[Compared], off: Sequence[Change] = ()) -> tuple[Suspect, ...]:
         """Return what may have happened where light is not as it was (see `compared`), the likeliest first, nothing
-        unusual among it; none where no number differs. By the ray model of the bench as it is seen."""
+        unusual among it; none where no number differs. By the ray model of the bench as it is seen. `off`: how that
+        differs from what is compared with: where more does than what light itself found, that is reason enough, and
+        nothing is suspected."""
         from pico.diagnosis.recorded import nominal_of, suspected
         from pico.optics.axis import beams
         from pico.planning.goal_light import standing_poses
 
-        if not any(one.differs for one in numbers):
-            return ()
         setup, seen = self.opened.setup, self.opened.observe()
+        if not any(one.differs for one in numbers) or any(_apart_from_light(setup, change) for change in off):
+            return ()
         detectors = {one.address.partition(".")[0] for one in numbers}
         parts = set(detectors)
         for axis in beams(setup, standing_poses(seen), seen.known_values):
@@ -150,6 +153,13 @@ class Lights:
         asked = [source] if source else sources
         light = light_of(setup, poses, values, lit=lambda name: name in asked)
         return light, tuple(name for name in asked if is_dark(values.get(name, {})))
+
+
+def _apart_from_light(setup: Setup, change: Change) -> bool:
+    """Whether a change is none that light itself made: of a tunable that a goal restores."""
+    if change.tolerated or change.tunable == "pose":
+        return not change.tolerated
+    return setup.type_of(change.component).tunables[change.tunable].restore.kind != "align"
 
 
 def _unread(light: Light, seen: Observation) -> tuple[Diagnostic, ...]:

@@ -110,6 +110,13 @@ def test_what_a_commit_recorded_of_its_light_is_measured_again_and_compared(benc
     pico("sim", "nudge", "lx_100", "--dy", "0.4")
     again = pico("apply", "one", "--align", "--yes")
     assert "✗  cam.centroid.x" not in again.out, "the goal was sought again"
+    pico("sim", "upset", "laser", "loss=0.3")
+    assert pico("apply", "E3-2", "--align", "--yes").code == 0
+    answer = pico("apply", "one", "--align", "--yes", "--json")
+    found = json.loads(answer.out.splitlines()[-1])
+    assert {n["address"] for n in found["numbers"] if n["differs"]} >= {"laser.monitor"}
+    assert (found["suspects"][0]["part"], found["suspects"][0]["kind"]) == ("laser", "power")
+    assert "%  laser: power, -3" in pico("apply", "one", "--align", "--yes").out
 
 
 def test_a_null_and_the_lens_behind_it_are_both_aligned_afterwards(bench: Path, pico: Pico) -> None:

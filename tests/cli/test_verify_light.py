@@ -159,6 +159,7 @@ def test_light_that_does_not_come_any_more_is_a_goal_that_is_lost(built: Path, p
     pico("sim", "nudge", "ly_150", "--dy", "40")
     code, found = verified(pico)
     assert code == 6 and found["goals"][0]["met"] is False and "no light comes" in found["goals"][0]["why"]
+    assert found["suspects"] == [], "what moved is reason enough"
 
 
 def test_from_python_and_what_was_interrupted_is_not_taken_up(built: Path, pico: Pico) -> None:
