@@ -13,6 +13,7 @@ from ..session import Session
 from ..views import swap as view
 
 if TYPE_CHECKING:
+    from pico.model.lab import Known
     from pico.model.quantities import Value
 
 
@@ -24,8 +25,18 @@ def swap(
     focal_length: Annotated[
         str | None, typer.Option("--focal-length", metavar="LENGTH", help='As measured: "100.3 mm".')
     ] = None,
+    retardance: Annotated[str | None, typer.Option("--retardance", metavar="WAVES", help="As measured: 0.498.")] = None,
     parameter: Annotated[
         list[str] | None, typer.Option("--parameter", metavar="KEY=VALUE", help="Another one; may be given again.")
+    ] = None,
+    sigma: Annotated[
+        str | None, typer.Option("--sigma", metavar="VALUE", help="One standard deviation of what is given.")
+    ] = None,
+    measured: Annotated[
+        str | None, typer.Option("--measured", metavar="DAY", help="When that was measured; today.")
+    ] = None,
+    valid_for: Annotated[
+        str | None, typer.Option("--valid-for", metavar="TIME", help='How long it counts: "365 d".')
     ] = None,
     auto_approve: Yes = False,
     dry_run: DryRun = False,
@@ -37,15 +48,17 @@ def swap(
     is in use.
 
     Examples:
-      pico swap lx_100 --serial B7 --focal-length "100.3 mm"
+      pico swap lx_100 --serial B7 --focal-length "100.3 mm" --sigma "0.2 mm"
     """
     from pico.bench import updating
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
     root = find_lab(session.folder)
-    given = _pairs([*(parameter or ()), *([f"focal_length={focal_length}"] if focal_length else [])])
-    found = updating.swapped(root, name, serial, kind, given)
+    own = {"focal_length": focal_length, "retardance": retardance}
+    given = _pairs([*(parameter or ()), *(f"{key}={value}" for key, value in own.items() if value)])
+    known = _known(given, sigma, measured, valid_for)
+    found = updating.swapped(root, name, serial, kind, given, known)
     if dry_run or found.same:
         session.show(view, found, done=False)
         return ExitCode.DONE
@@ -59,6 +72,21 @@ def swap(
         session.document(view.data(found, done=True))
     session.say("Swapped: `pico optimize` lists which goals are stale now. Swapping back undoes it.")
     return ExitCode.DONE
+
+
+def _known(given: dict[str, Value], sigma: str | None, measured: str | None, valid_for: str | None) -> Known | None:
+    """Return how well what is given is known, None where nobody says."""
+    from datetime import UTC, datetime
+
+    from pico.model.lab import Known
+
+    said = [word for word in (sigma, measured, valid_for) if word]
+    if said and (len(given) != 1 if sigma else not given):
+        hint = 'such as `--focal-length "100.3 mm" --sigma "0.2 mm"`, one number with its sigma at a time'
+        raise PicoError(error("usage", "--sigma, --measured and --valid-for say how a number was measured", hint=hint))
+    today = datetime.now(UTC).date().isoformat()
+    deviation = next(iter(_pairs([f"sigma={sigma}"]).values())) if sigma else None
+    return Known(at=measured or today, sigma=deviation, valid_for=valid_for) if said else None
 
 
 def _pairs(words: list[str]) -> dict[str, Value]:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 HEAD = ("component", "after", "radius", "left, up", "wavefront", "power", "polarization", "clipped", "")
 _OFF = HEAD.index("left, up")
 _CENTERED = 1e-3  # mm: nobody minds less
+_TENTH = 1e-4  # mm: no radius is told more exactly
 _WORDS = {"left": "leaves the table", "blocked": "ends here", "detected": "", "passed": "", "reflected": "",
           "divided": ""}  # fmt: skip
 
@@ -64,7 +65,7 @@ def _cells(row: BeamRow) -> list[str]:
     name = row.component or "(table's edge)"
     clipped = f"{number(100 * row.clipped)} %" if row.clipped >= 5e-4 else ""
     note = "; ".join(w for w in ("ghost" if row.ghost else "", _WORDS[row.event] if row.component else "leaves") if w)
-    radius = "unknown" if row.unknown else _radius(row.radii)
+    radius = "unknown" if row.unknown else _radius(row.radii) + _unsure(row)
     off = _offset(row)
     return [name, f"{row.length:.1f} mm", radius, off, _front(row), power(row.power), polarization(row), clipped, note]
 
@@ -80,6 +81,11 @@ def _offset(row: BeamRow) -> str:
 def _radius(radii: tuple[float, float]) -> str:
     wide, narrow = (_length(r) for r in radii)
     return wide if wide == narrow else f"{wide} x {narrow}"
+
+
+def _unsure(row: BeamRow) -> str:
+    """Return one standard deviation of the larger radius by what was measured of the glass, where that is anything."""
+    return f" ± {_length(row.sigma[0])}" if row.sigma and row.sigma[0] > _TENTH else ""
 
 
 def _length(value: float) -> str:

@@ -46,11 +46,13 @@ class Lights:
         the manifest wants it; of one source, or of all. A source that is off or shut is followed as if it shone.
         Raises PicoError."""
         from pico.optics.beam_table import rows, troubles
+        from pico.optics.nominal.specimens import uncertain
 
         setup, poses, values, goal = self._standing(revision, manifest)
         light, dark = self._traced(setup, poses, values, source)
         unread = () if revision or manifest else _unread(light, self.opened.observe())
-        return Beams(goal, rows(light), dark, (*unread, *troubles(setup, light)))
+        sigmas = uncertain(setup, light, lambda other: self._traced(other, poses, values, source)[0])
+        return Beams(goal, rows(light, sigmas), dark, (*unread, *troubles(setup, light)))
 
     def recorded(self, revision: str | None = None) -> RecordedLight:
         """Return what a revision recorded of its light; without one HEAD, where the manifest is as it says. Raises

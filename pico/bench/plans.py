@@ -11,6 +11,7 @@ from pico.bench.auditing import with_audit
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
+from pico.edge.lease import utc_now
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
@@ -20,7 +21,8 @@ from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
 from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json
 from pico.motion.deferred import DeferredMotion
-from pico.vision.calibration import calibration_digest
+from pico.policy.expired import expired
+from pico.vision.calibration import calibration_digest, made_at
 
 if TYPE_CHECKING:
     from pico.history.restoring.selected import SelectedParts
@@ -87,7 +89,8 @@ class Plans:
             align=self.aligns(align) or None,
         )
         seen = self.opened.observe()
-        told = (*cut_short(self.opened, seen), *_strangers(seen), *manifests.told)
+        old = expired(self.opened.setup, made_at(folder.root), utc_now())
+        told = (*cut_short(self.opened, seen), *_strangers(seen), *old, *manifests.told)
         return self.to_state(
             seen, wanted, target, told=told, calibration=calibration_digest(folder.root), exact=exact,
             source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,

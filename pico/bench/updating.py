@@ -21,6 +21,7 @@ from pico.edge.link.opening import opened
 from pico.edge.link.opening import own_lab as kept
 from pico.edge.protocol import OwnLab
 from pico.execution.stale import edited
+from pico.model.lab import Known
 from pico.model.quantities import Value
 from pico.model.record import record
 
@@ -33,8 +34,8 @@ DOING = "pico bench update"
 @dataclass(frozen=True)
 class Swap:
     """Another specimen for a part: serials before and after, the Labs of bench and tree with it, and the tree's as a
-    unified diff. `kind` and `parameters` as they were asked for. `stays`: parameters of the part's own that nobody gave
-    anew; `same`: it is what is there already."""
+    unified diff. `kind`, `parameters` and `known` as they were asked for. `stays`: parameters of the part's own that
+    nobody gave anew; `same`: it is what is there already."""
 
     name: str
     before: str
@@ -45,6 +46,7 @@ class Swap:
     stays: Mapping[str, Value]
     kind: str | None = None
     parameters: Mapping[str, Value] = field(default_factory=dict)
+    known: Known | None = None
     same: bool = False
 
 
@@ -111,7 +113,9 @@ def update(root: Path, backend: str) -> None:
         thread.close()
 
 
-def swapped(root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value]) -> Swap:
+def swapped(
+    root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value], known: Known | None = None
+) -> Swap:  # fmt: skip
     """Return what exchanging the specimen of a part changes in the bench's own Lab and in the tree's files; nothing is
     written. Raises PicoError for what would not be right in either."""
     from pico.manifest.exchange import exchanged
@@ -120,7 +124,7 @@ def swapped(root: Path, name: str, serial: str, kind: str | None, parameters: Ma
     own = kept(root) or tree
     made = []
     for lab in (own, tree):
-        files = exchanged(lab.as_bytes(), name, serial, kind, parameters)
+        files = exchanged(lab.as_bytes(), name, serial, kind, parameters, known)
         new = replace(lab, files={**lab.files, **own_lab.of_files(files).files})
         own_lab.setup_of(replace(new, at=""))  # what it would be: nothing that is kept is wrong
         made.append(new)
@@ -129,7 +133,7 @@ def swapped(root: Path, name: str, serial: str, kind: str | None, parameters: Ma
     kept_as = {k: v for k, v in (before.parameters or {}).items() if k not in parameters}
     patch = "".join(_patch(tree.files, made[1].files))
     same = made[0].files == own.files and not patch
-    return Swap(name, before.serial, serial, made[0], made[1], patch, kept_as, kind, parameters, same)
+    return Swap(name, before.serial, serial, made[0], made[1], patch, kept_as, kind, parameters, known, same)
 
 
 def swap(root: Path, backend: str, change: Swap) -> None:
@@ -138,7 +142,7 @@ def swap(root: Path, backend: str, change: Swap) -> None:
 
     The tree is written first: killed in between, it proposes the specimen to the bench, and `pico bench update` does
     the rest. The other way round that would put the one before back."""
-    again = swapped(root, change.name, change.after, change.kind, change.parameters)
+    again = swapped(root, change.name, change.after, change.kind, change.parameters, change.known)
     if again != change:
         text = "lab.yaml or the bench was changed meanwhile, so nothing was swapped"
         raise PicoError(error("edit", text, hint="the same `pico swap` once more starts from what is there now"))

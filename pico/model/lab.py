@@ -225,11 +225,22 @@ class Tether:
 
 
 @record
+class Known:
+    """How well somebody knows a number of a part: when it was measured (`at`, ISO 8601: a day, or a time); `sigma`, one
+    standard deviation, in the number's unit or with one; `valid_for`: how long it counts (`365 d`)."""
+
+    at: str
+    sigma: Value | None = None
+    valid_for: str | None = None
+
+
+@record
 class Part:
     """One part that the bench owns: exactly one of a `home` slot and a fixed `pose`. `parameters`: of its own, where
     they are others than its type's, such as the focal length of one of many lenses. `ends_beams`: this one is meant to
     end beams (or is not), whatever its type says. `restore`: how tunables of this one are restored, where that is
-    otherwise than its type says, such as `{tip: {kind: align, trim: 12, goal: centred}}`."""
+    otherwise than its type says, such as `{tip: {kind: align, trim: 12, goal: centred}}`. `measured`: of parameters and
+    calibrations of its own when and how well they were measured: `{focal_length: {at: 2026-11-20, sigma: 0.2 mm}}`."""
 
     type: str
     marker: int | None = None
@@ -244,6 +255,7 @@ class Part:
     parameters: Mapping[str, Value] | None = None
     ends_beams: bool | None = None
     restore: Mapping[str, Restore] | None = None
+    measured: Mapping[str, Known] | None = None
 
     def __post_init__(self) -> None:
         if (self.home is None) == (self.pose is None):
@@ -379,7 +391,7 @@ class Policy:
     `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
     a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam
     leaves; what the beam audit finds is then only told. `arming`: who may let lasers above class 2 emit; nobody,
-    without it. `align`: whether an
+    without it. `calibrated_for`: how long a calibration of the cameras counts (`90 d`). `align`: whether an
     apply redoes the goals whose light it changes, or that are not aligned: `always`, or only where it is `asked` with
     --align."""
 
@@ -391,6 +403,7 @@ class Policy:
     merge: Literal["warn", "strict"] = "warn"
     arming: ArmingPolicy | None = None
     align: Literal["always", "asked"] | None = None
+    calibrated_for: str | None = None
 
 
 @record

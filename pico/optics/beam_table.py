@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -38,7 +38,8 @@ class BeamRow:
     that its edge stops. `angle` of the polarization from level, counter-clockwise looking into the beam [deg], its
     `ellipticity` S3/S0 (+1 turns counter-clockwise looking into the beam) and `degree`. `offset`: of the beam from the
     middle of the component, to the left of and above it [mm]; `incidence` on its plane [deg]. `unknown`: why its spot
-    is not known.
+    is not known. `sigma`: one standard deviation of both radii and of the power by what was measured of parts,
+    None where nobody says.
     """
 
     source: str
@@ -62,11 +63,14 @@ class BeamRow:
     incidence: float
     unknown: str
     ghost: bool
+    sigma: tuple[float, float, float] | None = None
 
 
-def rows(light: Light) -> tuple[BeamRow, ...]:
-    """Return a row for each place that a beam comes to."""
-    return tuple(_row(light, number, crossing) for number, crossing in enumerate(light.crossings))
+def rows(light: Light, sigmas: Mapping[int, tuple[float, float, float]] | None = None) -> tuple[BeamRow, ...]:
+    """Return a row for each place that a beam comes to; `sigmas`: of `pico.optics.nominal.specimens`, by its number."""
+    known = sigmas or {}
+    found = (_row(light, number, crossing) for number, crossing in enumerate(light.crossings))
+    return tuple(replace(row, sigma=known[row.number]) if row.number in known else row for row in found)
 
 
 def _row(light: Light, number: int, crossing: Crossing) -> BeamRow:

@@ -127,6 +127,15 @@ def calibration_digest(folder: Path) -> str | None:
     return digest({key: value for key, value in data.items() if key != "made_at"}) if isinstance(data, dict) else None
 
 
+def made_at(folder: Path) -> str:
+    """Return when the calibration in the folder of a lab was made, empty for none; reads no more than the file."""
+    try:
+        data = json.loads((folder / FILE).read_text())
+    except (OSError, ValueError):
+        return ""
+    return str(data.get("made_at", "")) if isinstance(data, dict) else ""
+
+
 def _camera_json(camera: CameraModel) -> dict[str, Any]:
     import numpy as np
 

@@ -102,3 +102,23 @@ def test_killed_in_between_the_lab_proposes_the_specimen_and_nothing_is_lost(kep
     assert "warning[bench-lab]" in told.err and "pico bench update" in told.err and "lx_100" in told.err
     assert pico("bench", "update", "-y").code == 0
     assert focal(kept) == pytest.approx(100.3) and not pico("plan").err
+
+
+def test_how_well_the_glass_is_known_is_kept_told_in_the_light_and_gets_old(kept: Path, pico: Pico) -> None:
+    assert pico("apply", "e1", "-y").code == 0
+    assert " ± " not in pico("beam").out
+    words = ("swap", "ly_150", "--serial", "B7", "--focal-length", "150.4 mm")
+    assert pico(*words, "--sigma", "1.5 mm", "--measured", "2026-01-20", "--valid-for", "3650 d", "-y").code == 0
+    assert 'at: "2026-01-20"' in (kept / "lab.yaml").read_text()
+    assert " ± " in pico("beam").out and "expired" not in pico("plan").err
+    assert pico(*words, "--measured", "2020-01-20", "--valid-for", "365 d", "-y").code == 0
+    told = pico("plan").err
+    assert told.count("warning[expired]") == 1 and "focal_length of ly_150 (2020-01-20, valid for 365 d)" in told
+    assert pico(*words, "-y").code == 0 and "expired" not in pico("plan").err, "nobody says how well that is known"
+    for more, said in (
+        (("--sigma", "1 mm"), "say how a number was measured"),
+        (("--focal-length", "150 mm", "--measured", "monday"), "`monday` is no date"),
+        (("--focal-length", "150 mm", "--sigma", "1 s"), "is a time, not a length"),
+    ):
+        answer = pico("swap", "ly_150", "--serial", "C1", *more, "-y")
+        assert answer.code == 1 and said in answer.err, answer.err

@@ -7,8 +7,9 @@ from collections.abc import Collection, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.expressions import ExpressionError, Language
+from pico.manifest.checks.own_parameters import lasting
 from pico.model.lab import Goal, Setup
-from pico.model.quantities import QuantityError, Value, convert
+from pico.model.quantities import Value
 from pico.model.vocabulary import cameras_of, functions_of, measured_in, names_of
 from pico.optimize.registry import known
 
@@ -31,7 +32,7 @@ def goal_errors(setup: Setup, goals: Mapping[str, Goal]) -> Iterator[tuple[tuple
             yield (name, "algorithm"), error("algorithm", f"there is no algorithm `{goal.algorithm[:40]}`", hint=hint)
         if goal.budget.measurements < 1 or goal.budget.seconds <= 0:
             yield (name, "budget"), error("value", "the budget is for nothing", hint="expected 1 measurement or more")
-        if goal.valid_for is not None and (wrong := _duration(goal.valid_for)):
+        if goal.valid_for is not None and (wrong := lasting(goal.valid_for)):
             yield (name, "valid_for"), wrong
 
 
@@ -143,13 +144,6 @@ def _outputs(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagno
         if goal.near(output) <= 0:
             hint = "`tolerance: 5`, or one for each: `tolerance: {cam.centroid.x: 5}`"
             yield ("reach", output), error("goal", f"how near is near enough to {output}?", hint=hint)
-
-
-def _duration(text: str) -> Diagnostic | None:
-    try:
-        return None if convert(text, "s") > 0 else error("value", f"`{text}` is no time", hint="`12 h`")
-    except QuantityError as exc:
-        return error("value", f"valid_for: {exc}", hint="`12 h`, `30 min`")
 
 
 def _language(setup: Setup, goal: Goal) -> Language:

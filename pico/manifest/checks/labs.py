@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
 from pico.manifest.checks.cameras import check_cameras, check_view
+from pico.manifest.checks.own_parameters import lasting
 from pico.manifest.checks.trims import check_own_trims
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
@@ -27,7 +28,14 @@ def check_lab(document: Document, lab: Lab) -> list[Diagnostic]:
     found += _on_table(document, lab)
     found += _ranges(document, lab)
     found += check_cameras(document, lab)
+    found += _policy(document, lab)
     return found
+
+
+def _policy(document: Document, lab: Lab) -> Iterator[Diagnostic]:
+    lasts = lab.policy.calibrated_for
+    if lasts is not None and (wrong := lasting(lasts, "calibrated_for")):
+        yield replace(wrong, source=where(document, "policy", "calibrated_for"))
 
 
 def check_setup(document: Document, setup: Setup) -> list[Diagnostic]:

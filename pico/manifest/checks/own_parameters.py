@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from datetime import datetime
 from functools import partial
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
@@ -10,8 +12,8 @@ from pico.manifest.checks.parameters import wrong_parameters
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType, Restore, value_of
-from pico.model.lab import Setup
-from pico.model.quantities import QuantityError, Value
+from pico.model.lab import Known, Setup
+from pico.model.quantities import QuantityError, Value, convert
 
 
 def check_own_parameters(document: Document, setup: Setup) -> Iterator[Diagnostic]:
@@ -19,8 +21,48 @@ def check_own_parameters(document: Document, setup: Setup) -> Iterator[Diagnosti
     for name, part in setup.lab.inventory.items():
         if part.parameters and part.type in setup.catalog:
             yield from _parameters(document, setup, name)
+        if part.measured and part.type in setup.catalog:
+            yield from _measured(document, setup, name, part.measured)
         if part.restore and part.type in setup.catalog:
             yield from _restores(document, setup, name, part.restore)
+
+
+def _measured(document: Document, setup: Setup, name: str, known: Mapping[str, Known]) -> Iterator[Diagnostic]:
+    part = setup.lab.inventory[name]
+    own, kinds = part.parameters or {}, setup.catalog[part.type].parameters
+    for number, one in known.items():
+        at = partial(where, document, "inventory", name, "measured", number)
+        if number not in own and number not in part.calibration:
+            text = f"{name} has no `{number[:40]}` of its own that could have been measured"
+            hint = did_you_mean(number[:40], (*own, *part.calibration)) or f"say it under `parameters:` of {name} first"
+            yield error("value", text, hint=hint, source=where_key(document, "inventory", name, "measured", number))
+            continue
+        try:
+            datetime.fromisoformat(one.at)
+        except ValueError:
+            yield error("value", f"`{one.at[:40]}` is no date", hint="`2026-11-20`", source=at("at"))
+        if one.valid_for is not None and (wrong := lasting(one.valid_for)):
+            yield replace(wrong, source=at("valid_for"))
+        unit = kinds[number].unit if number in own and number in kinds else ""
+        yield from _sigma(name, number, one, unit, at("sigma"))
+
+
+def _sigma(name: str, number: str, one: Known, unit: str, at: SourceRange) -> Iterator[Diagnostic]:
+    try:
+        sigma = convert(one.sigma, unit) if one.sigma is not None else 0.0
+    except QuantityError as exc:
+        yield error("value", f"sigma of `{number}` of {name}: {exc}", source=at)
+        return
+    if isinstance(sigma, bool) or not isinstance(sigma, int | float) or sigma < 0:
+        yield error("value", f"sigma of `{number}` of {name} is {one.sigma}", hint="0 or more", source=at)
+
+
+def lasting(text: str, what: str = "valid_for") -> Diagnostic | None:
+    """Return what is wrong with how long something counts; None for nothing."""
+    try:
+        return None if convert(text, "s") > 0 else error("value", f"`{text}` is no time", hint="`12 h`")
+    except QuantityError as exc:
+        return error("value", f"{what}: {exc}", hint="`12 h`, `365 d`")
 
 
 def _restores(document: Document, setup: Setup, name: str, given: Mapping[str, Restore]) -> Iterator[Diagnostic]:
