@@ -35,7 +35,7 @@ SMALLEST = {
     "alignment": "--seeds 1",
     "faulted_loops": "--loops 12 --kills 2 --goals tip null",
     "stages": "--seeds 1",
-    "recording": "--settings 3",
+    "recording": "--settings 3 --kills 2",
     "restoring_light": "--seeds 1 --fidelity kinematic --passive",
     "morning": "--nights 1 --faults 0",
     "lens_by_light": "--seeds 1 --fidelity kinematic",

@@ -8,12 +8,13 @@ from functools import cached_property
 from typing import Any, TypeVar, overload
 
 from pico.bench.bench import Bench as Services
+from pico.bench.commits import CommitMode
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan
 from pico.model.quantities import Value
-from pico.model.report import RunReport
+from pico.model.report import Committed, RunReport
 from pico.model.state import LabState
 from pico.runs.event_model import documents, units_of
 from pico.scripting.outcome import require_done, require_possible
@@ -144,8 +145,14 @@ class Bench(Services):
         return Reading(self, found)
 
     def pause(self, seconds: float) -> None:
-        """Let time pass on the bench's clock [s]: a simulated one passes at once. Not while a run is recorded there."""
-        if self.wait(self.edge.describe()).simulated:
+        """Let time pass on the bench's clock [s]: a simulated one passes at once. Raises PicoError on a simulated bench
+        while a run is recorded, for its time is that of the run."""
+        self._queue.idle()
+        simulated = self.wait(self.edge.describe()).simulated
+        if simulated and self.recording is not None:
+            text = f"run {self.recording} is being recorded: simulated time passes only by what it does"
+            raise PicoError(error("recording", text, hint="pause before its block, or after it"))
+        if simulated:
             self.sim.wait(seconds)
         else:
             time.sleep(seconds)
@@ -180,6 +187,14 @@ class Bench(Services):
         """Bring what was asked for and is not over to its safe end; nothing where nothing is under way."""
         if self._queue.busy:
             self.wait(self.edge.halt())
+
+    def commit(self, message: str | None = None, mode: CommitMode = "strict", **options: Any) -> Committed:
+        """Capture and commit the manifests, with the runs that led to them; see `Commits.commit`. Raises PicoError
+        while a run is recorded, which a commit can't carry before it is over."""
+        if self.recording is not None:
+            text = f"run {self.recording} is still being recorded, and a commit carries runs that are over"
+            raise PicoError(error("recording", text, hint="commit after the block of `bench.record`"))
+        return super().commit(message, mode, **options)
 
     def documents(self, run: str | None = None) -> Iterator[tuple[str, dict[str, Any]]]:
         """Return the documents of bluesky's event model of a run (the last one without it), each with its kind's name;

@@ -1,6 +1,7 @@
-"""Lets the tests import what stands beside those of benches."""
+"""Lets the tests import what stands beside those of benches and edges."""
 
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "bench"))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "bench"), str(HERE.parent / "edge")]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from attended import ended_when
+from serving import served
 
 from pico.diagnostics import ExitCode, PicoError
 from pico.runs.operations import operations
@@ -135,6 +136,31 @@ def test_what_is_asked_to_stop_from_elsewhere_stops(bench: Bench) -> None:
         assert last is not None and last.outcome == "interrupted"
         turn(bench, 20)
     assert caught.value.exit_code == ExitCode.INTERRUPTED
+
+
+def test_what_needs_a_run_that_is_over_waits_for_its_end(bench: Bench) -> None:
+    with bench.record("scan") as run:
+        turn(bench, 10)
+        with pytest.raises(PicoError, match="still being recorded"):
+            bench.commit("Too early", "capture")
+        with pytest.raises(PicoError, match="time passes only by what it does"):
+            bench.pause(5)
+    bench.pause(5)
+    assert run.id in bench.commit("In time", "capture").runs
+
+
+def test_a_bench_behind_a_socket_is_recorded_as_well(bench: Bench) -> None:
+    with served(bench.root), Bench.open(bench.root) as remote:
+        with remote.record("scan") as run:
+            for angle in (10, 20):
+                remote["p1"].angle = angle
+                remote.measure("p1.angle")
+        assert (run.report.outcome, run.report.done) == ("done", 4)
+        assert [m.value for m in run.measurements] == [10.0, 20.0] and run.table["p1.angle"] == [10.0, 20.0]
+        with pytest.raises(KeyboardInterrupt), remote.record("stopped"):
+            remote["p1"].angle = 30
+            raise KeyboardInterrupt
+        assert [outcome for _, outcome in runs(remote)] == ["done", "interrupted"]
 
 
 def test_undo_takes_back_a_whole_recorded_run(bench: Bench) -> None:
