@@ -36,6 +36,7 @@ SMALLEST = {
     "faulted_loops": "--loops 12 --kills 2 --goals tip null",
     "stages": "--seeds 1",
     "recording": "--settings 3 --kills 2",
+    "shel": "--seeds 1 --fidelity kinematic --only 30",
     "restoring_light": "--seeds 1 --fidelity kinematic --passive",
     "morning": "--nights 1 --faults 0",
     "lens_by_light": "--seeds 1 --fidelity kinematic",
