@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from pico.kernels.measured import in_order
 from pico.model.record import as_json
 from pico.model.run import Run
 
@@ -40,7 +41,8 @@ def text(found: Comparison) -> str:
 
 def _measured(m: MeasuredTwice) -> list[str]:
     why = paint("yellow", f"not comparable: {'; '.join(m.incomparable)}") if m.incomparable else ""
-    return [m.address, shown(value(m.a.value, m.a.unit)), shown(value(m.b.value, m.b.unit)), why]
+    a, b = (shown(value(in_order(one.kernel, one.value), one.unit)) for one in (m.a, m.b))
+    return [m.address, a, b, why]
 
 
 def _title(letter: str, d: Run) -> list[str]:

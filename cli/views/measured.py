@@ -6,12 +6,14 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from pico.kernels.measured import in_order
+
 from .style import number, paint
 
 
 def line(found: Mapping[str, Any]) -> str:
     """Return value, unit and array of a measurement (as JSON), and what of it was not assured."""
-    parts = [value(found.get("value"), found.get("unit", ""), found.get("sigma"))]
+    parts = [value(in_order(found.get("kernel"), found.get("value")), found.get("unit", ""), found.get("sigma"))]
     if found.get("unknown"):
         parts = [paint("yellow", f"unknown: {found['unknown']}")]
     if array := found.get("array"):

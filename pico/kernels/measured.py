@@ -64,3 +64,13 @@ def numbers_by(text: str, name: str) -> tuple[str, ...]:
     except PicoError:
         return ()
     return (name,) if len(units) == 1 else tuple(f"{name}.{number}" for number in units)
+
+
+def in_order(text: str | None, numbers: Any) -> Any:
+    """Return numbers by name in the order of the kernels that gave them, which is that of their units: a document has
+    them by the alphabet. What is no such thing is returned as it is."""
+    try:
+        units = parsed(text).last.units if text and isinstance(numbers, Mapping) else {}
+    except PicoError:
+        return numbers
+    return {name: numbers[name] for name in units} if units and units.keys() == numbers.keys() else numbers

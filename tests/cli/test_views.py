@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pico_cli.views import diagnostics as view
 from pico_cli.views import log
+from pico_cli.views.measured import line
 from pico_cli.views.style import columns, count, folded, listed, number, paint, plain, seconds, shorten, width
 
 from pico.diagnostics import PicoError, Position, SourceRange, error, warning
@@ -44,6 +45,13 @@ def test_a_diagnostic_shows_the_line_with_a_caret_and_what_would_be_right() -> N
 def test_an_error_that_nobody_catches_says_what_would_be_right() -> None:
     found = PicoError([error("usage", "set of p1 takes no `angel`", hint="did you mean `angle`?"), error("x", "no")])
     assert str(found) == "set of p1 takes no `angel` (did you mean `angle`?); no"
+
+
+def test_numbers_of_a_kernel_have_their_own_units_whatever_order_a_document_has_them_in() -> None:
+    numbers = {"angle": 2.0, "major": 9.0, "minor": 8.0, "peak": 5.0, "x": 1.0, "y": 3.0}
+    found = {"value": numbers, "unit": "um, um, um, um, deg, count", "kernel": "image | gaussian_fit"}
+    assert line(found) == "x 1 um, y 3 um, major 9 um, minor 8 um, angle 2 deg, peak 5 count"
+    assert line({**found, "kernel": "image | nobody knows it"}).startswith("angle 2 um"), "as it came"
 
 
 def test_errors_stand_last_and_are_counted() -> None:
