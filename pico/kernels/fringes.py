@@ -18,7 +18,8 @@ _REFINED = 4
 @dataclass(frozen=True)
 class Fringes:
     """`frequency` to the right and up [1/px] and its spread along and across itself [1/px]; `amplitude` of the windowed
-    light there, and `light`, that at no frequency [count]; `noise`, one standard deviation of the amplitude [count]."""
+    light there, 0 where no carrier stands out, and `light`, that at no frequency [count]; `noise`, one standard
+    deviation of the amplitude [count]."""
 
     frequency: tuple[float, float]
     spread: tuple[float, float]
@@ -37,21 +38,42 @@ def fringes(signal: Array, variance: Array, fewest: float) -> Fringes | None:
     light = float(moments[0, 0])
     if light <= 0:
         return None
-    across, down = (max(float(moments[j]) / light, 1.0) for j in ((0, 2), (2, 0)))
+    across, down = (max(float(moments[j]) / light - (float(moments[i]) / light) ** 2, 1.0)
+                    for i, j in (((0, 1), (0, 2)), ((1, 0), (2, 0))))  # fmt: skip
     at = _strongest(seen, fewest / 4, across, down)
-    at, amplitude = _refined(seen, at)
     noise = sums(window**2 * variance, middle) / 2
+    if at is None:
+        return Fringes((0.0, 0.0), (math.inf, math.inf), 0.0, light, math.sqrt(noise[0, 0]))
+    at, amplitude = _refined(seen, at)
     return Fringes(at, _spread(at, moments, noise, amplitude), amplitude, light, math.sqrt(noise[0, 0]))
 
 
-def _strongest(seen: Array, fewest: float, across: float, down: float) -> tuple[float, float]:
-    """The frequency, to the right and up, of the strongest line that is none of the beam's own shape."""
+def _strongest(seen: Array, fewest: float, across: float, down: float) -> tuple[float, float] | None:
+    """The frequency, to the right and up, of the strongest line that is none of the beam's own shape: one that stands
+    out to all sides, as the skirt of two spots side by side does not. None where there is none."""
     h, w = seen.shape
-    power = np.abs(np.fft.rfft2(seen))
+    whole = np.abs(np.fft.rfft2(seen))
     right, up = np.fft.rfftfreq(w)[None], -np.fft.fftfreq(h)[:, None]
-    power[right**2 * across + up**2 * down < fewest**2] = 0
+    power = np.where(right**2 * across + up**2 * down < fewest**2, 0.0, whole)
     row, column = np.unravel_index(int(power.argmax()), power.shape)
+    out = _stands_out(whole)
+    if not out[row, column]:
+        power = np.where(out, power, 0.0)
+        row, column = np.unravel_index(int(power.argmax()), power.shape)
+    if not power[row, column]:
+        return None
     return float(right[0, column]), float(up[row, 0])
+
+
+def _stands_out(power: Array) -> NDArray[np.bool_]:
+    """Where a frequency has more power than those next to it; up and down they come round."""
+    found = np.ones(power.shape, dtype=bool)
+    for down in (-1, 0, 1):
+        moved = np.roll(power, down, axis=0)
+        found[:, 1:] &= power[:, 1:] >= moved[:, :-1]
+        found[:, :-1] &= power[:, :-1] >= moved[:, 1:]
+        found &= power >= moved
+    return found
 
 
 def _at(seen: Array, right: float, up: float) -> float:

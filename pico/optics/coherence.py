@@ -18,6 +18,8 @@ from pico.model.catalog import ComponentType
 DISPERSION = 0.1
 """By which share of what glass adds to a path, (n - 1) d, the delay of a pulse is longer than the index says: 0.04 to
 0.1 for crown and flint in the visible, as their index changes with the wavelength."""
+_SHORTEST, _LONGEST = 1e-5, 1e7
+"""Between which lengths a source may be coherent [mm]."""
 _IN_STEP = 0.05
 """The share of its coherence length by which glass may shift a wave train before nobody can tell what is seen."""
 
@@ -88,6 +90,15 @@ def spectra_of(kind: ComponentType, wavelength: float) -> tuple[tuple[float | No
         if power:
             found.append((angle, power / whole, tuple(lines)))
     return tuple(found) or ((None, 1.0, ()),)
+
+
+def coherence_length(spectra: Iterable[tuple[float | None, float, Spectrum]]) -> float:
+    """Return the difference of paths [mm], to a twentieth of itself, at which the visibility of fringes has fallen to
+    1/e for the first time; infinite where it never does. `spectra` as of `spectra_of`."""
+    deltas = np.geomspace(_SHORTEST, _LONGEST, 1 + round(math.log(_LONGEST / _SHORTEST) / 0.05))
+    seen = np.abs(sum(share * degree(spectrum, deltas) for _, share, spectrum in spectra))
+    first = np.flatnonzero(seen <= math.exp(-1))
+    return float(deltas[first[0]]) if len(first) else math.inf
 
 
 def dispersed(glass: Iterable[float], spectra: Iterable[Spectrum]) -> bool:

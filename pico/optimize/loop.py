@@ -158,6 +158,8 @@ class _Walk:
         spends = spent + 2 if spent else 1  # the next, and one at the end
         if self.good is not None and self._doubtful(self.tried[0], self.good):
             spends += 2  # the start and the best again
+        if spent and not self._believed(self.tried[0].result):
+            spends += 1  # the start again
         slow = self.now - (self.began or 0.0) + 2 * self.longest > limits.seconds
         ends = {
             self.fault: bool(self.fault),
@@ -242,6 +244,9 @@ class _Walk:
         if self.good is None:
             yield from self._ask(begun, measure=False, why="start")
             return why
+        lost = isinstance(why, Short) and not self._believed(first.result) and self.here != begun
+        if lost and len(self.tried) + 2 <= self.limits.measurements:  # where it began light may only have been lost
+            yield from self._ask(begun, why="check")
         if not self._at_best():
             best = _point(self.problem, self.good)
             yield from self._ask(best, why="best")

@@ -13,6 +13,7 @@ from pico.model.observation import Observation, with_value
 from pico.model.pose import Pose, angle_between
 from pico.model.vocabulary import measured_in
 from pico.optimize.problem import Nominal
+from pico.planning.nominal_arms import nominal_arms, seen_by
 from pico.planning.nominal_bench import STEERS, Astray, NominalBench, places
 
 if TYPE_CHECKING:
@@ -116,9 +117,11 @@ def nominal(setup: Setup, seen: Observation, goal: Goal, former: Sequence[Goal] 
     """Return what is known of a goal on the bench as seen, its parts where they are thought to stand; None where the
     beam does not come to where it is wanted, or a tunable does not move it there. `former`: goals that will have been
     met before it, by which the beam is where they want it."""
-    if any(address.rpartition(".")[2] not in MOVES for address in goal.tunables):
-        return None
     try:
+        if seen_by(goal):
+            return nominal_arms(setup, seen, goal)
+        if any(address.rpartition(".")[2] not in MOVES for address in goal.tunables):
+            return None
         return _nominal(setup, seen, goal, former)
     except Astray:
         return None

@@ -15,6 +15,7 @@ from pico.backends.sim.store import load_world
 from pico.bench.bench import Bench
 from pico.diagnostics import PicoError
 from pico.optics.light import Light, light_of
+from pico.optics.nominal.arms import meeting
 from pico.optics.offsets import Place, offset
 
 HEAD = """\
@@ -195,3 +196,48 @@ def test_two_arms_of_an_interferometer_are_brought_one_on_the_other(tmp_path: Pa
 def test_arms_that_nothing_can_stop_are_not_told_apart(tmp_path: Path) -> None:
     with two_arms(tmp_path, "over") as it:
         assert "a shutter in each arm" in refused(it, "overlap", "cam", "far")
+
+
+def white_light(folder: Path, lamp: str = "white_light_source", tip: float = 1.0) -> Bench:
+    """Open the Mach-Zehnder example with another source and a small camera, put down with errors of its seats, an arm
+    0.2 mm too short."""
+    lab = yaml.safe_load((INTERFEROMETER / "lab.yaml").read_text())
+    table = yaml.safe_load((INTERFEROMETER / "state" / "table.yaml").read_text())
+    parts, own = lab["inventory"], table["components"]
+    parts["laser"]["type"] = lamp
+    parts["cam"]["parameters"] = {"pixels_across": 640, "pixels_up": 512, "pixel_size": 13}
+    own["m3"]["tip"] = tip
+    own["delay"] = {"stage_x": 4.9}
+    lab["sim"] = {"fidelity": "kinematic", "seed": 3, "errors": {"seat": 0.3}}
+    (folder / "lab.yaml").write_text(yaml.safe_dump(lab))
+    (folder / "table.yaml").write_text(yaml.safe_dump(table))
+    opened = pico.open(folder)
+    assert opened.apply().outcome == "done"
+    return opened
+
+
+@pytest.mark.slow
+def test_arms_are_made_as_long_as_one_another_in_white_light(tmp_path: Path) -> None:
+    """Where cameras see a mirror 10 um from where it truly is, fringes are 10 widths away, and dark to both sides."""
+    with white_light(tmp_path) as it:
+        it.sim.upset("m2", ahead=0.01)
+        begun = meeting(truth(it, tmp_path), "cam")
+        assert begun and abs(begun.delay) > 0.2 and begun.length < 0.003
+        found = it.optimize("zero_delay", "delay", "cam")
+        assert found.met and found.first is None, found
+        ended = meeting(truth(it, tmp_path), "cam")
+        assert ended and abs(ended.delay) < 3e-4, ended
+        assert found.last and found.last["cam.fringes.visibility"] == pytest.approx(ended.contrast, rel=0.15)
+        assert 6 < found.measurements < 60
+
+
+def test_arms_are_not_compared_where_fringes_would_not_tell(tmp_path: Path) -> None:
+    with white_light(tmp_path, "hene_laser") as it:
+        assert "of a single frequency" in refused(it, "zero_delay", "delay", "cam")
+        assert "makes one arm longer" in refused(it, "zero_delay", "m1.piezo", "cam")
+
+
+def test_arms_that_do_not_overlap_show_no_fringes(tmp_path: Path) -> None:
+    with white_light(tmp_path, tip=2.0) as it:
+        it.apply(it.single("m2", "set", tip=-2.0))
+        assert "`overlap`" in refused(it, "zero_delay", "delay", "cam")

@@ -3,6 +3,7 @@ the table in benchmarks/kernels.py, which has frames of a whole camera."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from statistics import median
@@ -137,6 +138,23 @@ def test_the_visibility_of_fringes_is_that_of_the_light() -> None:
 
 def test_a_beam_without_fringes_has_none() -> None:
     assert measured("visibility", picture(ROUND, SHAPE, 1)).unknown.startswith("there are no fringes")
+
+
+@pytest.mark.parametrize("apart", [1.2, 1.6, 2.0])
+@pytest.mark.parametrize("middle", [(240, 200), (150, 140), (330, 150)])
+def test_two_spots_side_by_side_are_no_fringes(apart: float, middle: tuple[int, int]) -> None:
+    """Their transform goes up and down, too, wherever on the sensor they are: its skirt is no line."""
+    y, x = np.mgrid[:400, :480]
+    radius, (at, up) = 40.0, middle
+    spots = sum(
+        np.exp(-2 * ((x - at - side * apart * radius / 2) ** 2 + (y - up) ** 2) / radius**2) for side in (-1, 1)
+    )
+    frame = picture(ROUND, SHAPE, 1)
+    found = measured("visibility", replace(frame, pixels=64 + 900 * spots))
+    assert found.unknown or found.value["visibility"] < 0.05
+    found = measured("visibility", replace(frame, pixels=64 + 900 * spots * (1 + 0.3 * np.cos(2 * math.pi * x / 17))))
+    assert found.value["visibility"] == pytest.approx(0.3, abs=0.02)
+    assert found.value["period"] == pytest.approx(17 * frame.pixel_size, rel=0.02)
 
 
 @pytest.mark.parametrize("x", [0.0, 12.0])

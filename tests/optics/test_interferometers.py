@@ -34,7 +34,7 @@ from pico.kernels.standard import visibility as fringes
 from pico.model.catalog import ComponentType, SpectralLine
 from pico.model.pose import Pose
 from pico.optics.beam_table import troubles
-from pico.optics.coherence import degree, spectra_of
+from pico.optics.coherence import Line, coherence_length, degree, spectra_of
 from pico.optics.instruments import camera_frame, power_on, sensor_of
 from pico.optics.light import irradiance, out_of_step
 
@@ -225,3 +225,14 @@ def test_frames_show_the_visibility_within_its_sigma(delta: float) -> None:
         told = fringes.apply(frame, {})
         off.append((told.value["visibility"] - reference) / told.sigma["visibility"])
     assert np.abs(off).max() < 4 and abs(np.mean(off)) < 4 / math.sqrt(len(off))
+
+
+def test_light_is_coherent_over_what_its_spectrum_says() -> None:
+    """exp(-(pi w d)^2 / (4 ln 2)) of a Gaussian, exp(-pi w d) of a Lorentzian, cos(pi w d) of two modes, at 1/e."""
+    for width in (0.01, 431.0):
+        (gaussian, lorentzian) = ((None, 1.0, (Line(0.0, width, shape, 1.0),)) for shape in ("gaussian", "lorentzian"))  # type: ignore[arg-type]
+        assert coherence_length([gaussian]) == pytest.approx(2 * math.sqrt(math.log(2)) / (math.pi * width), rel=0.06)
+        assert coherence_length([lorentzian]) == pytest.approx(1 / (math.pi * width), rel=0.06)
+    modes = tuple(Line(side / (2 * MODE), 0.0, "gaussian", 0.5) for side in (-1, 1))
+    assert coherence_length([(None, 1.0, modes)]) == pytest.approx(MODE * math.acos(1 / math.e) / math.pi, rel=0.06)
+    assert coherence_length([(None, 1.0, ())]) == math.inf

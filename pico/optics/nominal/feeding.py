@@ -70,7 +70,10 @@ def _numbers(setup: Setup, goal: Goal, steering: int) -> tuple[str, ...]:
     meets the detectors, and from where, as far as there are tunables for both."""
     if goal.reach and all(number.partition(".")[2] in TOLD for number in goal.reach):
         return tuple(goal.reach)
-    parts = dict.fromkeys(component for component, _ in measured_in(setup, goal.texts))
+    measured = measured_in(setup, goal.texts)
+    if any("visibility" in (setup.measurables_of(part)[name].kernel or "") for part, name in measured):
+        return ()  # of fringes: where spots are says nothing of how long arms are
+    parts = dict.fromkeys(component for component, _ in measured)
     told = ("spot.left", "spot.up", "way.left", "way.up")[: 4 if steering > 2 else 2]
     return tuple(f"{part}.{number}" for part in parts for number in told)
 
