@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from pico.bench.ready.asked import Asked, Ready
 from pico.bench.ready.tuning import ALONG, tuned
 from pico.model.lab import Budget, Goal
+from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_arms import CLEAR, VISIBILITY, met
 
 TAKES = "STAGE CAMERA: arms as long as one another, where fringes are clearest"
