@@ -9,18 +9,19 @@ import typer
 
 from pico.diagnostics import PicoError, error
 
-from ..arguments import Scoped, group, scope_of
+from ..arguments import Fidelity, LockTimeout, Scoped, Yes, group, scope_of
 from ..session import Session
 from ..terminal.waiting import waiting
-from ..views import compared, exported, plotted, published
+from ..views import compared, exported, plotted, published, replayed
 from ..views import recorded as view
 from ..views import runs as table
 
 if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic
+    from pico.runs.operations import OperationRun
 
 app = group(
-    help="List, show, compare, plot and export the runs that commits carry.",
+    help="List, show, compare, plot, export and replay the runs that commits carry.",
     examples=(
         "pico runs",
         "pico runs list main..e1 -- p2",
@@ -194,3 +195,39 @@ def plot(
     title = f"{found.document.goal}, {found.document.id}"
     session.show(plotted, title, points)
     session.draw(picture, points.y_name, lambda path: write_png(scatter.picture(title, points), path))
+
+
+@app.command()
+def replay(
+    context: typer.Context, run: Run = None, auto_approve: Yes = False, fidelity: Fidelity = None,
+    lock_timeout: LockTimeout = None,
+) -> int:  # fmt: skip
+    """Do again what a run did, on the bench as it is now, as one run.
+
+    Each operation is planned and checked anew; numbers are set beside those of then. What only a search or a person
+    did is refused before anything moves.
+
+    Examples:
+      pico runs replay 20260101
+    """
+    from pico.diagnostics import ExitCode
+    from pico.scripting.replaying import replay as again
+    from pico.scripting.replaying import steps
+
+    session = Session.of(context)
+    session.require_answer(auto_approve)
+    bench = session.bench(fidelity, writing=True)
+    found, _ = bench.history.recorded_run(run)
+    planned = steps(found)
+    session.say(replayed.head(found.document.id, planned))
+    if not session.confirm("Do it again?", auto_approve):
+        session.say("Nothing moved.")
+        return ExitCode.ERROR
+
+    def say(op: OperationRun) -> None:
+        if not session.json:
+            session.say(replayed.step(op))
+
+    made = again(bench, found, say)
+    session.show(replayed, made)
+    return int(made.report.exit_code)
