@@ -133,7 +133,7 @@ class Loops:
     ) -> Iterator[str]:
         """Yield what is wrong with how a loop ended."""
         before, after = worlds
-        yield from outside(after, sought)
+        yield from outside(setup, after, sought)
         if kind == "INT INT":  # what is on its way stays there, shutters close, exposures are as they are
             self.count["stopped at once"] += 1
             return
@@ -151,11 +151,13 @@ class Loops:
             yield f"worse: {first:.6g}, now {last:.6g}, sigma {sigma(found):.3g}; met {found.met}, {found.why}"
 
 
-def outside(world: World, sought: Sought) -> Iterator[str]:
-    """Yield tunables that are not within their bounds."""
+def outside(setup: Setup, world: World, sought: Sought) -> Iterator[str]:
+    """Yield tunables that are not within their bounds; an angle that comes round within them never is."""
     for address, value in stands(world, sought).items():
         low, high = sought.bounds[address]
-        if not low - 1e-9 <= value <= high + 1e-9:
+        component, _, tunable = address.partition(".")
+        period = setup.type_of(component).tunables[tunable].period
+        if not (low - 1e-9 <= value <= high + 1e-9 or (period and period <= high - low)):
             yield f"{address} is at {value:g}, outside {low:g} to {high:g}"
 
 
@@ -227,11 +229,11 @@ class Kills:
             return
         self.count["server killed" if served else "command killed"] += 1
         left, _ = load_world(setup, folder)
-        yield from outside(left, sought)
+        yield from outside(setup, left, sought)
         way = self.draw.choice(("resume", "undo"))
         code = command(folder, way, "--yes")
         after, _ = load_world(setup, folder)
-        yield from outside(after, sought)
+        yield from outside(setup, after, sought)
         wanted, found = others(before, sought), others(after, sought)
         if changed := {k: (v, found[k]) for k, v in wanted.items() if found[k] != v}:
             yield f"{way} ({code}) left otherwise: {changed}; {(folder / 'out.txt').read_text()[-300:]}"

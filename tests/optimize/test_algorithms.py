@@ -146,6 +146,22 @@ def test_a_radius_is_found_on_a_hyperbola(waist: float, small: float) -> None:
     assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= 6
 
 
+@pytest.mark.parametrize("lost", [(4,), (4, 5), (5,), (2, 5, 6)])
+def test_a_waist_is_found_where_something_was_read_and_not_where_a_reading_was_lost(lost: tuple[int, ...]) -> None:
+    problem = Problem((Variable("l.x", -6.0, 6.0, -4.0),), ("cam.x",), "minimize")
+    count = 0
+
+    def read(p: Point) -> dict[str, float]:
+        nonlocal count
+        count += 1
+        return {} if count in lost else {"cam.x": 50 * math.hypot(1, (p["l.x"] - 2) / 3), "cam.x_sigma": 0.05}
+
+    algorithm, seen = made("waist_parabola", problem), []
+    driven(algorithm, lambda p: seen.append({**p, **read(p)}) or seen[-1])  # type: ignore[func-returns-value]
+    assert algorithm.finished == "the waist is found"
+    assert min(r.get("cam.x", math.inf) for r in seen) < 50.2
+
+
 @given(st.floats(-1.9, 2.5), st.floats(-1.9, 2.5))
 def test_a_spiral_finds_a_spot_anywhere_near(x: float, y: float) -> None:
     problem = Problem(VARIABLES[:2], ("cam.x",), "maximize")

@@ -48,6 +48,8 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
                 at = variable.within(base - turn * step / 2)
             continue
         at = _next(problem, seen)
+        if not problem.measured(result):
+            continue  # where the parabola has it nothing was read yet
         if problem.aim == "minimize" and abs(at - before) <= parameters["within"] * variable.span:
             return "the waist is found"
         before = at
