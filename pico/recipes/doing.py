@@ -5,9 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.scripting.outcome import require_done, require_possible
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -65,9 +66,7 @@ class Doing:
         from pico.recipes.taken_up import measured_before
 
         plan = plan.for_recipe(self.recipe, self.step)
-        if plan.exit_code:
-            raise PicoError([d for d in plan.diagnostics if d.severity == "error"] or _denied(plan), plan.exit_code)
-        if not plan.operations:
+        if not require_possible(plan).operations:
             return {}
         if (before := measured_before(self.bench, self.begun, plan)) is not None:
             return before
@@ -78,11 +77,7 @@ class Doing:
         report = run.report
         if came or report.exit_code == ExitCode.INTERRUPTED:
             raise PicoError(error("interrupted", f"interrupted at step {self.step}"), ExitCode.INTERRUPTED)
-        if report.exit_code:
-            wrong = [d for d in report.diagnostics if d.severity == "error"]
-            found = wrong or [error("failed", f"run {report.run} did not reach its goal", hint="`pico runs show`")]
-            raise PicoError(found, report.exit_code)
-        return report.measurements
+        return require_done(report).measurements
 
     def pause(self, seconds: float) -> None:
         """Let time pass on the bench's clock [s]: a simulated one passes at once."""
@@ -90,9 +85,3 @@ class Doing:
             self.bench.sim.wait(seconds)
         else:
             time.sleep(seconds)
-
-
-def _denied(plan: Plan) -> list[Any]:
-    broken = [rule for rule in plan.policy if not rule.get("holds") and rule.get("level") == "mandatory"]
-    said = "; ".join(str(rule.get("message") or rule.get("name")) for rule in broken)
-    return [error("denied", f"the policy of {plan.lab.name} does not allow it: {said}")]

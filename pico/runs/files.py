@@ -43,10 +43,11 @@ def run_files(
 ) -> dict[str, bytes]:
     """Return the files of a run by path relative to the lab, the document with the hashes of the other two.
 
-    Where there is somebody to `keep` it, a file above INLINE (FOLDED of runs in one) goes there packed by gzip, and is
-    an artifact.
+    Where there is somebody to `keep` it, a file above INLINE (FOLDED of runs in one, and of what a script did) goes
+    there packed by gzip, and is an artifact.
     """
-    texts, most = {TRACE: jsonl(trace), MEASUREMENTS: jsonl(measurements)}, FOLDED if document.folded else INLINE
+    texts = {TRACE: jsonl(trace), MEASUREMENTS: jsonl(measurements)}
+    most = FOLDED if document.folded or document.cause.kind == "recording" else INLINE
     large = {name: packed(data) for name, data in texts.items() if keep and len(data) > most}
     for data in large.values():
         assert keep is not None

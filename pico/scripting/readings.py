@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 from pico.model.measurement import Measurement
+from pico.runs.event_model import epoch
 from pico.scripting.protocol import Scripted
 
 if TYPE_CHECKING:
@@ -157,8 +157,3 @@ class Measurable:
 
     def _keys(self, found: Measurement) -> dict[str, tuple[float, float | None, str]]:
         return {f"{self.name}-{number}" if number else self.name: told for number, told in found.numbers.items()}
-
-
-def epoch(at: str) -> float:
-    """Return a time by the wall, ISO 8601, as seconds since 1970."""
-    return datetime.fromisoformat(at).timestamp()

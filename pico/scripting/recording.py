@@ -10,6 +10,7 @@ import signal
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from html import escape
 from typing import TYPE_CHECKING, Any, Self
 
 from pico.bench.opened import Opened
@@ -24,6 +25,7 @@ from pico.scripting.tables import Table
 
 if TYPE_CHECKING:
     from pico.model.measurement import Measurement
+    from pico.runs.document import RecordedRun
 
 ENDING = (signal.SIGTERM, signal.SIGHUP)
 """Signals that end the block as Ctrl-C does, so that its run is told as interrupted."""
@@ -61,12 +63,24 @@ class Recording:
         return tuple(measurement_from_json(one) for one in found if one)
 
     @property
+    def recorded(self) -> RecordedRun:
+        """The run with its trace until now; raises PicoError where nothing was done in it yet."""
+        memory = self.opened.edge.memory
+        if not self.id or memory is None or not memory.records(run=self.id):
+            raise PicoError(error("nothing", f"nothing was done in the run {self.name} yet"))
+        return self.opened.history.recorded_run(self.id)[0]
+
+    @property
     def table(self) -> Table:
-        """What was measured in the run until now, a row each, beside the tunables that it changed."""
-        return Table(self.opened.setup, self.opened.history.recorded_run(self.id)[0])
+        """What was measured in the run until now, a row each, beside the tunables that it changed; raises PicoError
+        where nothing was done in it yet."""
+        return Table(self.opened.setup, self.recorded)
 
     def _repr_html_(self) -> str:
-        return self.opened.history.recorded_run(self.id)[0]._repr_html_() if self.id else repr(self)[1:-1]
+        try:
+            return self.recorded._repr_html_()
+        except PicoError:
+            return f"<div>{escape(repr(self))}</div>"
 
     def __enter__(self) -> Self:
         """Take the bench; raises PicoError where somebody else has it (exit code LOCKED), or records on it already."""

@@ -9,8 +9,8 @@ from pico.model.catalog import Tunable as Kind
 from pico.model.quantities import Value
 from pico.model.report import RunReport
 from pico.model.request import read_value
+from pico.runs.event_model import epoch
 from pico.scripting.protocol import Scripted
-from pico.scripting.readings import epoch
 from pico.scripting.status import Status
 
 _DTYPES = {"float": "number", "bool": "boolean", "choice": "string"}

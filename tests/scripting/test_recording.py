@@ -182,6 +182,23 @@ def test_a_commit_carries_it_as_one_run(bench: Bench) -> None:
     assert commit is not None and [e.after for e in found.trace if e.kind == "done"][-1] is not None
 
 
+def test_a_run_in_which_nothing_was_done_says_so(bench: Bench) -> None:
+    with bench.record("empty") as run:
+        assert run._repr_html_().startswith("<div>")
+        with pytest.raises(PicoError, match="nothing was done in the run empty yet"):
+            _ = run.table
+    assert (run.report.outcome, run.report.done) == ("done", 0)
+
+
+def test_a_commit_has_all_lines_of_a_scan(bench: Bench) -> None:
+    with bench.record("scan") as run:
+        for n in range(60):
+            turn(bench, 10 + n)
+    assert bench.commit("Scanned", "capture").runs == (run.id,)
+    found, _ = bench.history.recorded_run(run.id)
+    assert not found.document.artifacts and len([e for e in found.trace if e.kind == "done"]) == 60
+
+
 SCRIPT = """
 import signal, sys, pico
 signal.signal(signal.SIGINT, signal.default_int_handler)
