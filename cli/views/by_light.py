@@ -11,9 +11,8 @@ def unfound(goal: str, addresses: Sequence[str]) -> str:
     """Return that a bench is as wanted but for what light has yet to find, and what finds it; empty for nothing."""
     if not addresses:
         return ""
-    first = f"`pico optimize {addresses[0]}`" + (" and so on" if len(addresses) > 1 else "")
-    verb = "finds it" if len(addresses) == 1 else "find them"
-    return f"The bench equals {goal}, but for {listed(addresses)}, which light has yet to find: {first} {verb}."
+    finds = f"`pico optimize {addresses[0]}` finds it" if len(addresses) == 1 else "`pico apply --align` finds them"
+    return f"The bench equals {goal}, but for {listed(addresses)}, which light has yet to find: {finds}."
 
 
 def stays(addresses: Sequence[str]) -> str:
@@ -21,7 +20,7 @@ def stays(addresses: Sequence[str]) -> str:
     if not addresses:
         return ""
     verb, them = ("is", "it") if len(addresses) == 1 else ("are", "them")
-    back = " and ".join(f"`pico optimize {address}`" for address in addresses[:2])
+    back = f"`pico optimize {addresses[0]}`" if len(addresses) == 1 else "`pico apply --align`"
     return (
         f"In the manifest {listed(addresses)} {verb} where light says, which no capture changes: {back} finds {them}."
     )

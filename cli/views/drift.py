@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.bench.drifting.drift import Drift, Drifted, LightLost
 from pico.model.record import as_json
-from pico.model.state import is_reference
+from pico.model.state import is_reference, reference_from_json
 
 from .diff import lines
 from .style import ago, count, listed, paint, wrap
@@ -51,11 +51,11 @@ def _hint(found: Drifted) -> str:
     unseen = [d.change.component for d in beyond if d.change.tunable == "pose" and d.change.after is None]
     lost = [name for name in unseen if name not in held]
     by_hand = {d.change.component: d.by_hand for d in beyond if d.by_hand and d.change.component not in unseen}
-    by_light = [
-        f"`pico optimize {d.change.component}.{d.change.tunable}`" for d in beyond if is_reference(d.change.before)
-    ]
+    referring = [d.change for d in beyond if is_reference(d.change.before)]
+    goals = (reference_from_json(c.before).goal(f"{c.component}.{c.tunable}") for c in referring)
+    by_light = [f"`pico optimize {goal}`" for goal in dict.fromkeys(goals)]
     rest = len([d for d in beyond if not d.by_hand]) - len([name for name in unseen if name not in by_hand])
-    rest -= len(by_light)
+    rest -= len(referring)
     hints = []
     if by_hand:
         why = ", ".join(f"{name} ({said})" for name, said in by_hand.items())

@@ -14,6 +14,7 @@ from pico.model.plan import Plan
 from pico.model.pose import wrap as wrap_angle
 from pico.model.primitive import OWN
 from pico.model.record import as_json
+from pico.model.state import goals_of, state_from_json
 
 from .by_light import unfound
 from .diff import brief
@@ -279,8 +280,10 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
 
 
 def _as_wanted(plan: Plan) -> str:
-    if missed := [d.address for d in plan.diagnostics if d.code == "by-light"]:
-        return f"Nothing to do by numbers. {unfound(goal_name(plan), missed)}"
+    if said := {d.address for d in plan.diagnostics if d.code == "by-light"}:
+        goals = goals_of(state_from_json(plan.lab.name, plan.target.state)).values()
+        missed = [address for of in goals if said & of.keys() for address in of]
+        return f"Nothing to do by numbers. {unfound(goal_name(plan), missed or sorted(said))}"
     if plan.target.cause == "recover":
         return "Nothing to do: no gripper holds anything, and no arm stands where it was stopped."
     return f"Nothing to do: the bench equals {goal_name(plan)}."

@@ -27,18 +27,24 @@ def read_reference(
 
 
 def too_many(state: LabState, place: Callable[[str, str], SourceRange]) -> Iterator[Diagnostic]:
-    """Yield which mirrors are one too many to bring a beam through two irises; `place`: where a component has a
-    tunable."""
+    """Yield which references are one too many: a third mirror that is to bring a beam through two irises, and a second
+    tunable at the null of the same two parts, for one of them can be right whatever the other is. `place`: where a
+    component has a tunable."""
+    nulls: dict[frozenset[str], str] = {}
     for references in goals_of(state).values():
-        mirrors: dict[str, tuple[str, str]] = {}
+        mirrors: dict[str, str] = {}
         for address, one in references.items():
+            component, _, tunable = address.partition(".")
             if one.kind == THROUGH:
-                component, _, tunable = address.partition(".")
-                mirrors.setdefault(component, (component, tunable))
-        for third in [*mirrors.values()][2:]:
-            one = references[".".join(third)]
-            text = f"{', '.join(mirrors)} are all to bring a beam {one.text}, and two of them do"
-            yield error("by-light", text, hint="give one numbers", address=".".join(third), source=place(*third))
+                mirrors.setdefault(component, address)
+            elif (first := nulls.setdefault(frozenset(one.parts), address)) != address:
+                text = f"{first} and {address} are both at the null of {' and '.join(one.parts)}, and one of them does"
+                hint = f"give one a number; what brings {address} there makes {first} stale, and the other way round"
+                yield error("by-light", text, hint=hint, address=address, source=place(component, tunable))
+        for address in [*mirrors.values()][2:]:
+            text = f"{', '.join(mirrors)} are all to bring a beam {references[address].text}, and two of them do"
+            at = place(*address.split("."))
+            yield error("by-light", text, hint="give one numbers", address=address, source=at)
 
 
 class _Reader:

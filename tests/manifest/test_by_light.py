@@ -143,6 +143,14 @@ def test_block_style_becomes_one_line_with_its_comments() -> None:
     assert "    # why\n    angle: {null_of: [p1, p2], offset: 1.0}   # one\n" in laid
 
 
+def test_two_at_the_null_of_the_same_two_parts_are_one_too_many() -> None:
+    text = text_of("{null_of: [p2, p1]}").replace("angle: 90", "angle: {null_of: [p1, p2], offset: 2}", 1)
+    found = load_files({"state.yaml": text.encode()}, setup=SETUP)
+    (wrong,) = [d for d in found.diagnostics if d.severity == "error"]
+    assert "p1.angle and p2.angle are both at the null of p2 and p1, and one of them does" in wrong.summary
+    assert wrong.address == "p2.angle" and str(wrong.source).startswith("state.yaml:10:")
+
+
 def test_a_third_mirror_is_one_too_many_for_two_irises() -> None:
     lab = f"""{LAB}  m3: {{type: mirror_tip_tilt, pose: {{x: 400, y: 600}}}}
 """
