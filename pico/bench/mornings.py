@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from pico.model.plan import Plan
     from pico.model.report import RunReport
 
+LONGEST = 180.0
+"""What a morning may take of a bench [s]; scans that would take longer are left out, the last first."""
 UNUSUAL = 0.5
 """The probability that something happened from which a morning says so."""
 
@@ -97,18 +99,34 @@ class Mornings:
 
         opened, seen = self.opened, self.opened.observe()
         nominal = self._nominal(seen)
-        what = nominal.kept("chosen", "", lambda: chosen(nominal))
         cameras = tuple(n for n in sorted(nominal.poses) if "dark" in opened.setup.measurables_of(n))
         reference, why = reference_for(opened.folder.root, nominal)
+        before = reference.quantities if reference else ()
+        what = nominal.kept("chosen", repr(before), lambda: chosen(nominal, before))
         quantities = reference.quantities if reference else (*what.quantities, *darks(nominal, cameras))
         if not quantities:
             hint = "; ".join(what.lacks) or "no detector stands in a beam"
             raise PicoError(error("morning", "nothing of this bench tells how its light is", hint=hint))
+        found, lacks = self._ahead(seen, quantities), what.lacks
+        while sum(op.seconds for op in found[0].operations) > LONGEST:
+            longest = next((q for q in reversed(quantities) if q.tunable), None)
+            if longest is None:
+                break
+            quantities = tuple(q for q in quantities if q.shots != longest.shots)
+            lacks = (*lacks, f"{longest.name} would be read, were a morning longer than {LONGEST:.0f} s")
+            found = self._ahead(seen, quantities)
+        plan, shots, dark = found
+        return Survey(plan, nominal, replace(what, lacks=lacks), quantities, shots, dark, reference, why)
+
+    def _ahead(
+        self, seen: Observation, quantities: Sequence[Quantity]
+    ) -> tuple[Plan, tuple[Shot, ...], tuple[str, ...]]:
+        """Return the plan of reading some quantities, its shots, and what it takes frames in the dark of."""
         every = tuple({s.key: s for q in quantities for s in q.shots}.values())
         shots = tuple(s for s in every if not s.address.endswith(DARK))
         dark = tuple(s.address for s in every if s.address.endswith(DARK))
-        plan = Plans(opened).to_survey(seen, [(s.address, s.at) for s in shots], [d.partition(".")[0] for d in dark])
-        return Survey(plan, nominal, what, quantities, shots, dark, reference, why)
+        cameras = [d.partition(".")[0] for d in dark]
+        return Plans(self.opened).to_survey(seen, [(s.address, s.at) for s in shots], cameras), shots, dark
 
     def read(
         self, survey: Survey, show: Callable[[Event], None] = lambda _: None,
@@ -152,7 +170,7 @@ class Mornings:
     ) -> Morning:  # fmt: skip
         """Return a morning with its readings beside those of a reference, and who is suspected; of one that was cut
         short nothing is judged."""
-        from pico.diagnosis.repairs import repair
+        from pico.diagnosis.repairs import repair, unread
         from pico.diagnosis.suspects import NOTHING
 
         then = reference.got if reference else (None,) * len(got)
@@ -164,13 +182,15 @@ class Mornings:
         )
         if reference is None or read.cut_short:
             return replace(found, readings=reads)
-        lost = [r for r in reads if r.then is not None and r.now is None and r.unknown != NOT_ASKED]
-        suspects = verdict.suspects if verdict else ()
-        unusual = bool(lost) or (verdict is not None and verdict.quiet < 1 - UNUSUAL)
-        first = next((s for s in suspects if s.kind != NOTHING), None) if unusual else None
+        lost = [q.shots[0].address for q, r in zip(survey.quantities, reads, strict=True)
+                if r.then is not None and r.now is None and r.unknown != NOT_ASKED]  # fmt: skip
+        suspects = _darkened(survey, read, then, got) or (verdict.suspects if verdict else ())
+        changed = sum(s.probability for s in suspects if s.kind != NOTHING) > UNUSUAL
+        first = next((s for s in suspects if s.kind != NOTHING), None) if changed else None
+        how = repair(self.opened.setup, first, survey.nominal.values) if first else unread(lost[0]) if lost else ""
         return replace(
             found, reference=reference.at, age=_age(reference.at, found.at), readings=reads, suspects=suspects,
-            unusual=unusual, repair=repair(self.opened.setup, first, survey.nominal.values) if first else "",
+            unusual=changed or bool(lost), repair=how,
         )  # fmt: skip
 
     def _verdict(
@@ -187,16 +207,32 @@ class Mornings:
 
     def _nominal(self, seen: Observation) -> Nominal:
         """Return the ray model of the bench as it was seen; the last one is kept with what it has traced."""
-        from pico.diagnosis.nominal import Nominal
+        from pico.diagnosis.recorded import nominal_of
 
-        setup = self.opened.setup
-        parts = {n: p for n, p in seen.components.items() if n in setup.lab.inventory and p.presence == "seen"}
-        poses = {n: p.pose for n, p in parts.items() if p.pose is not None}
-        values = {n: dict(seen.known_values.get(n, {})) for n in poses}
+        found = nominal_of(self.opened.setup, seen)
+        poses, values = found.poses, found.values
         key = repr((sorted(poses.items()), sorted((n, sorted(v.items())) for n, v in values.items())))
         if key not in self._nominals:
-            self._nominals = {key: Nominal(setup, poses, values)}
+            self._nominals = {key: found}
         return self._nominals[key]
+
+
+def _darkened(
+    survey: Survey, read: Readings, then: Sequence[Got | None], got: Sequence[Got | None]
+) -> tuple[Suspect, ...]:  # fmt: skip
+    """Return what keeps the light from detectors that read a power with all as it stands, and see none now."""
+    from pico.diagnosis.darkness import darkened
+
+    dark, lit, monitors = set[str](), set[str](), dict[str, float]()
+    for one, before, now in zip(survey.quantities, then, got, strict=True):
+        component, _, measurable = one.shots[0].address.partition(".")
+        if one.law != "share" or len(one.shots) > 1 or before is None or measurable == "dark":
+            continue
+        if measurable == "monitor":
+            monitors[component] = now.value - before.value if now else 0.0
+        elif not any(not a.endswith(".exposure") for a in one.shots[0].at):
+            (dark if read.dark(one) else lit).add(component)
+    return darkened(survey.nominal, dark, lit - dark, monitors) if dark else ()
 
 
 def _read(wanted: Quantity, then: Got | None, now: Got | None, change: float, why: str) -> Read:

@@ -15,6 +15,8 @@ _AXES = ("angle", "opening", "tip", "tilt")
 _STEERS = ("mirror", "plate_splitter", "beam_splitter", "prism", "grating", "roof_mirror", "parabola")
 _BENDS = ("lens", "parabola", "expander", "spatial_filter")
 _DARK = ("block", "none")
+_OPEN = ("iris", "slit")
+"""Elements without a surface in the light that could be dirty."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +62,14 @@ def _causes(setup: Setup, name: str) -> Iterator[Cause]:
         yield Cause(name, "extinction", (Way("leak", "", 0.02, 4.0, 0.05, one_sided=True),))
     if element in _STEERS:
         yield Cause(name, "turned", (_turn("yaw", 3e-4, 0.03), _turn("pitch", 3e-4, 0.03)))
-    if element in (*_BENDS, "iris", "slit"):
+    if element in (*_BENDS, *_OPEN):
         yield Cause(name, "moved across", (_shift("left", 0.001, 0.1), _shift("up", 0.001, 0.1)))
     if element in _BENDS:
         yield Cause(name, "moved along", (_shift("ahead", 0.005, 0.5),))
     if element == "detector":
         yield from _detector(kind, name)
-    yield Cause(name, "dirt", (Way("loss", "", 0.002, 0.2, 0.01, one_sided=True),))
+    if element not in _OPEN:
+        yield Cause(name, "dirt", (Way("loss", "", 0.002, 0.2, 0.01, one_sided=True),))
 
 
 def _detector(kind: ComponentType, name: str) -> Iterator[Cause]:

@@ -39,19 +39,28 @@ class Chosen:
     lacks: tuple[str, ...] = ()
 
 
-def chosen(nominal: Nominal) -> Chosen:
-    """Return what can be read of a bench as it stands; nothing where no light comes to a detector."""
+def chosen(nominal: Nominal, before: tuple[Quantity, ...] = ()) -> Chosen:
+    """Return what can be read of a bench as it stands, or what was `before`; nothing where no light comes to a
+    detector."""
     light = nominal.light()
     lit = [n for n in sorted(light.parts) if light.at(n) and sum(a.power for a in light.at(n)) > 0]
-    found = [q for name in lit for q in _as_it_stands(nominal, name)]
     sources = sorted({a.beam.source for n in lit for a in light.at(n)})
-    monitored = [n for n in sources if "monitor" in _measurables(nominal, n)]
-    found += [Quantity(f"{n}.monitor", (Shot(f"{n}.monitor"),), "monitor", "share") for n in monitored]
     way = _on_the_way(nominal, lit)
-    found += [q for name in way for q in _null(nominal, name, way, lit)]
-    found += [q for name in way for q in _iris(nominal, name, way, lit)]
+    found = list(before or _found(nominal, sources, way, lit))
     parts = tuple(dict.fromkeys([*sources, *way, *lit]))
     return Chosen(tuple(found), parts, tuple(_lacks(nominal, found, sources, lit)))
+
+
+def _found(nominal: Nominal, sources: list[str], way: list[str], lit: list[str]) -> Iterator[Quantity]:
+    for name in lit:
+        yield from _as_it_stands(nominal, name)
+    for name in sources:
+        if "monitor" in _measurables(nominal, name):
+            yield Quantity(f"{name}.monitor", (Shot(f"{name}.monitor"),), "monitor", "share")
+    for name in way:
+        yield from _null(nominal, name, way, lit)
+    for name in way:
+        yield from _iris(nominal, name, way, lit)
 
 
 def darks(nominal: Nominal, names: Iterator[str] | tuple[str, ...]) -> tuple[Quantity, ...]:

@@ -124,16 +124,16 @@ class Nominal:
 
     def matters(self, shot: Shot, part: str) -> bool:
         """Return whether a reading may depend on a part."""
-        return part in self._on_the_way(shot.address.partition(".")[0])
+        return part in self.way(shot.address.partition(".")[0])
 
-    def _on_the_way(self, component: str) -> frozenset[str]:
-        """Return what a reading of a component may depend on: itself, and what its light has met."""
+    def way(self, component: str) -> tuple[str, ...]:
+        """Return what a reading of a component may depend on: the source of its light, what that has met, itself."""
 
-        def met() -> frozenset[str]:
+        def met() -> tuple[str, ...]:
             light = self.light()
             ends = [n for n, c in enumerate(light.crossings) if c.component == component]
-            way = {c.component for n in ends for c in light.way(n)}
-            return frozenset(way | {component} | {light.crossings[n].beam.source for n in ends})
+            parts = (c.component for n in ends for c in light.way(n))
+            return tuple(dict.fromkeys([*(light.crossings[n].beam.source for n in ends), *parts, component]))
 
         return self.kept("way", component, met)
 

@@ -16,6 +16,8 @@ from pico.model.quantities import Value
 
 FLICKER = 0.002
 """By which share light changes from one reading to the next, one standard deviation."""
+DARK = 2.0
+"""Standard deviations below which a reading of a share tells no more than that there is no light."""
 Law = Literal["as it is", "share", "null", "depth", "peak"]
 
 
@@ -67,7 +69,8 @@ def quantity(wanted: Quantity, readings: Sequence[tuple[float, float]]) -> Got |
         return Got(*readings[0])
     if wanted.law == "share":
         value, sigma = readings[0]
-        return Got(math.log(value), math.hypot(FLICKER, sigma / value)) if value > 2 * sigma else None
+        least = max(value, DARK * sigma)  # in the dark it is no more than that
+        return Got(math.log(least), math.hypot(FLICKER, sigma / least)) if least > 0 else None
     at = np.array([float(shot.at[wanted.tunable]) for shot in wanted.shots])
     values, sigmas = (np.array(each) for each in zip(*readings, strict=True))
     if wanted.law == "peak":

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from pico.diagnosis.darkness import NO_LIGHT, STOPS
 from pico.model.lab import Setup
 
 if TYPE_CHECKING:
@@ -25,8 +26,10 @@ def repair(setup: Setup, suspect: Suspect, values: Mapping[str, Mapping[str, Any
             return f"`pico do {part} home {tunable}`; where that does not help its mount slipped: turn it back by hand"
         return f"turn {part} back in its mount"
     hands = {
+        NO_LIGHT: f"look at {part}: its key, its supply, its shutter",
+        STOPS: f"look for what stands in the beam up to {[part, *suspect.like][-1]}; `pico beam` shows its way",
         "power": f"look at the supply of {part}, and let it warm up",
-        "dirt": f"clean {part}",
+        "dirt": _cleaned(part, suspect.like),
         "extinction": f"clean {part}; where that does not help it is worn: put in another",
         "gain": f"check the gain of {part}, and the filter before it",
         "dark level": f"close {part} to light of the room, and let it cool; `pico measure {part}.dark` shows a frame",
@@ -37,6 +40,17 @@ def repair(setup: Setup, suspect: Suspect, values: Mapping[str, Mapping[str, Any
     if kind == "moved across" and setup.type_of(part).optics.element == "detector":
         return f"fasten {part} and put it back; where it may stay, `pico morning --accept`"
     return _by_light(setup, part, values) or f"put {part} back by hand"
+
+
+def _cleaned(part: str, like: Sequence[str]) -> str:
+    if not like:
+        return f"clean {part}"
+    return f"clean {part}; where `pico morning` still says so, {' then '.join(like)}"
+
+
+def unread(address: str) -> str:
+    """Return what to do where all that was read is as usual, but one measurement could not be taken."""
+    return f"`pico measure {address}` reads it again, and says what is wrong"
 
 
 def _by_light(setup: Setup, part: str, values: Mapping[str, Mapping[str, Any]]) -> str:

@@ -52,14 +52,13 @@ def direction(slope: Any, cause: Cause, spread: Any) -> Any:
 
 
 def alike(number: int, possible: Sequence[Cause], directions: Sequence[Any]) -> tuple[str, ...]:
-    """Return the parts of which some cause spans what this one does."""
-    own = directions[number]
-    found = set()
+    """Return the parts of which some cause spans what this one does, in their order."""
+    own, found = directions[number], list[str]()
     for n, other in enumerate(directions):
         if possible[n].part == possible[number].part:
             continue
         base, _ = np.linalg.qr(other)
         kept, size = np.linalg.norm(base @ (base.T @ own)), np.linalg.norm(own)
         if size > 0 and kept / size > ALIKE:
-            found.add(possible[n].part)
-    return tuple(sorted(found))
+            found.append(possible[n].part)
+    return tuple(dict.fromkeys(found))

@@ -32,7 +32,7 @@ _ALIKE = 0.01
 """Standard deviations of the beam by which a region may still move when it counts as settled."""
 _CUT = 1 / (1 - math.log(1 / _START) * _START / (1 - _START))
 """By how much the variances of a Gaussian are larger than those of its part above `_START` of its peak."""
-_DARK = "there is no light above the background"
+DARK = "there is no light above the background"
 _ADRIFT = "the region of integration does not settle: the background is not flat, or the beam is not alone"
 
 
@@ -71,11 +71,11 @@ def found(frame: Frame) -> Start | str:
     top = float(smooth.max())
     noise = math.sqrt(behind.variance) / by
     if top < _SIGNIFICANT * noise or top <= 0:
-        return _DARK
+        return DARK
     own = np.where(smooth > max(_START * top, 2 * noise), above, np.float32(0))
     total, moments = _moments(sums(own.astype(np.float64), (0, 0)))
     if total <= 0:
-        return _DARK
+        return DARK
     moments[2:] = np.maximum(moments[2:] * _CUT, [0.1, 0.1, -np.inf])
     return Start(_finer(moments, by), coarse, by, behind)
 

@@ -118,6 +118,31 @@ def test_a_killed_one_is_told_and_undone(lit: Path, pico: Pico) -> None:
 
 
 @pytest.mark.slow
+def test_a_dirty_optic_and_a_dead_laser_are_told(lit: Path, pico: Pico) -> None:
+    assert pico("morning", "--yes").code == 0
+    pico("sim", "upset", "p2", "loss=0.3")
+    found = " ".join(pico("morning", "--yes").out.split())
+    assert "100 % one of hwp, p1, lx_125, p2, ly_150 and cam, which nothing tells apart: dirt, -" in found
+    assert "repair: clean hwp; where `pico morning` still says so, p1 then" in found
+    pico("sim", "upset", "laser", "loss=0.9999999")
+    dead = pico("morning", "--yes", "--detailed-exitcode")
+    assert dead.code == 2 and "Not read: cam.power" in dead.out and "no light above the background" in dead.out
+    assert "100 %  laser: no light" in dead.out and "look at laser" in dead.out
+    assert max(len(line) for line in dead.out.splitlines()) <= 120
+
+
+def test_scans_that_would_take_longer_than_a_morning_are_left_out(
+    lit: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = pico("morning", "--dry-run", "--json").data
+    monkeypatch.setattr("pico.bench.mornings.LONGEST", whole["seconds"] - 1.0)
+    less = pico("morning", "--dry-run", "--json").data
+    names = [{q["name"] for q in found["quantities"]} for found in (whole, less)]
+    assert less["seconds"] <= whole["seconds"] - 1.0 and names[1] < names[0]
+    assert "cam.power" in names[1] and any("were a morning longer" in lack for lack in less["lacks"])
+
+
+@pytest.mark.slow
 def test_a_laser_that_nobody_lets_emit_again_is_not_shut_for_a_dark_frame(lit: Path, pico: Pico) -> None:
     edit(lit / "lab.yaml", "waived: [kinematic, physics, emulated]", "waived: []")
     assert pico("bench", "update", "--yes").code == 0

@@ -39,6 +39,15 @@ def test_what_does_not_tell_is_nothing() -> None:
     flat = [(1.0, 0.001)] * 3
     assert quantity(scan("null", [88.0, 90.0, 92.0]), flat) is None
     assert quantity(scan("peak", [-1.0, 0.0, 1.0]), flat) is None
-    assert quantity(Quantity("q", (Shot("cam.power"),), "power", "share"), [(0.0, 0.1)]) is None
+    assert quantity(Quantity("q", (Shot("cam.power"),), "power", "share"), [(0.0, 0.0)]) is None
+
+
+def test_a_share_in_the_dark_is_no_more_than_its_noise() -> None:
+    found = quantity(Quantity("q", (Shot("pd.voltage"),), "voltage", "share"), [(-0.05, 0.1)])
+    assert (
+        found is not None
+        and found.value == pytest.approx(math.log(0.2))
+        and found.sigma == pytest.approx(0.5, abs=0.01)
+    )
     assert quantity(Quantity("q", (Shot("cam.power"),), "power", "share"), []) is None
     assert quantity(Quantity("q", (Shot("cam.power"),), "power"), [(math.nan, 0.1)]) is None

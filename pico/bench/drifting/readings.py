@@ -31,6 +31,12 @@ class Readings:
     unknown: Mapping[str, str]
     cut_short: bool
 
+    def dark(self, wanted: Quantity) -> bool:
+        """Return whether a quantity was not read for want of light."""
+        from pico.kernels.spot import DARK as NO_LIGHT
+
+        return self.why(wanted) == NO_LIGHT
+
     def got(self, wanted: Quantity) -> Got | None:
         """Return a quantity as it was read; None where it was not."""
         known = [self.numbers.get(shot.key, {}).get(wanted.number) for shot in wanted.shots]
@@ -55,7 +61,10 @@ def readings_of(
     )
     for shot, one in zip(shots, taken, strict=False):
         if "measurable" in one:
-            found[shot.key] = _numbers(root, measurement_from_json(one))
+            measured = measurement_from_json(one)
+            found[shot.key] = _numbers(root, measured)
+            if measured.unknown:
+                unknown[shot.key] = measured.unknown
         else:
             unknown[shot.key] = str(one.get("unknown", ""))
     for address, measurement in report.measurements.items():
