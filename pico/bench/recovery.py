@@ -96,12 +96,15 @@ class Recovery:
         wanted = replace(live, components={**live.components, **before.components})
         off = {(c.component, c.tunable) for c in drift_of(self.opened.setup, seen, wanted) if not c.tolerated}
         only = _addresses(done, off - done) if off - done else ()
+        # what light found matters below the tolerance of its axis, too; a part is put down only so well
+        numbers = all(tunable in self.opened.setup.type_of(component).tunables for component, tunable in done)
         taken = f", with {listed(held)} where it was picked" if held else ""
         target = Target(
             title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run,
             state=wanted.as_json(),
         )  # fmt: skip
-        return Plans(self.opened).to_state(looked, wanted, target, targets=only)
+        targets = tuple(sorted(f"{component}.{tunable}" for component, tunable in done)) if numbers else only
+        return Plans(self.opened).to_state(looked, wanted, target, exact=numbers, targets=targets)
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, sets back what the last run had set for a measurement

@@ -241,3 +241,11 @@ def test_arms_that_do_not_overlap_show_no_fringes(tmp_path: Path) -> None:
     with white_light(tmp_path, tip=2.0) as it:
         it.apply(it.single("m2", "set", tip=-2.0))
         assert "`overlap`" in refused(it, "zero_delay", "delay", "cam")
+
+
+def test_what_light_found_is_taken_back_exactly(tmp_path: Path) -> None:
+    """A hundredth of a milliradian is nothing to the axis of a mirror, and something to light."""
+    with bench(tmp_path, TWO_MIRRORS, m2={"tip": 0.258, "tilt": 0.1}) as it:
+        it.apply(it.single("m2", "set", tip=0.269))
+        assert it.apply(it.recovery.undo_plan()).outcome == "done"
+        assert it.observe().known_values["m2"] == {"tip": 0.258, "tilt": 0.1}
