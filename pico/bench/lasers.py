@@ -11,7 +11,7 @@ from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.model.arming import Arming, LaserClass, Licence
-from pico.model.observation import Observation
+from pico.model.observation import Observation, with_value
 from pico.model.record import record
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import licensed, may_shine
@@ -112,15 +112,25 @@ class Lasers:
 
     def plan(self, given: Arming) -> Plan:
         """Return the plan that opens a laser as an arming will allow, with what the beam audit says; raises PicoError.
-        Its operations are none where the laser emits already."""
-        from pico import planning
-        from pico.motion.deferred import DeferredMotion
-
+        Its operations are none where the laser emits already; the audit is of it as if it were opened now."""
         plans, seen = Plans(self.opened), self.opened.observe()
         licence = Licence(laser_class=given.laser_class, by=given.by, ends=given.ends, unattended=given.unattended)
         armed = replace(seen, licences={**(seen.licences or {}), given.laser: licence})
+        row = self._row(seen, given.laser)
+        if row.emits:
+            shut = with_value(
+                armed, *((row.gate, "shutter", "closed") if row.gate else (given.laser, "emission", False))
+            )
+            opening = self._opening(plans, given, shut)
+            return opening if opening.exit_code else self._opening(plans, given, armed)
+        return self._opening(plans, given, armed)
+
+    def _opening(self, plans: Plans, given: Arming, armed: Observation) -> Plan:
+        from pico import planning
+        from pico.motion.deferred import DeferredMotion
+
         found = planning.arm_one(
-            self.opened.setup, armed, given.laser, motion=DeferredMotion(self.opened.setup), **plans.start_of(seen)
+            self.opened.setup, armed, given.laser, motion=DeferredMotion(self.opened.setup), **plans.start_of(armed)
         )
         title = f"{given.laser} armed by {given.by} ({given.role}) up to class {given.laser_class} until {given.ends}"
         return plans.judged(replace(found, target=replace(found.target, title=title)).sealed(), armed)

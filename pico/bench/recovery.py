@@ -47,7 +47,8 @@ class Recovery:
         memory = self._memory()
         refuse_in_use(self.opened)
         last = _last(memory)
-        if last.outcome == "done":
+        sought = _cut_goals(memory, last.run)
+        if last.outcome == "done" and not sought:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
             raise PicoError(error("nothing-to-resume", text, hint=_goes_on(memory)))
         began = _document(memory, last)
@@ -56,7 +57,6 @@ class Recovery:
         if began.open:
             raise PicoError(_recorded(began, last))
         self._as_before(memory)
-        sought = _cut_goals(memory, last.run)
         only = began.target.only or _asked(began, sought)
         seen = self.opened.observe()
         wanted = state_from_json(began.lab.name, began.target.state)
@@ -217,12 +217,14 @@ def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, st
 
 
 def _cut_goals(memory: Memory, run: str) -> dict[str, Operation]:
-    """Return the optimizations of a run that did not come to their end, by the key under which each was begun last."""
+    """Return the optimizations of a run that did not come to their end, by the key under which each was begun last: the
+    process was gone, or a person stopped them."""
+    from pico.optimize.loop import STOPPED
     from pico.runs.journal import operation_from_json
 
     records = memory.records(run=run)
     begun = {r.key for r in records if r.kind == "started"}
-    ended = {r.key for r in records if r.kind == "done"}
+    ended = {r.key for r in records if r.kind == "done" and (r.data.get("data") or {}).get("why") != STOPPED}
     found: dict[str, tuple[str, Operation]] = {}
     for record in records:
         if record.kind == "intent" and record.data.get("primitive") == "optimize" and record.key in begun:

@@ -16,8 +16,9 @@ from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
+from pico.optics.audit.lasers import laser_class
 from pico.planning.checks.beams import shutter_of
-from pico.planning.checks.emission import lets_out, may_shine, refused, uncovers
+from pico.planning.checks.emission import lets_out, licensed, may_shine, refused, uncovers, why_not
 from pico.policy import arming
 
 if TYPE_CHECKING:
@@ -72,6 +73,18 @@ def over(setup: Setup, root: Path, now: str) -> dict[str, str]:
         why = arming.over(setup, one.arming, now) if one.arming else f"its arming can't be read ({one.broken})"
         if why:
             found[one.laser] = why
+    return found
+
+
+def unlicensed(setup: Setup, seen: Observation) -> dict[str, str]:
+    """Return the lasers that may shine and have no licence for the class that they are of, each with why: somebody took
+    the waiver out of the Lab, another laser is in the housing, a clock was set back."""
+    found = {}
+    for laser in arming.lasers(setup):
+        values = seen.known_values.get(laser, {})
+        of = laser_class(setup, laser, values)[0]
+        if may_shine(setup, seen, laser, values) and not licensed(seen, laser, of):
+            found[laser] = f"it is of class {of}, and {why_not(seen, laser, of)}"
     return found
 
 

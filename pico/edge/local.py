@@ -82,6 +82,7 @@ class LocalEdge:
         self.settled: tuple[SettledOperation, ...] = ()
         self._lock, self._clock = BenchLock(root, clock), clock
         self._shutting = asyncio.Lock()
+        self._minded = frozenset[tuple[str, str]]()
         self._shut: tuple[Diagnostic, ...] = ()
         self._able: tuple[Device, Capabilities] | None = None
         self._lease: Lease | None = None
@@ -239,15 +240,26 @@ class LocalEdge:
             await asyncio.sleep(OBEYS)
         return False
 
-    async def _shut_over(self) -> None:
-        """Shut the lasers whose arming is over, as operations that the journal has; one that can't be is tried again,
-        by whoever has the bench next."""
+    async def _shut_over(self, seen: Observation | None = None) -> None:
+        """Shut the lasers whose arming is over, as operations that the journal has, and of what is `seen` those that
+        shine without one; one that can't be is tried again, by whoever has the bench next."""
         from pico.edge import emission
 
         async with self._shutting:
-            for laser, why in emission.over(self.setup, self.root, self._clock()).items():
+            bare = emission.unlicensed(self.setup, seen) if seen is not None else {}
+            for laser, why in (bare | emission.over(self.setup, self.root, self._clock())).items():
                 if self._attempts is None or not await self._shut_one(self._attempts, laser, why):
                     return
+
+    def arming_over(self) -> bool:
+        """Return whether an arming has ended since this was asked last, while nobody has the bench."""
+        from pico.edge import emission
+
+        over = frozenset(emission.over(self.setup, self.root, self._clock()).items())
+        if self._lease is not None or over <= self._minded:
+            return False
+        self._minded = over
+        return True
 
     async def _shut_one(self, attempts: Attempts, laser: str, why: str) -> bool:
         from pico.edge import emission
@@ -319,11 +331,12 @@ class LocalEdge:
             self._steering = doing
             guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None)
             self._attempts, self._lease = Attempts(self.journal, guarded, lease.token), lease
-            self.settled = settle(self.setup, self.journal, await self.observe(), lease.token)
+            seen = await self.observe()
+            self.settled = settle(self.setup, self.journal, seen, lease.token)
             if asked := open_questions(self.journal.unsettled()):
                 raise PicoError(asked)
             if not run:
-                await self._shut_over()
+                await self._shut_over(seen)
         except BaseException:
             await self._leave()
             raise
@@ -411,7 +424,7 @@ class LocalEdge:
             seen = await self.observe()
             require_current(self.setup, job.plan, seen)
             require_allowed(self.setup, job.plan, seen)
-            await self._shut_over()
+            await self._shut_over(seen)
             if not job.within:
                 self._begin(job, run, await self.describe(), lease)
         except BaseException:
@@ -466,8 +479,9 @@ class LocalEdge:
 
         lease = await self._taken(job, self._new(job, run))
         try:
-            require_current(self.setup, job.plan, await self.observe())
-            await self._shut_over()
+            seen = await self.observe()
+            require_current(self.setup, job.plan, seen)
+            await self._shut_over(seen)
             self._begin(job, run, await self.describe(), lease)
         except BaseException:
             await self._leave()

@@ -10,6 +10,8 @@ from pico.diagnostics import SourceRange
 from pico.expressions import Kind
 from pico.recipes.terms import Term
 
+MOST_ITEMS = 10_000
+"""Items of a list, or characters of a text, that a value of a recipe may have."""
 MOST_TURNS = 10_000
 """Turns that a recipe takes in all its loops together; more are a loop that runs away."""
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, SourceRange, error
 from pico.expressions import ExpressionError, UnknownValue
-from pico.recipes.recipe import MOST_TURNS, Act, Assert, Call, Choice, Each, Let, Recipe, Scan, Step, While
+from pico.recipes.recipe import MOST_ITEMS, MOST_TURNS, Act, Assert, Call, Choice, Each, Let, Recipe, Scan, Step, While
 from pico.recipes.scanning import apart, column, columns, row
 from pico.recipes.terms import Term
 
@@ -271,11 +271,15 @@ class _Walker:
         if term.asks:
             known |= yield Ask(f"{path}?", names=term.asks)
         try:
-            return term.value(known)
+            found = term.value(known)
         except ExpressionError as exc:
             if self.ahead and isinstance(exc, UnknownValue):
                 return UNKNOWN
             raise PicoError(_wrong("expression", f"`{term.text}` has no value: {exc}", source, f"step {path}")) from exc
+        if isinstance(found, list | str) and len(found) > MOST_ITEMS:
+            text = f"`{term.text}` has {len(found)} items; a value has at most {MOST_ITEMS}"
+            raise PicoError(_wrong("bound", text, source, "it is taken for one that runs away"))
+        return found
 
     def count(self, step: Step) -> None:
         self.turns += 1

@@ -191,3 +191,26 @@ def test_hardware_is_never_waived(guarded: Path, pico: Pico) -> None:
     edit(guarded / "lab.yaml", ROLES, "  arming: {waived: [hardware]}")
     told = pico("validate")
     assert told.code == 1 and "lab.yaml:" in told.err
+
+
+def test_who_takes_the_waiver_out_while_light_is_out_has_it_shut_by_the_next_run(shel: Path, pico: Pico) -> None:
+    assert pico("apply", "--yes").code == 0 and row(pico)["emits"]
+    text = (shel / "lab.yaml").read_text()
+    line = next(line for line in text.splitlines() if line.startswith(WAIVED))
+    (shel / "lab.yaml").write_text(text.replace(line, ROLES))
+    assert pico("bench", "update", "--yes").code == 0
+    told = pico("set", "p1", "angle=20", "--yes")
+    assert told.code == 0 and not row(pico)["emits"]
+    assert "laser was shut: it is of class 3R, and nobody has armed it" in told.err + told.out
+
+
+def test_another_laser_in_the_housing_needs_an_arming_of_its_own_and_the_audit(guarded: Path, pico: Pico) -> None:
+    assert pico("apply", "--yes").code == 0 and pico("laser", "arm", "laser", "-y").code == 0 and row(pico)["emits"]
+    text = (guarded / "lab.yaml").read_text()
+    (guarded / "lab.yaml").write_text(text.replace("laser_class: 3R", "laser_class: 3B"))
+    edit(guarded / "lab.yaml", "    type: hene_laser_expanded\n",
+         "    type: hene_laser_expanded\n    parameters: {power: 40}\n")  # fmt: skip
+    assert pico("bench", "update", "--yes").code == 0
+    told = pico("laser", "arm", "laser", "-y")
+    assert told.code == 7 and "beam-audit" in told.err
+    assert pico("set", "p1", "angle=20", "--yes").code == 0 and not row(pico)["emits"]

@@ -160,6 +160,9 @@ def test_ctrl_c_ends_at_the_best_point(placed: Path, pico: Pico) -> None:
     first, last = ([of[f"cam.centroid.{a}"] for a in "xy"] for of in (found["first"], found["last"]))
     assert sum(v**2 for v in last) <= sum(v**2 for v in first) + 1
     assert "killed" not in pico("status").err
+    again = pico("resume", "--yes")  # it goes on from there, and is not taken for done
+    assert again.code == 0 and "begins at the best point" in " ".join((again.err + again.out).split())
+    assert "did all that it was to do" in pico("resume", "--yes").err
 
 
 def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:

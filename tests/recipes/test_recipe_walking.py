@@ -35,6 +35,13 @@ def test_what_is_measured_is_known_by_its_address_and_by_name() -> None:
     assert asked(recipe, lambda _: measured(21.0))[1] == {"q": 42.0}
 
 
+@pytest.mark.parametrize("grows", ["l + l", "l.map(v, v) + l"])
+def test_a_list_that_grows_without_end_is_stopped(grows: str) -> None:
+    recipe = right(f'steps:\n- let: {{l: "[1]"}}\n- while: "true"\n  most: 200\n  steps:\n  - let: {{l: "{grows}"}}\n')
+    _, failed = asked(recipe)
+    assert isinstance(failed, PicoError) and failed.diagnostics[0].code in ("bound", "expression")
+
+
 SCAN = (
     "steps:\n- {scan: {p1.angle: {from: 1, to: 3, step: 1}}, read: cam.power, as: s}\n"
     "returns: {at: s.p1_angle, power: s.cam_power, off: s.cam_power_sigma, part: s.part}\n"

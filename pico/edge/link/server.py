@@ -29,6 +29,8 @@ from pico.vision.calibration import Calibration
 
 FAREWELL = 2.0
 """Seconds in which those who follow a run may ask what became of it, once the edge is to end."""
+MINDS = 1.0
+"""Seconds between two looks at whether an arming is over."""
 READING = frozenset({"events", "report", "film", "describe", "holder", "observe", "unended", "lab", "array"})
 """Calls that are answered until then."""
 
@@ -175,9 +177,20 @@ async def serve(edge: LocalEdge, ready: Callable[[], None] = lambda: None) -> No
     await server.open()
     try:
         ready()
+        minding = asyncio.create_task(_mind(edge))
         await ended.wait()
+        minding.cancel()
     finally:
         await server.close()
+
+
+async def _mind(edge: LocalEdge) -> None:
+    """Shut a laser when its arming ends though nobody works here: who takes the bench does so, and who has it."""
+    while True:
+        await asyncio.sleep(MINDS)
+        if edge.arming_over():
+            with suppress(PicoError):
+                await edge.release(await edge.acquire("the end of an arming"))
 
 
 def edge_of(root: Path, backend: str, fidelity: str) -> LocalEdge:
