@@ -36,9 +36,9 @@ def line(event: Event) -> str:
 
 def text(morning: Morning) -> str:
     """Return what is worth knowing of a morning."""
-    took = f"{len(morning.readings)} quantities in {seconds(morning.seconds)}"
     if morning.cut_short:
-        return f"Cut short: what was read is not judged, and all is set back. {took}."
+        back = "all is set back" if morning.set_back else "not all is set back: `pico status` shows it"
+        return f"Cut short: what was read is not judged, and {back}."
     if not morning.reference:
         why = f"Nothing to compare with: {morning.why}. " if morning.why else ""
         told = "This morning is the reference from now on." if morning.accepted else "It is no reference."
@@ -48,6 +48,7 @@ def text(morning: Morning) -> str:
     changed = [r for r in morning.readings if _unusual(r)]
     if not morning.unusual:
         quiet = next((s.probability for s in morning.suspects if not s.part), 1.0)
+        took = f"{len(morning.readings)} quantities in {seconds(morning.seconds)}"
         title = f"Nothing unusual {since}: {took}, {100 * quiet:.0f} % sure."
         return "\n".join([paint("green", title), *_table(changed), *kept, *_lacks(morning)])
     title = paint("yellow", f"Something happened {since}:")

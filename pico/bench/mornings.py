@@ -55,7 +55,8 @@ class Read:
 class Morning:
     """What a morning found, in a `run` that took `seconds` of the bench. `reference`: when what it is compared with was
     read, empty where there was nothing, and its `age` [s]; `why`: why there was none. `unusual`: whether something
-    happened; `repair`: the shortest, in words. `accepted`: it is the reference from now on."""
+    happened; `repair`: the shortest, in words. `accepted`: it is the reference from now on. `set_back`: whether all
+    that was set for it is known to stand where it stood."""
 
     run: str
     at: str
@@ -70,6 +71,7 @@ class Morning:
     lacks: tuple[str, ...] = ()
     cut_short: bool = False
     accepted: bool = False
+    set_back: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,8 +157,9 @@ class Mornings:
         got = tuple(read.got(q) for q in survey.quantities)
         took = sum(e.data.get("seconds") or 0.0 for e in events if e.kind == "operation_done")
         found = Morning(
-            report.run or "", utc_now(), took, lacks=survey.chosen.lacks, cut_short=read.cut_short, why=survey.why
-        )
+            report.run or "", utc_now(), took, lacks=survey.chosen.lacks, cut_short=read.cut_short, why=survey.why,
+            set_back=_set_back(survey, events),
+        )  # fmt: skip
         found = self._compared(survey, survey.reference, found, read, got)
         lit = bool(survey.chosen.quantities) and any(got)
         if lit and not read.cut_short and (accept or survey.reference is None):
@@ -215,6 +218,16 @@ class Mornings:
         if key not in self._nominals:
             self._nominals = {key: found}
         return self._nominals[key]
+
+
+_BEGAN = ("operation_started", "operation_done", "operation_failed", "operation_unknown")
+
+
+def _set_back(survey: Survey, events: Sequence[Event]) -> bool:
+    """Return whether what a survey set is known to stand where it stood."""
+    began = {op.id: op.arguments["from"] for op in survey.plan.operations if op.primitive == "survey"}
+    told = [e for e in events if e.operation in began and e.kind in _BEGAN]
+    return not told or told[-1].data.get("last") == began[told[-1].operation or ""]
 
 
 def _darkened(

@@ -107,6 +107,14 @@ def test_ctrl_c_sets_all_back_and_keeps_no_reference(lit: Path, pico: Pico) -> N
     assert not (lit / ".pico" / "mornings.json").exists()
 
 
+def test_an_axis_that_sticks_is_told_and_not_said_to_be_set_back(lit: Path, pico: Pico) -> None:
+    pico("sim", "faults", "stick=1", "seed=1")
+    answer = pico("morning", "--yes")
+    assert answer.code not in (0, 130) and "does not go where it is sent" in answer.err
+    assert "not all is set back" in answer.out and not (lit / ".pico" / "mornings.json").exists()
+    pico("sim", "faults", "off")
+
+
 @pytest.mark.slow
 def test_a_killed_one_is_told_and_undone(lit: Path, pico: Pico) -> None:
     process = started(lit)
