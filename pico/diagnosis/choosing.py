@@ -20,8 +20,8 @@ NULL_POINTS = (-2.0, 0.0, 2.0)
 PEAK_POINTS = (-1.0, 0.0, 1.0)
 BESIDE = 0.6
 """How far a beam is moved across an iris [of its radius]: what passes is still Gaussian."""
-OPEN = 3.2
-"""How far an iris is opened for that [radii of the beam]."""
+OPEN, CLOSED = 3.2, 2.4
+"""How far an iris is opened for that, and for what it lets through to tell of its opening [radii of the beam]."""
 FULL = 0.12
 """The share of what a camera can tell that is aimed at."""
 DEEP = 3.0
@@ -222,11 +222,13 @@ def _iris(nominal: Nominal, name: str, way: list[str], lit: list[str]) -> Iterat
     light = nominal.light()
     beam = next(c.beam for c in light.crossings if c.component == name)
     low, high = kind.tunables["opening"].range or (0.0, math.inf)
-    opening = round(max(low, min(high, OPEN * beam.widths[0])), 2)
+    opening, least = (round(max(low, min(high, share * beam.widths[0])), 2) for share in (OPEN, CLOSED))
     closed: Mapping[str, Value] = {f"{name}.opening": opening}
     reads = f"{detectors[0]}.{_power(nominal, detectors[0])}"
     number = reads.partition(".")[2]
-    yield Quantity(f"{name} nearly closed", (_shot(nominal, detectors[0], reads, closed),), number, "share")
+    for to, said in ((opening, "half closed"), (least, "nearly closed")):
+        shot = _shot(nominal, detectors[0], reads, {f"{name}.opening": to})
+        yield Quantity(f"{name} {said}", (shot,), number, "share")
     for before in reversed(way[: way.index(name)]):
         known = nominal.setup.type_of(before)
         axes = [t for t in _ACROSS if _motor(known, t)]
