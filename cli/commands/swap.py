@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from pico.model.lab import Known
     from pico.model.quantities import Value
 
+MOST = 100
+"""Characters of a serial number."""
+
 
 def swap(
     context: typer.Context,
@@ -55,6 +58,9 @@ def swap(
 
     session = Session.of(context)
     root = find_lab(session.folder)
+    if len(serial) > MOST or not serial.isprintable():
+        text = f"`{''.join(c if c.isprintable() else '?' for c in serial[:40])}` is no serial number"
+        raise PicoError(error("usage", text, hint=f"what stands on the part, in one line of at most {MOST} characters"))
     own = {"focal_length": focal_length, "retardance": retardance}
     given = _pairs([*(parameter or ()), *(f"{key}={value}" for key, value in own.items() if value)])
     known = _known(given, sigma, measured, valid_for)

@@ -120,6 +120,10 @@ class _Reader:
         elif self.said == NULL and not wrong and "polarizer" not in map(self._element, names):
             text = f"{names[0]} and {names[1]} are wave plates: light passes both at any angle"
             yield self._error(node, "by-light", text, "one of the two must be a polarizer")
+        elif self.said == NULL and self._element(self.component) == "polarizer" and self.component not in names:
+            text = f"turning {self.component} finds no null of {names[0]} and {names[1]}: it is neither"
+            hint = f"for example `{NULL}: [{names[0]}, {self.component}]`"
+            yield self._error(node, "by-light", text, hint)
         self.named = (names[0], names[1])
 
     def _part(self, node: Node, name: str) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
 from pico.manifest.text.splice import Editor, apply_splices
@@ -24,12 +24,15 @@ def exchanged(
     """Return the one manifest that changes for part `name` to have another specimen, by its path: all else in it stays
     byte for byte. `kind`: its type, None for the same; `parameters`: of this specimen; `known`: when and how well these
     were measured. What was measured of another specimen goes. Raises PicoError."""
+    wrong: list[Diagnostic] = []
     for path, data in sorted(files.items()):
         source = decode(path, data)[0] if b"Lab" in data else None
-        for document in parse(source)[0] if source else ():
+        documents, mistakes = parse(source) if source else ([], [])
+        wrong += mistakes
+        for document in documents:
             if kind_of(document)[0] == "Lab":
                 return {path: _with(document, name, serial, kind, parameters, known).encode()}
-    raise PicoError(error("no-lab", "no Lab here", hint="`pico init` makes one"))
+    raise PicoError(wrong or error("no-lab", "no Lab here", hint="`pico init` makes one"))
 
 
 def _with(

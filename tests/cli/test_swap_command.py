@@ -54,10 +54,15 @@ def test_what_can_not_be_is_refused_where_it_would_stand(kept: Path, pico: Pico)
         (("lx_100", "--serial", "B7", "--type", "plano_conv"), "plano_conv"),
         (("lx_100", "--serial", "B7", "--parameter", "hue=3"), "has no parameter `hue`"),
         (("lx_100", "--serial", "B7", "--parameter", "hue"), "is not KEY=VALUE"),
+        (("lx_100", "--serial", "B7\nC8"), "`B7?C8` is no serial number"),
+        (("lx_100", "--serial", "B" * 500), "is no serial number"),
     ):
         answer = pico("swap", *words, "-y")
         assert answer.code == 1 and said in answer.err and "Traceback" not in answer.err, answer.err
     assert (kept / "lab.yaml").read_bytes() == before and not pico("plan").err
+    (kept / "lab.yaml").write_bytes(before + b"garbage: [\n")  # a broken file is no missing lab
+    answer = pico("swap", "lx_100", "--serial", "B7", "-y")
+    assert answer.code == 1 and "pico init" not in answer.err and "lab.yaml:" in answer.err
 
 
 def test_who_says_no_or_is_not_there_swaps_nothing(kept: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:

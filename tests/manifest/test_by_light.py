@@ -56,6 +56,7 @@ def test_an_offset_is_in_the_unit_of_its_tunable(written: str, offset: float) ->
         ("{null_of: [p1, p3]}", "refers to `p3`, which is not in the inventory"),
         ("{null_of: [p1, lx_100]}", "lx_100 (plano_convex_100) is neither a polarizer nor a waveplate"),
         ("{null_of: [p1, p1]}", "names p1 twice"),
+        ("{null_of: [hwp, p1]}", "turning p2 finds no null of hwp and p1"),
         ("{null_of: [p1]}", "a list of 1, not two parts"),
         ("{null_of: p1}", "`p1`, not two parts"),
         ("{null_of: }", "is empty, not two parts"),
