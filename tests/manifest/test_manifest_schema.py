@@ -48,7 +48,7 @@ def test_manifests_are_valid_in_their_own_schema_and_the_common_one(name: str, t
 def test_everything_we_ship_is_valid() -> None:
     for path in [*catalog_dir().glob("*.yaml"), *labs_dir().rglob("*.yaml")]:
         text = path.read_text(encoding="utf-8")
-        if "apiVersion:" in text:
+        if "apiVersion:" in text and "recipes" not in path.parts:  # these are checked by the reader of recipes
             assert valid("manifest", data(text)), path
 
 
