@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from pico.runs.operations import OperationRun
 
 app = group(
-    help="List, show, compare, plot, export and replay the runs that commits carry.",
+    help="List, show, compare, plot, export and replay runs of commits.",
     examples=(
         "pico runs",
         "pico runs list main..e1 -- p2",

@@ -43,7 +43,7 @@ def test_recipe(recipe, bench):
 
 def test_tests_of_a_lab_have_a_bench_and_its_recipes(case_study: Path, tmp_path: Path) -> None:
     subprocess.run(["git", "clone", "-q", str(case_study), str(tmp_path / "shel")], check=True)
-    (tmp_path / "shel" / "recipes").mkdir()
+    (tmp_path / "shel" / "recipes").mkdir(exist_ok=True)
     (tmp_path / "shel" / "recipes" / "turn.yaml").write_text(RECIPE)
     (tmp_path / "test_shel.py").write_text(TESTS)
     (tmp_path / "pytest.ini").write_text("[pytest]")
