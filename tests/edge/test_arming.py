@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,6 +16,7 @@ from serving import served
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge import armings, own_lab
+from pico.edge.link import server
 from pico.edge.local import embedded
 from pico.edge.protocol import Edge, Lease
 from pico.history.examples.example import make_example
@@ -147,6 +149,38 @@ def test_an_arming_counts_until_its_end_and_then_who_has_the_bench_shuts_the_las
         assert any("laser was shut: the arming by Ada Lovelace ended" in d.summary for d in report.diagnostics)
         assert shutter(bench) == "closed" and not armings.kept(lab)
         assert bench.single("laser", "set", shutter="open").exit_code == ExitCode.DENIED
+
+
+def test_a_bench_that_is_served_shuts_the_laser_when_the_arming_ends_though_nobody_works(
+    lab: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = Clock()
+    with at(lab, clock) as bench:
+        bench.wait(bench.edge.arm(arming()))
+        assert bench.apply(bench.single("laser", "set", shutter="open")).outcome == "done"
+        assert not bench.edge.arming_over()
+        clock.now = EVENING
+
+        async def minded() -> None:
+            monkeypatch.setattr(server, "MINDS", 0.0)
+            minding = asyncio.create_task(server._mind(bench.edge))
+            while armings.kept(lab):
+                await asyncio.sleep(0)
+            minding.cancel()
+
+        bench.wait(minded())
+        assert shutter(bench) == "closed"
+
+
+def test_a_clock_that_is_set_back_to_before_an_arming_began_shuts_what_it_opened(lab: Path) -> None:
+    clock = Clock()
+    with at(lab, clock) as bench:
+        bench.wait(bench.edge.arm(arming()))
+        assert bench.apply(bench.single("laser", "set", shutter="open")).outcome == "done"
+        clock.now = NOON.replace("T12", "T10")
+        report = bench.apply(bench.single("cam", "set", exposure="9"))
+        assert shutter(bench) == "closed"
+        assert any("laser was shut: it is of class 3R" in d.summary for d in report.diagnostics)
 
 
 def test_a_clock_that_is_set_back_does_not_bring_back_an_arming_whose_end_was_seen(lab: Path) -> None:
