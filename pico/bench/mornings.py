@@ -17,8 +17,10 @@ from pico.bench.drifting.references import Reference, keep, reference_for
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnosis.quantities import Got, Quantity, Shot
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.edge.emission import unlicensed
 from pico.edge.lease import utc_now
+from pico.model.plan import UNARMED
 
 if TYPE_CHECKING:
     from pico.diagnosis.choosing import Chosen
@@ -100,6 +102,11 @@ class Mornings:
         from pico.diagnosis.choosing import chosen, darks
 
         opened, seen = self.opened, self.opened.observe()
+        if bare := unlicensed(opened.setup, seen):
+            laser, why = next(iter(bare.items()))
+            text = f"{laser} shines, and must not: {why}"
+            hint = f"`pico laser disarm {laser}` shuts it; `pico laser arm {laser}` lets it shine"
+            raise PicoError(error(UNARMED, text, hint=hint, address=laser), ExitCode.DENIED)
         nominal = self._nominal(seen)
         cameras = tuple(n for n in sorted(nominal.poses) if "dark" in opened.setup.measurables_of(n))
         reference, why = reference_for(opened.folder.root, nominal)

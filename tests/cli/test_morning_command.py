@@ -151,9 +151,10 @@ def test_scans_that_would_take_longer_than_a_morning_are_left_out(
 
 
 @pytest.mark.slow
-def test_a_laser_that_nobody_lets_emit_again_is_not_shut_for_a_dark_frame(lit: Path, pico: Pico) -> None:
+def test_a_laser_that_shines_and_must_not_is_told_before_a_morning_reads_its_light(lit: Path, pico: Pico) -> None:
     edit(lit / "lab.yaml", "waived: [kinematic, physics, emulated]", "waived: []")
     assert pico("bench", "update", "--yes").code == 0
     answer = pico("morning", "--yes")
-    assert "cam dark level  not read" in answer.out and "nobody lets emit" in " ".join(answer.out.split())
-    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "open"
+    assert answer.code == 7 and "laser shines, and must not: it is of class 3R, and nobody has armed it" in answer.err
+    assert pico("laser", "disarm", "laser").code == 0
+    assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "closed"
