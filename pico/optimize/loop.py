@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field, replace
 
-from pico.optimize.extremum import unsaid
+from pico.optimize.extremum import same, unsaid
 from pico.optimize.problem import Algorithm, Point, Problem, Short, Solution, Solver
 
 STOPPED = "it was stopped"
@@ -218,15 +218,14 @@ class _Walk:
             why = type(why)(f"{why} ({self.unknown})")
         if not self.fault:
             why = yield from self._brought(first, why)
+        if first is not None and not self.fault:
+            why = yield from self._weighed(first, why)
         if self.fault:  # what it set besides goes back to where it began
             why = self.fault
             yield from self._ask(self.problem.start, measure=False, why="start")
         last = self.tried[-1] if self.tried else None
         at = last is not None and all(last.result[n] == v for n, v in self.here.items())
         believed = last is not None and at and self._believed(last.result) and not self.fault
-        if believed and last is not None and self.problem.aim != "reach" and not isinstance(why, Short):
-            seen = [t.result for t in self.tried if self._believed(t.result)]
-            why = unsaid(self.problem, seen, last.result) or why
         met = believed and last is not None and (
             self.problem.met(last.result) if self.problem.aim == "reach" else not isinstance(why, Short)
         )  # fmt: skip
@@ -235,6 +234,19 @@ class _Walk:
             begun, last.result if believed and last else None, tuple(self.tried), met, str(why), self.fault,
             self.now - (self.began or 0.0),
         )  # fmt: skip
+
+    def _weighed(self, first: Tried, why: str) -> Generator[Ask, Reading, str]:
+        """Return why it ends, by whether readings say that it is as good as it gets; where they are all the same, it is
+        left where it began: the best of them is the best of noise, or of a beam that was lost."""
+        last, begun = self.tried[-1], _point(self.problem, first)
+        known = self.here == _point(self.problem, last) and self._believed(last.result)
+        if self.problem.aim == "reach" or isinstance(why, Short) or not known:
+            return why
+        seen = [t.result for t in self.tried if self._believed(t.result)]
+        said = unsaid(self.problem, seen, last.result)
+        if said and same(self.problem, seen) and self.here != begun:
+            yield from self._ask(begun, measure=len(self.tried) < self.limits.measurements, why="start")
+        return said or why
 
     def _brought(self, first: Tried | None, why: str) -> Generator[Ask, Reading, str]:
         """Bring the tunables to the best point, or to where they began; return why it ends then."""

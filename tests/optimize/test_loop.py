@@ -271,8 +271,9 @@ def test_what_changes_by_no_more_than_its_noise_is_no_maximum(algorithm: str, si
     def read(point: Point, number: int) -> dict[str, float]:
         return {"pd.power": 1 + sigma * rng.gauss(0, 1), "pd.power_sigma": sigma}
 
-    found, _ = driven(PEAK, algorithm, read, Limits(measurements=400))
+    found, asks = driven(PEAK, algorithm, read, Limits(measurements=400))
     assert not found.met and found.why == "nothing that was tried changed it by more than its noise"
+    assert asks[-1].point == PEAK.start  # the best of noise is none: it is left where it began
 
 
 @pytest.mark.parametrize("aim", ["maximize", "minimize"])
