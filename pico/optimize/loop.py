@@ -240,10 +240,10 @@ class _Walk:
         left where it began: the best of them is the best of noise, or of a beam that was lost."""
         last, begun = self.tried[-1], _point(self.problem, first)
         known = self.here == _point(self.problem, last) and self._believed(last.result)
-        if self.problem.aim == "reach" or isinstance(why, Short) or not known:
+        if self.problem.aim == "reach" or not known:
             return why
         seen = [t.result for t in self.tried if self._believed(t.result)]
-        said = unsaid(self.problem, seen, last.result)
+        said = why if isinstance(why, Short) else unsaid(self.problem, seen, last.result)
         if said and same(self.problem, seen) and self.here != begun:
             yield from self._ask(begun, measure=len(self.tried) < self.limits.measurements, why="start")
         return said or why
