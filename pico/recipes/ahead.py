@@ -114,9 +114,8 @@ class _Ahead:
             self.branch = name
         elif kind == "checkout":
             self.branch = str(given["revision"]) if given["revision"] in self.made else ""
-        if kind in ("tag", "branch", "commit"):
-            for made in {name, self.branch} - {""} if kind != "tag" else {name}:
-                self.made[made] = live_state(self.later.setup, self.later.seen)
+        if made := {"tag": name, "branch": name, "commit": self.branch}.get(kind, ""):
+            self.made[made] = live_state(self.later.setup, self.later.seen)
 
     def to_made(self, given: Mapping[str, Any]) -> Plan | None:
         """Return the plan to a revision that the recipe will have made by then."""

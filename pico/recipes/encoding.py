@@ -12,9 +12,8 @@ from pico.runs.operations import OperationRun, operations
 
 PASSED_OVER = ("park", "survey")
 """What comes with other steps, or has its own command."""
-
-
 MOVES = ("move", "stow")
+"""What takes a part elsewhere."""
 
 
 def encoded(name: str, lab: str, runs: Iterable[RecordedRun]) -> str:

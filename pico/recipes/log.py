@@ -69,7 +69,8 @@ class Log:
         try:
             lines = path.read_text(encoding="utf-8").split("\n")[:-1]
             first, *rest = [json.loads(line) for line in lines]
-            known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at", "texts")}
+            known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at")}
+            known["texts"] = first.get("texts", {})
             if first.get("schema") != SCHEMA:
                 raise ValueError(f"it is {first.get('schema')}")
             ended, steps, times = "", dict[str, Logged](), 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
 
 import numpy as np
@@ -67,7 +68,8 @@ def _next(problem: Problem, seen: list[Result]) -> float:
     sigma = np.array([(r.get(f"{output}_sigma", 0.0) / most) or 0.003 * abs(r[output] / most) for r in seen])
     weight = 1 / (2 * np.maximum(np.abs(w), _FAINT) * np.clip(sigma, _FAINT, 1 / _FAINT))
     middle, scale = variable.start, variable.span
-    c, b, a = np.polyfit((z - middle) / scale, w**2, 2, w=weight)
+    with warnings.catch_warnings(action="ignore", category=np.exceptions.RankWarning):  # then it is along the line
+        c, b, a = np.polyfit((z - middle) / scale, w**2, 2, w=weight)
     low, high = ((end - middle) / scale for end in (variable.low, variable.high))
     if c <= 0:  # no hyperbola: along the line
         return variable.low if b > 0 else variable.high
