@@ -114,7 +114,8 @@ def address_of(component: str, arguments: Mapping[str, Any]) -> str:
 
 def touched_by(component: str, arguments: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """Return the tunables that an operation changes, each with its component; `pose` where it names none."""
-    searched = {**searched_by(arguments), **(arguments.get("from", {}) if "what" in arguments else {})}
+    begun = arguments.get("from", {}) if "what" in arguments else {}  # by address; of a part that is steered its pose
+    searched = dict.fromkeys((*searched_by(arguments), *(address for address in begun if "." in address)))
     found = tuple((one, tunable) for one, _, tunable in (address.partition(".") for address in searched))
     return found or ((component, str(arguments.get("tunable", "pose"))),)
 

@@ -15,7 +15,7 @@ from pico.diagnostics import ExitCode, PicoError
 from pico.edge.recovery import verdict
 from pico.edge.teleoperating import LOST, Teleoperating
 from pico.history.examples.example import make_example
-from pico.model.operation import Operation
+from pico.model.operation import Operation, touched_by
 from pico.model.pose import Pose
 from pico.teleop.frames import Frame
 
@@ -83,6 +83,7 @@ def test_a_part_in_hand_goes_to_where_it_would_come_too_near_and_stands_where_it
 def test_what_was_steered_is_captured_and_undone_as_ever(bench: Bench) -> None:
     before = bench.observe().components["p2"].pose
     with unpaced(bench, "p2", "pose") as jog:
+        assert touched_by("p2", jog.operation.arguments) == (("p2", "pose"),)
         jog.step("x", 5.0)
     bench.capture()
     captured, live = bench.state.components["p2"].pose, bench.observe().components["p2"].pose
