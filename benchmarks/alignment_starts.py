@@ -12,7 +12,7 @@ import numpy as np
 
 from pico.geometry.seat import PlacementError, scatter
 from pico.manifest.catalog import packaged_type
-from pico.model.lab import Environment
+from pico.model.simulated import Environment
 from pico.optics.environment import Disturbed, disturbed
 
 SEEN = PlacementError(x=0.02, y=0.02, yaw=0.01)

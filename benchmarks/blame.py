@@ -36,7 +36,7 @@ sys.path.insert(0, str(ROOT))
 from pico.model.diff import Change  # noqa: E402
 from pico.model.plan import LabRef  # noqa: E402
 from pico.model.record import canonical  # noqa: E402
-from pico.model.run import Cause, Run  # noqa: E402
+from pico.model.trace.run import Cause, Run  # noqa: E402
 
 COLD, WARM = 5.0, 0.2
 PITCH = 100

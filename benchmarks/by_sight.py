@@ -42,11 +42,12 @@ from pico.backends.sim.store import load_world  # noqa: E402
 from pico.cameras.calibrating import calibrate  # noqa: E402
 from pico.cameras.errors import true_cameras  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import ArmErrors, BadLight, Setup, SimErrors  # noqa: E402
 from pico.model.observation import Observation, doubtful  # noqa: E402
 from pico.model.operation import Operation, Reason  # noqa: E402
 from pico.model.pose import Pose, angle_between  # noqa: E402
 from pico.model.record import as_json  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
+from pico.model.simulated import ArmErrors, BadLight, SimErrors  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Blocked  # noqa: E402
 from pico.vision.calibration import write_calibration  # noqa: E402

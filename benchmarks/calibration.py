@@ -33,8 +33,10 @@ from pico.cameras.calibrating import calibrate  # noqa: E402
 from pico.cameras.errors import CameraShift, bumped, true_cameras  # noqa: E402
 from pico.manifest.catalog import load_catalog  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import ArmErrors, Part, Setup, SimErrors  # noqa: E402
+from pico.model.lab import Part  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
+from pico.model.simulated import ArmErrors, SimErrors  # noqa: E402
 from pico.motion.built.correction import told  # noqa: E402
 from pico.motion.built.poses import reached  # noqa: E402
 from pico.motion.kinematics import columns  # noqa: E402

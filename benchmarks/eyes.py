@@ -30,8 +30,9 @@ from pico.cameras.simulated import Eyes, tool_pose  # noqa: E402
 from pico.diagnostics import PicoError  # noqa: E402
 from pico.drawing.picture import posed_model  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import Setup, SimErrors  # noqa: E402
 from pico.model.pose import Pose, angle_between  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
+from pico.model.simulated import SimErrors  # noqa: E402
 from pico.motion.types import Joints  # noqa: E402
 from pico.twin.placement import upright  # noqa: E402
 from pico.vision.calibration import Accuracy, Calibration  # noqa: E402

@@ -12,8 +12,8 @@ from pico.backends.sim.lighted import light_on
 from pico.backends.sim.readings import Table
 from pico.backends.sim.world import World
 from pico.bench.bench import Bench, new_lab
-from pico.model.lab import Setup
 from pico.model.observation import ObservedValue
+from pico.model.setup import Setup
 from pico.optics.instruments import power_on
 
 HEAD = """apiVersion: pico/v1

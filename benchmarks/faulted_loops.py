@@ -38,8 +38,8 @@ from pico.backends.sim.store import load_world, save_world  # noqa: E402
 from pico.backends.sim.world import World  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
 from pico.bench.goals import Optimized  # noqa: E402
-from pico.model.event import Event  # noqa: E402
-from pico.model.lab import Setup  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
+from pico.model.trace.event import Event  # noqa: E402
 
 FAULTS: dict[str, dict[str, float]] = {
     "none": {}, "jam": {"jam": 0.15}, "timeout": {"timeout": 0.3}, "slow": {"slow": 0.3}, "stick": {"stick": 0.08},

@@ -27,9 +27,9 @@ from oracles.proven import prove  # noqa: E402
 
 from pico.history.examples.example import make_example  # noqa: E402
 from pico.manifest.load import load_files, load_folder  # noqa: E402
-from pico.model.lab import Setup  # noqa: E402
 from pico.model.observation import Observation, ObservedComponent, ObservedValue  # noqa: E402
 from pico.model.plan import Base, Plan, Target  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
 from pico.model.state import LabState, place_of  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.planning import plan  # noqa: E402

@@ -35,10 +35,11 @@ from pico.backends.sim.mover import MoveFailed  # noqa: E402
 from pico.backends.sim.physics import PhysicsWorld  # noqa: E402
 from pico.backends.sim.world import new_world  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import Setup, SimErrors  # noqa: E402
 from pico.model.operation import Operation, Reason  # noqa: E402
 from pico.model.pose import Pose, angle_between  # noqa: E402
 from pico.model.record import as_json  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
+from pico.model.simulated import SimErrors  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Blocked, MovePath, StandingObject  # noqa: E402
 from pico.twin.physics import Twin  # noqa: E402

@@ -23,9 +23,10 @@ from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.world import World
 from pico.geometry.seat import PlacementError, Seat, scatter_of
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup, SimErrors
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 from pico.twin.sight import Exact
 
 AXES = ("x", "y", "yaw", "pitch", "roll", "height")

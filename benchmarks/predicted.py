@@ -27,7 +27,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "tests" / "execution"
 from benches import apply, sim  # noqa: E402
 
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import Setup  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
 from pico.model.state import ComponentState, LabState, home_state, place_of  # noqa: E402
 
 LABS = [ROOT / "labs" / name for name in ("shel", "crowded", "minimal", "two_arms")]

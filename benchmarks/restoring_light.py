@@ -26,7 +26,7 @@ from pico.bench.bench import Bench, new_lab
 
 if TYPE_CHECKING:
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.trace.report import RunReport
 
 KEPT, NEAR, LIKE = 0.95, 5.0, 0.20
 """The least share of the light, how near the middle of the spot is to come [um], how far the plan may be wrong."""

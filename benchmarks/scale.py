@@ -35,9 +35,10 @@ from pico.bench.bench import Bench  # noqa: E402
 from pico.geometry import Grid, Shape, finger_height, finger_zones, placed  # noqa: E402
 from pico.manifest.catalog import packaged_type  # noqa: E402
 from pico.model.catalog import ComponentType, Footprint  # noqa: E402
-from pico.model.lab import Gripper, Margins  # noqa: E402
+from pico.model.lab import Margins  # noqa: E402
 from pico.model.plan import Plan, plan_from_json  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
+from pico.model.robot import Gripper  # noqa: E402
 
 TYPES = ("plano_convex_100", "linear_polarizer", "iris", "beam_block", "power_meter", "mirror_tip_tilt")
 SECONDS, MEMORY = 5.0, 500.0

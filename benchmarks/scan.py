@@ -24,8 +24,8 @@ sys.path.insert(0, str(ROOT))
 from pico.backends.sim.world import new_world  # noqa: E402
 from pico.edge.local import embedded  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import SimErrors  # noqa: E402
 from pico.model.pose import angle_between  # noqa: E402
+from pico.model.simulated import SimErrors  # noqa: E402
 
 ERRORS = SimErrors(camera_position=0.2, camera_rotation=0.05, focal_length=0.005, marker_height=0.1)
 

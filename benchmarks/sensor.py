@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from pico.model.lab import SensorErrors
+from pico.model.simulated import SensorErrors
 from pico.optics.beam import Beam, Wave
 from pico.optics.gaussian import from_waist
 from pico.optics.irradiance import Screen, irradiance

@@ -29,7 +29,7 @@ import numpy as np
 import pico
 from pico.backends.sim.lighted import unseen_of
 from pico.backends.sim.store import load_world
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.optics.coupling import coupled
 from pico.optics.environment import in_the_world
 from pico.optics.light import light_of

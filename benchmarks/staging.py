@@ -32,8 +32,8 @@ from feedback_cases import all_to_move  # noqa: E402
 
 from pico.geometry import Shape, conflict, finger_zones, placed  # noqa: E402
 from pico.model.catalog import Footprint, Grasp  # noqa: E402
-from pico.model.lab import Gripper  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
+from pico.model.robot import Gripper  # noqa: E402
 from pico.staging.feedback import (  # noqa: E402
     Arc,
     Component,

@@ -36,9 +36,9 @@ from pico.backends.sim.store import save_world  # noqa: E402
 from pico.backends.sim.world import FreePose, World, new_world  # noqa: E402
 from pico.geometry.mass import bodies_of  # noqa: E402
 from pico.model.catalog import Footprint  # noqa: E402
-from pico.model.lab import Setup  # noqa: E402
 from pico.model.observation import Observation, UnknownObject  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
 from pico.vision.nominal import camera_models  # noqa: E402
 
 WITHIN = 2.0

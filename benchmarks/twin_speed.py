@@ -22,8 +22,9 @@ from pick_and_place import Run, spread  # noqa: E402
 from pico.backends.sim.kinematic import KinematicWorld  # noqa: E402
 from pico.backends.sim.world import new_world  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
-from pico.model.lab import Part, Setup  # noqa: E402
+from pico.model.lab import Part  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
 
 
 class Kinematic(Run):

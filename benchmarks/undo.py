@@ -31,8 +31,8 @@ from kills import command, forked, preload  # noqa: E402
 
 if TYPE_CHECKING:
     from pico.backends.sim.world import World
-    from pico.model.lab import Setup
     from pico.model.pose import Pose
+    from pico.model.setup import Setup
 
 STATE = Path("state") / "table.yaml"
 REVISIONS = ("E1-1", "E2-3", "E3-2")

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from pico.model.observation import Observation
     from pico.model.plan import Plan
     from pico.model.pose import Pose
-    from pico.model.report import Captured, Committed, RunReport
-    from pico.model.run import Run, TraceEvent
     from pico.model.state import LabState
+    from pico.model.trace.report import Captured, Committed, RunReport
+    from pico.model.trace.run import Run, TraceEvent
     from pico.runs.document import RecordedRun
     from pico.scripting.bench import Bench
     from pico.scripting.parts import Part
@@ -33,8 +33,8 @@ _OF = {
     "pico.model.observation": ("Observation",),
     "pico.model.plan": ("Plan",),
     "pico.model.pose": ("Pose",),
-    "pico.model.report": ("Captured", "Committed", "RunReport"),
-    "pico.model.run": ("Run", "TraceEvent"),
+    "pico.model.trace.report": ("Captured", "Committed", "RunReport"),
+    "pico.model.trace.run": ("Run", "TraceEvent"),
     "pico.model.state": ("LabState",),
     "pico.runs.document": ("RecordedRun",),
     "pico.scripting.bench": ("Bench",),

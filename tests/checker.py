@@ -16,11 +16,12 @@ from shapely import Point, Polygon
 from shapely.affinity import rotate, translate
 
 from pico.model.catalog import Footprint, Geometry
-from pico.model.lab import Gripper, Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.robot import Gripper
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 EPSILON = 1e-6

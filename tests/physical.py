@@ -10,10 +10,10 @@ from pico.backends.sim.checks import standing
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.world import World, new_world
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.operation import Operation, Reason
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.motion.arms import ArmMotion
 from pico.motion.types import MovePath
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, new_world
 from pico.edge.lease import BenchLock
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 
 def change_world(setup: Setup, root: Path, holder: str, change: Callable[[World], World]) -> None:

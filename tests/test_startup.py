@@ -57,7 +57,7 @@ def test_a_plan_without_changes_loads_no_physics(bench: Path) -> None:
     unwanted = ("rich", "mujoco", "cv2", "networkx", "scipy", "numpy", "pint", "ruckig", "PIL")
     assert loaded(["plan", "--detailed-exitcode"], bench, unwanted) == set()
     assert loaded(["status"], bench, unwanted) == set()
-    running = ("sqlite3", "pico.execution.walk", "pico.runs.journal", "pico.model.run", "pico.model.report")
+    running = ("sqlite3", "pico.execution.walk", "pico.runs.journal", "pico.model.trace.run", "pico.model.trace.report")
     assert loaded(["plan"], bench, running) == set()
     assert loaded(["log", "--graph"], bench, ("networkx",)) == set()
 

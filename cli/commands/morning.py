@@ -14,7 +14,7 @@ from ..views import optimizing as live
 from ..views import survey as ahead_view
 
 if TYPE_CHECKING:
-    from pico.model.event import Event
+    from pico.model.trace.event import Event
 
 
 def morning(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.bench.goals import Chosen
     from pico.bench.placing import Try
-    from pico.model.event import Event
+    from pico.model.trace.event import Event
 
 
 def optimize(

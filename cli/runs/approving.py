@@ -21,9 +21,9 @@ from .running import Screen, execute, watched
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.model.diff import Change
-    from pico.model.lab import Setup
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.setup import Setup
+    from pico.model.trace.report import RunReport
 
 FEW = 3
 """So many components are named."""

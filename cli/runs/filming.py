@@ -13,8 +13,8 @@ from ..views import film as view
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
-    from pico.model.event import Event
     from pico.model.plan import Plan
+    from pico.model.trace.event import Event
     from pico.twin.snapshot import Recording
 
 

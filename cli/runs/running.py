@@ -20,9 +20,9 @@ from ..views.run import Progress
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.bench.running.execution import Execution
-    from pico.model.event import Event
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.trace.event import Event
+    from pico.model.trace.report import RunReport
 
 
 class Screen:

@@ -16,8 +16,8 @@ from .running import Screen, watched
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.bench.bisecting import Bisection, Proposal
-    from pico.model.event import Event
     from pico.model.plan import Plan
+    from pico.model.trace.event import Event
 
 AGAIN = "`pico bisect continue` goes on: what was judged is in git's log"
 

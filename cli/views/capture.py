@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pico.model.record import as_json
-from pico.model.report import Captured
+from pico.model.trace.report import Captured
 
 from .by_light import stays
 from .diff import lines

@@ -6,7 +6,7 @@ import re
 from xml.etree import ElementTree as xml
 
 from pico.bench.checking.verdict import TITLES, Check, CheckReport, LabChecked
-from pico.model.expectation import Expected
+from pico.model.trace.expectation import Expected
 
 from . import diagnostics
 from .style import plain

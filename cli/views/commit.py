@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pico.model.record import as_json
-from pico.model.report import Committed
+from pico.model.trace.report import Committed
 
 from .diff import lines
 from .style import count, paint

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.kernels.measured import in_order
 from pico.model.record import as_json
-from pico.model.run import Run
+from pico.model.trace.run import Run
 
 from .diff import lines
 from .measured import value

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from pico.diagnostics import Diagnostic
-from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent, slot_at
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
 
 from .style import number
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.model.record import as_json
 
 from .style import ago, columns, paint, wrap

@@ -13,7 +13,7 @@ from pico.history.lab.folder import CommitEntry
 from pico.history.messages.default import default_message
 from pico.history.messages.trailers import meta, without_trailers
 from pico.model.record import as_json
-from pico.model.run import Run
+from pico.model.trace.run import Run
 
 from .diff import brief, lines
 from .runs import shown

@@ -13,7 +13,7 @@ from .style import ago, columns, listed, paint, seconds, wrap
 if TYPE_CHECKING:
     from pico.bench.mornings import Morning, Read
     from pico.diagnosis.suspects import Suspect
-    from pico.model.event import Event
+    from pico.model.trace.event import Event
 
 TOLD = 3.0
 """Standard deviations of what is usual from which a change is shown."""

@@ -11,7 +11,7 @@ from .style import columns, count, paint, seconds, wrap
 
 if TYPE_CHECKING:
     from pico.bench.goals import Chosen, Optimized
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
 
 
 def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: str = "") -> str:

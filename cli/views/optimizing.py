@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pico.model.event import Event
 from pico.model.record import as_json
+from pico.model.trace.event import Event
 
 from .style import number, shorten, wide
 
 if TYPE_CHECKING:
     from pico.bench.goals import Chosen
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
 
 
 def line(event: Event, chosen: Chosen, setup: Setup) -> str:

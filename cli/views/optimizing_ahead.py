@@ -10,7 +10,7 @@ from .style import columns, seconds
 
 if TYPE_CHECKING:
     from pico.bench.goals import Chosen
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.planning.sought import Sought
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from pico.model.record import as_json
-from pico.model.report import PartRow
+from pico.model.trace.report import PartRow
 
 from .style import columns, count, paint
 

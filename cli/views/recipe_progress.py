@@ -12,7 +12,7 @@ from .recipe import line
 from .style import paint
 
 if TYPE_CHECKING:
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.recipes.walking import Entered
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
-from pico.model.run import TRIALS, GoalStood, Run
+from pico.model.trace.run import TRIALS, GoalStood, Run
 from pico.runs.operations import operations
 
 from .diff import lines

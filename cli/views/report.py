@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.model.expectation import Expected
 from pico.model.record import as_json
-from pico.model.report import GoalEnd, RunReport
+from pico.model.trace.expectation import Expected
+from pico.model.trace.report import GoalEnd, RunReport
 
 from .by_light import stays, unfound
 from .diff import brief

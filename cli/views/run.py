@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.model.event import Event
 from pico.model.plan import Plan
+from pico.model.trace.event import Event
 
 from . import measured
 from .plan import change_of, what

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic
 from pico.model.record import as_json
-from pico.model.run import TRIALS, Run
+from pico.model.trace.run import TRIALS, Run
 
 from .style import columns, count, paint, plain, seconds, shorten
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent, doubtful, slot_at
 from pico.model.record import as_json
+from pico.model.setup import Setup
 
 from .style import columns, count, number, paint
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from pico.model.expectation import GoalRead, NumberRead, Standing, Verified
 from pico.model.record import as_json
+from pico.model.trace.expectation import GoalRead, NumberRead, Standing, Verified
 
 from . import light_back
 from .diff import lines

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from pico.model.catalog import Measurable
-from pico.model.lab import Setup
 from pico.model.measurement import Condition
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.planning.checks.interlocks import CLOSED
 from pico.planning.measuring import needed
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
-from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, OperationResult
 from pico.model.record import record
+from pico.model.trace.event import Event
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look

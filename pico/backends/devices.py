@@ -12,7 +12,7 @@ from pico.diagnostics import PicoError, did_you_mean, error
 
 if TYPE_CHECKING:
     from pico.backends.device import Device
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
 
 Opener = Callable[["Setup", Path, str, Callable[[], str]], "Device"]
 GROUP = "pico.devices"

@@ -16,10 +16,10 @@ from typing import Any
 from pico.attachment import bench_folder
 from pico.diagnostics import PicoError
 from pico.disk import write_whole
-from pico.model.lab import Setup
 from pico.model.observation import Observation, Uncertainty
 from pico.model.pose import Pose
 from pico.model.record import Format, as_json, record
+from pico.model.setup import Setup
 
 FORMAT = Format("pico.seen")
 HANDS = Format("pico.hands")

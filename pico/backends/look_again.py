@@ -8,9 +8,9 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.vision.calibration import Calibration
 from pico.vision.close import plate_pose, region_about
 from pico.vision.frame import exposed

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.types import Joints
 from pico.vision.rigid import square, upright
 

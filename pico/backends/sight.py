@@ -16,10 +16,10 @@ from pico.backends.occlusion import Occluders
 from pico.backends.unidentified import swapped, with_unidentified
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, UnknownObject
 from pico.model.observation import Uncertainty as Sigma
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.vision.anchor import SHARED, Drifting, anchored
 from pico.vision.calibration import Calibration
 from pico.vision.datums import ENOUGH, check, offset

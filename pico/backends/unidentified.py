@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 from pico.backends.last_seen import SWAPPED, LastSeen
 from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, UnknownObject
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     import numpy as np

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 from pico.diagnostics import PicoError
 from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Aligned, Observation
 from pico.model.operation import Operation, Reason, searched_by, touched_by
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
 from pico.model.quantities import convert
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.planning.asked import Ready
 from pico.planning.by_light import told_of, with_goals

@@ -19,7 +19,7 @@ from pico.model.record import as_json, digest
 from pico.optics.audit.findings import Audit, audit_from_json
 
 if TYPE_CHECKING:
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.policy.audit import Lit
 
 VERSION = 1

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from pico.bench.watching import Watch
     from pico.diagnostics import Diagnostic
     from pico.history.log import Log
-    from pico.model.expectation import Verified
-    from pico.model.report import Captured, Committed, RunReport
     from pico.model.status import Status
+    from pico.model.trace.expectation import Verified
+    from pico.model.trace.report import Captured, Committed, RunReport
 
 
 class Bench(Opened):

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from pico.bench.aligned import Alignment, stands
 from pico.diagnostics import Diagnostic, warning
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, touched_by
+from pico.model.setup import Setup
 from pico.model.state import LabState, goals_of, references_of
 
 if TYPE_CHECKING:

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.model.state import goals_of, references_of
 from pico.optimize.problem import Problem, Variable
 from pico.planning.asked import Ready
 
 if TYPE_CHECKING:
     from pico.bench.aligned import Alignment
-    from pico.model.event import Event
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.trace.event import Event
+    from pico.model.trace.report import RunReport
     from pico.planning.sought import Sought
 
 

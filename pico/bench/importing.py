@@ -21,7 +21,7 @@ from pico.vision.localize import component_pose
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.history.lab.folder import LabFolder
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.vision.sighting import Stranger
 
 _OFF = 8.0  # mm that a marker may be off the height that its type has it at

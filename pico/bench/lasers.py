@@ -19,7 +19,7 @@ from pico.policy import arming as policy
 
 if TYPE_CHECKING:
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.trace.report import RunReport
 
 HOURS = 1.0
 """So long a laser is armed where nobody says how long."""

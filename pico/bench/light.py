@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from pico.drawing.picture import Image
     from pico.history.runs.recorded_light import RecordedLight
     from pico.model.diff import Change
-    from pico.model.lab import Setup
     from pico.model.measurement import Compared, Measurement
     from pico.model.observation import Observation
     from pico.model.pose import Pose
+    from pico.model.setup import Setup
     from pico.optics.axis import Values
     from pico.optics.beam_table import BeamRow
     from pico.optics.light import Light

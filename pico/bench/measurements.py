@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pico.drawing.picture import Image
-    from pico.model.expectation import GoalRead, Verified
-    from pico.model.lab import Goal
+    from pico.model.goal import Goal
     from pico.model.measurement import Measurement
-    from pico.model.report import PartRow, RunReport
+    from pico.model.trace.expectation import GoalRead, Verified
+    from pico.model.trace.report import PartRow, RunReport
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ class Measurements:
 
     def parts(self, *, free: bool = False) -> tuple[PartRow, ...]:
         """Return the inventory with where each part is; `free`: only those that the manifest leaves in storage."""
-        from pico.model.report import parts_of
+        from pico.model.trace.report import parts_of
 
         return parts_of(self.opened.setup, self.opened.state, self.opened.observe(), free=free)
 
@@ -161,8 +161,8 @@ class Measurements:
         from pico.bench.by_light import unaligned, unfound
         from pico.bench.light import Lights
         from pico.history import runs as recording
-        from pico.model.expectation import Verified
         from pico.model.state import references_of
+        from pico.model.trace.expectation import Verified
         from pico.policy.expectations import check_expectations
         from pico.runs.evidence import stands
 
@@ -187,7 +187,7 @@ class Measurements:
 
     def expected(self, plan: Plan) -> Verified:
         """Return what became of the expectations of a plan's goal, which the bench has reached already."""
-        from pico.model.expectation import Verified
+        from pico.model.trace.expectation import Verified
         from pico.policy.expectations import check_expectations
 
         seen = self.opened.observe()

@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from pico.diagnosis.choosing import Chosen
     from pico.diagnosis.nominal import Nominal
     from pico.diagnosis.suspects import Suspect, Verdict
-    from pico.model.event import Event
     from pico.model.observation import Observation
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.trace.event import Event
+    from pico.model.trace.report import RunReport
 
 LONGEST = 180.0
 """What a morning may take of a bench [s]; scans that would take longer are left out, the last first."""

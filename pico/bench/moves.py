@@ -16,7 +16,7 @@ from pico.model.plan import Plan
 if TYPE_CHECKING:
     from pico.bench.running.execution import Execution
     from pico.drawing.film.film import Caption
-    from pico.model.report import RunReport
+    from pico.model.trace.report import RunReport
     from pico.twin.snapshot import Recording
 
 

@@ -15,9 +15,9 @@ from pico.bench.running.loop import LoopThread
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.history.lab.folder import LabFolder
 from pico.history.lab_history import LabHistory
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 if TYPE_CHECKING:

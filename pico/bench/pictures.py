@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pico.drawing.beams import Place
     from pico.drawing.picture import Image, View
     from pico.drawing.ruler import Measured
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.motion.types import Joints
     from pico.optics.axis import Values
     from pico.twin.placement import Placement

@@ -15,18 +15,18 @@ from typing import TYPE_CHECKING
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import PicoError, error
-from pico.model.lab import EXPOSURE
 from pico.model.observation import live_state
 from pico.model.pose import Pose
+from pico.model.setup import EXPOSURE
 from pico.model.state import place_of
 
 if TYPE_CHECKING:
-    from pico.model.event import Event
-    from pico.model.lab import Setup
     from pico.model.measurement import Measurement
     from pico.model.observation import Observation
     from pico.model.plan import Plan
-    from pico.model.report import RunReport
+    from pico.model.setup import Setup
+    from pico.model.trace.event import Event
+    from pico.model.trace.report import RunReport
 
 NEAR, MOST, REACH = 0.1, 12, 1.0
 """How near to where the spot is in the middle is near enough, measured as the part's own way [mm]; how often it is put

@@ -21,7 +21,7 @@ from pico.planning.parts.phrases import listed
 from pico.runs.left_set import left_set, with_values
 
 if TYPE_CHECKING:
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.runs.journal import RunRecord
     from pico.runs.memory import Memory
 

@@ -13,9 +13,9 @@ from pico.bench.moves import Moves
 from pico.bench.opened import Opened
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.protocol import STEERING
-from pico.model.event import Event
 from pico.model.operation import Operation
 from pico.model.plan import Plan
+from pico.model.trace.event import Event
 from pico.teleop.frames import SILENCE, Answer, Frame
 from pico.teleop.steps import Jogged, jogged
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from pico.bench.running.execution import Execution
-    from pico.model.report import RunReport
+    from pico.model.trace.report import RunReport
 
 BEAT = 0.05
 """Seconds between two frames of who only says that it is there."""

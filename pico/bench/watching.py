@@ -19,7 +19,7 @@ from pico.diagnostics import ExitCode, PicoError
 from pico.model.drift import drift_of
 from pico.model.observation import Observation
 from pico.model.record import record
-from pico.model.report import RunReport
+from pico.model.trace.report import RunReport
 
 if TYPE_CHECKING:
     from pico.model.state import LabState

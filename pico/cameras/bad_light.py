@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from pico.cameras.view import CameraView
-from pico.model.lab import BadLight
+from pico.model.simulated import BadLight
 
 if TYPE_CHECKING:
     import numpy as np

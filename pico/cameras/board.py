@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Camera, Setup
+from pico.model.lab import Camera
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.twin.surfaces import marker_image
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BOARD, Board, board_image

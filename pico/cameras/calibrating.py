@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from pico.cameras.board import board_sheet, datum_sheets, photograph_sheets
 from pico.cameras.postures import Rests, postures, rests, seen_by
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.built.fitting import SLACK, fitted, grip
 from pico.motion.built.poses import reached
 from pico.twin.arms import TwinArm, arms_of

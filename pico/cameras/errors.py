@@ -8,8 +8,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup, SimErrors
 from pico.model.record import record
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 from pico.twin.arms import direction
 from pico.vision.camera import CameraModel
 from pico.vision.nominal import camera_models

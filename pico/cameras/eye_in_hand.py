@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING
 
 from pico.cameras.simulated import Eyes
 from pico.model.catalog import MarkerPlate
-from pico.model.lab import Setup
 from pico.model.observation import Uncertainty
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.kinematics import fk
 from pico.twin.physics import Twin
 from pico.twin.sight import InHand

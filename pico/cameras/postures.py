@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Robot, Setup
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion.built.poses import reached
 from pico.motion.kinematics import columns
 from pico.motion.xarm7 import LIMITS

@@ -14,7 +14,8 @@ from pico.cameras.errors import true_cameras
 from pico.cameras.markers import draw_markers
 from pico.cameras.stickers import Sticker, stickers
 from pico.cameras.view import CameraView, photograph, table_paint
-from pico.model.lab import Setup, SimErrors
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 from pico.vision.camera import CameraModel
 from pico.vision.frame import Frame, Region
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.twin.surfaces import marker_image
 
 if TYPE_CHECKING:

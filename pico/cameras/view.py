@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.twin.raycast import FAR, Hits, cast
 from pico.twin.scene import OPAQUE_GROUP
 from pico.vision.camera import CameraModel

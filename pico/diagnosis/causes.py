@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from pico.diagnosis.nominal import ZERO
 from pico.model.catalog import ComponentType
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 _AXES = ("angle", "opening", "tip", "tilt")
 """Axes whose zero is looked for; where a stage's slipped, its optic has moved."""

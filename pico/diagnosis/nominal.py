@@ -11,8 +11,8 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from pico.diagnosis.quantities import Got, Quantity, Shot, quantity
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.light import Arrival, Light, light_of
 from pico.optics.unseen import SEEN, Unseen
 

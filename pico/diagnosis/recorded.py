@@ -10,9 +10,9 @@ from pico.diagnosis.causes import causes
 from pico.diagnosis.nominal import Nominal
 from pico.diagnosis.quantities import FLICKER, Got, Quantity, Shot
 from pico.diagnosis.suspects import Compared, Verdict, suspects
-from pico.model.lab import Setup
 from pico.model.measurement import Compared as Numbers
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 
 POWERS = ("power", "light", "voltage", "monitor")
 _PLACES = ("x", "y")

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnosis.darkness import NO_LIGHT, STOPS
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.diagnosis.suspects import Suspect

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.axis import Axis, Leg, Values, beams
 from pico.optics.geometry import Vector
 from pico.twin.placement import Placement

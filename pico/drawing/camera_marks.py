@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from pico.drawing.outlines import circle
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.twin.raycast import visible
 from pico.twin.scene import OPAQUE_GROUP
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
 from pico.drawing.outlines import outline
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.twin.lettering import Color, extent, write
 from pico.vision.sighting import Sighting
 

@@ -9,8 +9,8 @@ from pico.drawing.canvas import Canvas, Point
 from pico.drawing.names import write_name
 from pico.drawing.outlines import outline
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.twin.lettering import Color
 
 _RED: Color = (205, 20, 20)

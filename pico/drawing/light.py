@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from pico.drawing.beams import Place
 from pico.drawing.canvas import Point
 from pico.drawing.topview import drawn, letters
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.optics.geometry import geometry_of
 from pico.twin.lettering import write
 

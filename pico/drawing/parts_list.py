@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from pico.model.catalog import ComponentType, Parameter
-from pico.model.lab import Setup
 from pico.model.pose import Pose, short
+from pico.model.setup import Setup
 
 HEAD = ("name", "type", "data", "x / mm", "y / mm", "yaw / °", "marker")
 NUMBERS = (3, 4, 5, 6)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 from pico.disk import write_whole
 from pico.drawing.beams import Place, beam_paths
 from pico.model.body import Body
-from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion.engine import require_mujoco
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from pico.drawing.picture import carried, center_of, placed, posed_model
 from pico.model.catalog import ComponentType
-from pico.model.lab import Lab, Part, Setup, Table
+from pico.model.lab import Lab, Part, Table
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.drawing.picture import Image

@@ -16,8 +16,8 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.drawing.beams import Place, standing
 from pico.drawing.dimensions import Dimension
 from pico.drawing.picture import placed, posed_model
-from pico.model.lab import Setup
 from pico.model.pose import Pose, short
+from pico.model.setup import Setup
 from pico.motion.types import Joints
 from pico.optics.axis import Values
 from pico.twin.placement import Placement

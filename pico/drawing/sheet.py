@@ -10,8 +10,9 @@ from pico.drawing.beams import Place, beam_paths, flat
 from pico.drawing.label_places import Box, along, bounds, free_place, leader, overlap
 from pico.drawing.outlines import circle, outline, square
 from pico.drawing.svg import Drawing, Point, text_box, text_width
-from pico.model.lab import Box2, Setup, Slot
+from pico.model.lab import Box2, Slot
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.kinematics import span
 from pico.optics.axis import Values, staged
 from pico.optics.geometry import Vector

@@ -11,8 +11,8 @@ from pico.drawing.canvas import Canvas, Point
 from pico.drawing.label_places import bounds
 from pico.drawing.names import write_name
 from pico.drawing.outlines import outline
-from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.twin.lettering import Color, extent, write
 
 if TYPE_CHECKING:

@@ -15,8 +15,10 @@ from pico.drawing.names import Named, write_first, write_name, write_names
 from pico.drawing.outlines import circle, outline, square
 from pico.drawing.steps import MOVE, DrawnStep, draw_ghost, draw_numbers, draw_way, goals_of, stays, with_list
 from pico.model.catalog import Footprint
-from pico.model.lab import Box2, Robot, Setup
+from pico.model.lab import Box2
 from pico.model.pose import Pose
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion.kinematics import span, tool_pose
 from pico.motion.types import Joints
 from pico.optics.axis import Values, staged

@@ -10,7 +10,7 @@ from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.drawing.picture import pose_model, posed_model
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.motion.types import Joints
 from pico.twin.placement import Placement
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from pico.backends.device import Capabilities
 from pico.edge.lease import user
-from pico.model.expectation import Expected
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.trace.expectation import Expected
 
 STANDS_ON = ("mujoco", "numpy", "ruckig")
 """Packages whose version may change how something moves."""
@@ -31,7 +31,7 @@ def about_run(setup: Setup, plan: Plan, able: Capabilities) -> dict[str, Any]:
 
 
 def cause_of(plan: Plan) -> dict[str, str]:
-    """Return the `kind` of what a plan was made for, and `of` which run; see `pico.model.run.Cause`."""
+    """Return the `kind` of what a plan was made for, and `of` which run; see `pico.model.trace.run.Cause`."""
     if plan.target.cause:
         more = {"of": plan.target.of, "recipe": plan.target.recipe, "step": plan.target.step}
         return {"kind": plan.target.cause, **{key: value for key, value in more.items() if value}}

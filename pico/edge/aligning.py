@@ -18,13 +18,14 @@ from pico.edge.judging import judged
 from pico.edge.points import Points
 from pico.expressions import ExpressionError, Language
 from pico.model.catalog import Tunable
-from pico.model.event import Event
-from pico.model.lab import EXPOSURE, Goal, Setup, goal_from_json
+from pico.model.goal import Goal, goal_from_json
 from pico.model.measurement import Measurement, measurement_from_json, number_of
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.quantities import Value
 from pico.model.record import as_json
+from pico.model.setup import EXPOSURE, Setup
+from pico.model.trace.event import Event
 from pico.model.vocabulary import measured_in
 from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, believed, loop, started
 from pico.optimize.problem import Aim, Nominal, Problem, Variable, nominal_from_json

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 from pico.backends.device import Began, Capabilities
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge import armings
-from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
+from pico.model.setup import Setup
 from pico.optics.audit.lasers import laser_class
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import lets_out, licensed, may_shine, refused, uncovers, why_not

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.runs.journal import Journal
 
 

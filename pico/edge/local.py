@@ -21,11 +21,11 @@ from pico.disk import write_whole
 from pico.edge import own_lab
 from pico.edge.lease import BenchLock, user, utc_now
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
-from pico.model.event import Event
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
+from pico.model.setup import Setup
+from pico.model.trace.event import Event
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from pico.edge.running import Running
     from pico.edge.teleoperating import Teleoperating
     from pico.model.arming import Arming
-    from pico.model.report import RunReport
-    from pico.model.run import RunOutcome
+    from pico.model.trace.report import RunReport
+    from pico.model.trace.run import RunOutcome
     from pico.runs.journal import Journal
     from pico.teleop.frames import Answer, Frame
     from pico.twin.snapshot import Snapshot

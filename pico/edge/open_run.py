@@ -9,11 +9,11 @@ from typing import Any
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, error
-from pico.model.event import Event
 from pico.model.observation import Observation
 from pico.model.plan import Plan
-from pico.model.report import RunReport
-from pico.model.run import OPERATION_ENDS, RunOutcome
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
+from pico.model.trace.run import OPERATION_ENDS, RunOutcome
 
 
 @dataclass

@@ -19,7 +19,7 @@ from pico.edge.protocol import OwnLab
 from pico.manifest.files import bench_files, read_folder, shown_path
 
 if TYPE_CHECKING:
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
 
 FILE = "lab.json"
 SCHEMA = "pico.bench-lab/v1"

@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 from pico.backends.device import Capabilities
 from pico.backends.world import World
-from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.plan import Plan
 from pico.model.record import record
+from pico.model.trace.event import Event
 from pico.teleop.frames import Answer, Frame
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.edge.armings import Kept
     from pico.model.arming import Arming
-    from pico.model.report import RunReport
-    from pico.model.run import RunOutcome
+    from pico.model.trace.report import RunReport
+    from pico.model.trace.run import RunOutcome
     from pico.runs.memory import Memory
     from pico.twin.snapshot import Snapshot
 

@@ -9,11 +9,11 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import deviation, value_distance
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, Outcome
 from pico.model.pose import Pose
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.runs.journal import Journal, Unsettled
 
 BY_OBSERVATION = "observation"

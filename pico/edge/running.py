@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
 from pico.execution.walk import Walk
-from pico.model.event import Event
-from pico.model.report import RunReport
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
 from pico.twin.snapshot import Recording
 
 

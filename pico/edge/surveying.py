@@ -10,11 +10,11 @@ from typing import Any
 from pico.backends.device import Began, Device
 from pico.diagnostics import Diagnostic, error
 from pico.edge.aligning import Aligning, ways
-from pico.model.event import Event
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.operation import Operation, OperationResult
 from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.trace.event import Event
 
 ATTEMPTS = 2
 """How often a tunable is set, at most, and a measurement taken."""

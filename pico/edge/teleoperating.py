@@ -17,12 +17,12 @@ from typing import Any, Protocol
 from pico.backends.device import Began, Device
 from pico.diagnostics import Diagnostic, error
 from pico.edge.aligning import Stopping
-from pico.model.event import Event
-from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.trace.event import Event
 from pico.teleop.deadman import Gate
 from pico.teleop.frames import SILENCE, STEP_SECONDS, Answer, Frame, Phase, over
 from pico.teleop.steps import IN_PLANE, Jogged, jogged, moved, numbers

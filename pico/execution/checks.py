@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.execution.stale import require_fresh, stale
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 
 
 def require_applicable(plan: Plan, able: Capabilities) -> None:

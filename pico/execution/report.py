@@ -9,15 +9,15 @@ from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of, uncertain
-from pico.model.event import Event
-from pico.model.expectation import Expected, GoalRead, goal_read
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Aligned, Observation, ObservedComponent
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan
-from pico.model.report import GoalEnd, RunReport
+from pico.model.setup import Setup
 from pico.model.state import goals_of, place_of, state_from_json
+from pico.model.trace.event import Event
+from pico.model.trace.expectation import Expected, GoalRead, goal_read
+from pico.model.trace.report import GoalEnd, RunReport
 
 
 def run_report(

@@ -7,11 +7,11 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, diff_observed, show_value, value_distance
-from pico.model.lab import Setup
 from pico.model.observation import Observation, doubtful, slot_at
 from pico.model.plan import Plan
 from pico.model.pose import angle_between
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of, state_from_json
 
 MOST_PATHS = 6

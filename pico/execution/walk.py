@@ -9,11 +9,11 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.execution.executor import Dispatch, Executor
-from pico.model.event import Event, EventKind
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Plan
 from pico.model.record import as_json
-from pico.model.run import RunOutcome, tally
+from pico.model.trace.event import Event, EventKind
+from pico.model.trace.run import RunOutcome, tally
 
 Execute = Callable[[Operation, str], Awaitable[OperationResult]]
 """Has an operation executed under a key; raises PicoError, with exit code INTERRUPTED where nothing more is begun."""

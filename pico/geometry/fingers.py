@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pico.geometry.shape import Shape, polygon
 from pico.model.catalog import Grasp
-from pico.model.lab import Gripper
 from pico.model.pose import Pose, wrap
+from pico.model.robot import Gripper
 
 
 def finger_zones(grasp: Grasp, gripper: Gripper, yaw: float, pose: Pose) -> tuple[Shape, ...]:

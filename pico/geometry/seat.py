@@ -11,10 +11,10 @@ import random
 from dataclasses import dataclass
 
 from pico.model.catalog import SEATINGS, ComponentType, Repeatability, SeatingKind
-from pico.model.lab import Setup
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import QuantityError, convert
 from pico.model.record import record
+from pico.model.setup import Setup
 
 
 @record

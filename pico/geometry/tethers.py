@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 
-from pico.model.lab import Part, Setup
+from pico.model.lab import Part
 from pico.model.pose import Pose, short, wrap
+from pico.model.setup import Setup
 
 MOST = 175.0
 """What a cable is wound at most [deg]: half a turn, less what keeps a small error of a yaw from reading as another."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from pico.history.restoring.transplant import Transplanted
     from pico.history.runs.comparing import Comparison
     from pico.history.shown import Shown
-    from pico.model.run import Run
+    from pico.model.trace.run import Run
     from pico.runs.document import RecordedRun
 
 

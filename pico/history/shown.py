@@ -10,8 +10,8 @@ from pico.history.lab.folder import CommitEntry, LabFolder
 from pico.history.lab.notes import Note, note_path, notes
 from pico.history.runs.committed import runs_added
 from pico.history.runs.proof import Standings
-from pico.model.lab import Setup
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 

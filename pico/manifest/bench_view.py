@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pico.manifest.text.kinds import NAME
 from pico.manifest.text.tree import Document, Map, Scalar
 from pico.model.catalog import Catalog, ComponentType
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 
 @dataclass(frozen=True)

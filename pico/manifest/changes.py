@@ -8,10 +8,10 @@ from typing import Any
 
 from pico.model.address import Named, holds
 from pico.model.diff import deviation, value_deviation
-from pico.model.lab import Setup
 from pico.model.observation import slot_at
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, place_of
 
 Change = Value | Pose | Mapping[str, Any] | None

@@ -15,9 +15,9 @@ from pico.manifest.text.source import Source
 from pico.manifest.text.splice import Editor, apply_splices
 from pico.manifest.text.tree import Document, Map, Node, Scalar, parse, plain
 from pico.model.address import Named
-from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 _UNITS = {"x": "mm", "y": "mm", "yaw": "deg"}

@@ -11,7 +11,7 @@ from pico.expressions import ExpressionError, Language
 from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.manifest.text.tree import Document, List, Scalar
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.vocabulary import POLICY_NAMES, cameras_of, functions_of, names_of
 
 _SPEAK = "expectations speak of a component's pose, slot, tunables and measurables: `p2.pose.x`, `distance(p1, p2)`"

@@ -23,7 +23,8 @@ from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map, Scalar, parse
 from pico.manifest.weighing import weighed
 from pico.model.catalog import ComponentType
-from pico.model.lab import Lab, Setup
+from pico.model.lab import Lab
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 _IS_LAB = re.compile(rb"^kind:[ \t]*[\"']?Lab[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)

@@ -23,11 +23,11 @@ def schemas() -> dict[str, dict[str, Any]]:
     """Return the schemas by file name without its ending: one a kind, `manifest` for all, `plan`, `event`, `run`,
     `measurement`."""
     from pico.model.catalog import ComponentType
-    from pico.model.event import Event
     from pico.model.lab import Lab
     from pico.model.measurement import Measurement
     from pico.model.plan import Plan
-    from pico.model.run import Run
+    from pico.model.trace.event import Event
+    from pico.model.trace.run import Run
 
     kinds = {
         "Lab": _manifest("Lab", Lab),

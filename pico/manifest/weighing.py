@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic
 from pico.manifest.file_names import AWAY, GONE, UNSEEN, SetAside, about, set_aside_from
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 

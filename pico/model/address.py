@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 Named = Mapping[str, frozenset[str] | None]
 """For each component that was named, the tunables of it; None for all of them."""

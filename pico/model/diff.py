@@ -7,11 +7,11 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.observation import Aligned, Observation, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.quantities import Value
 from pico.model.record import as_json, record
+from pico.model.setup import Setup
 from pico.model.state import LabState, is_reference, place_of
 from pico.model.state import said as by_light
 

@@ -14,8 +14,8 @@ from pico.model.diff import (
     show_value,
     slot_left,
 )
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 NEAR = 100.0

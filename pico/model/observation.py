@@ -9,11 +9,12 @@ from typing import Literal
 from pico.diagnostics import Diagnostic, warning
 from pico.model.arming import Licence
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup, Slot
+from pico.model.lab import Slot
 from pico.model.measurement import Measurement
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 Presence = Literal["seen", "missing", "held", "toppled"]

@@ -54,7 +54,7 @@ class Operation:
     `grasp_yaw` [deg], the direction in which the jaws close in the component's frame; where the robot holds it already,
     `from` says `"held": true` and where it then is, seen from above. Of `set`: `tunable`, `from`, `to`. Of `home`:
     `tunable`. Of `measure`: `measurable`; its `component` may be a camera over the bench. Of `park`: none; its
-    `component` is the robot's name. Of `optimize`: `goal`, its name, `what` it is (as `pico.model.lab.Goal`), the
+    `component` is the robot's name. Of `optimize`: `goal`, its name, `what` it is (as `pico.model.goal.Goal`), the
     `algorithm` with its `parameters`, and `from`, where its tunables stand, and the exposures that it may change on the
     way; `again`: the key of the one that it takes up. Of `verify`, which measures a goal where its tunables stand:
     `goal`, `what` and `from` as of `optimize`, and `was`, what was measured when it was met. Of `teleoperate`: `what`,

@@ -9,13 +9,13 @@ from typing import Any
 
 from pico.diagnostics import PicoError, did_you_mean, error, slot_meant
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.pose import Pose, wrap
 from pico.model.primitive import primitive
 from pico.model.quantities import QuantityError, Value, convert
 from pico.model.record import as_json, record
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import as_json, digest, record
+from pico.model.setup import Setup
 from pico.model.shown.html import number, table
 
 NULL: Final = "null_of"

@@ -8,10 +8,10 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import Change, deviation, diff_observed, diff_states, place_json, show_value, slot_left
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.model.state import LabState, is_reference, place_of, references_of
 
 NOTHING: Mapping[str, str] = {}

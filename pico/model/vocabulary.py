@@ -13,11 +13,11 @@ from typing import Any
 from pico.expressions import Function, Kind, words_of
 from pico.kernels.measured import numbers_by
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement, number_of
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.pose import Pose, angle_between
 from pico.model.record import remembered
+from pico.model.setup import Setup
 
 POLICY_NAMES: dict[str, Kind] = {
     "plan": "any", "operations": "list", "components": "any", "lasers": "list", "lab": "any", "backend": "text",

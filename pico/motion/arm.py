@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Fingers, Robot
+from pico.model.robot import Fingers, Robot
 from pico.motion.engine import require_mujoco
 from pico.motion.shapes import FINGER_MASS, LINK_MASSES, LINKS, PALM_MASS, LinkShape, cup, finger, palm
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from pico.geometry.tethers import turn_between
 from pico.model.catalog import Geometry
-from pico.model.lab import Setup
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion import gantry
 from pico.motion.reach import check_grip, check_reach, check_table, check_tether
 from pico.motion.stability import check_stability

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
 
 

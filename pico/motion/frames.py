@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from pico.model.lab import Mount
+from pico.model.robot import Mount
 from pico.motion.types import Joints, Segment
 from pico.motion.xarm7 import ORIGINS, ROLLS
 

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 
 from pico.geometry.shape import placed, separation
 from pico.model.catalog import Geometry
-from pico.model.lab import Robot
 from pico.model.pose import Pose
+from pico.model.robot import Robot
 from pico.motion import timing
 from pico.motion.reach import grasp_height, opening
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject

@@ -16,8 +16,8 @@ import math
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
-from pico.model.lab import Robot
 from pico.model.pose import Pose
+from pico.model.robot import Robot
 from pico.motion.types import Joints
 from pico.motion.xarm7 import LIMITS, ORIGINS, ROLLS
 

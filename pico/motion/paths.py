@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from pico.model.lab import Robot
 from pico.model.pose import Pose
+from pico.model.robot import Robot
 from pico.motion.kinematics import Column, column_of, columns
 from pico.motion.scene import FREE, Hit, Scene
 from pico.motion.types import Joints

@@ -9,8 +9,10 @@ from pico.geometry import table as tabletop
 from pico.geometry.shape import placed, separation
 from pico.geometry.tethers import tether_fault
 from pico.model.catalog import Geometry
-from pico.model.lab import Lab, Robot, Setup
+from pico.model.lab import Lab
 from pico.model.pose import Pose
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion.kinematics import reaches, span
 from pico.motion.shapes import PALM_LENGTH
 from pico.motion.types import Blocked

@@ -18,8 +18,10 @@ from typing import Any
 import numpy as np
 
 from pico.model.catalog import Geometry
-from pico.model.lab import KeepOut, Robot, Setup
+from pico.model.lab import KeepOut
 from pico.model.pose import Pose
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion import frames
 from pico.motion.arm import NEIGHBORS
 from pico.motion.explain import Errand, blocked

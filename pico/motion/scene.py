@@ -17,8 +17,9 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from pico.model.catalog import Geometry
-from pico.model.lab import KeepOut, Setup
+from pico.model.lab import KeepOut
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm, build_arm
 from pico.motion.engine import require_mujoco
 from pico.motion.reach import grasp_height

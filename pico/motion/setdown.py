@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from pico.geometry.shape import placed, separation
 from pico.geometry.tethers import turn_between
 from pico.model.catalog import Geometry
-from pico.model.lab import Robot
 from pico.model.pose import Pose
+from pico.model.robot import Robot
 from pico.motion import gantry, timing
 from pico.motion.explain import blocked
 from pico.motion.kinematics import Column, columns, tool_of, tool_pose

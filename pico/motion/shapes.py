@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from pico.model.lab import Fingers, Gripper
+from pico.model.robot import Fingers, Gripper
 
 Point = tuple[float, float, float]
 Color = tuple[float, float, float, float]

@@ -18,7 +18,7 @@ from itertools import pairwise
 from typing import Any
 
 from pico.model.catalog import Geometry
-from pico.model.lab import TOOL_SPEED, Robot
+from pico.model.robot import TOOL_SPEED, Robot
 from pico.motion.kinematics import Column, pace
 from pico.motion.reach import opening
 from pico.motion.types import Joints

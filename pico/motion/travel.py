@@ -12,8 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 
-from pico.model.lab import Robot, Setup
 from pico.model.pose import Pose
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion import gantry, timing
 from pico.motion.kinematics import Column, column_of, tool_pose
 from pico.motion.paths import postures, usable

@@ -1,7 +1,7 @@
 """The UFACTORY xArm7 as numbers: where its joints sit and how far and fast they turn.
 
 Joint origins and ranges: the vendor's published URDF. Greatest speed: the vendor's manual (180 deg/s; of the
-tool 1 m/s, see `pico.model.lab.Robot`).
+tool 1 m/s, see `pico.model.robot.Robot`).
 Greatest acceleration: the vendor's SDK (20 rad/s2). The jerk is not published: 500 rad/s3 is an assumption.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from pico.model.lab import XARM7_RANGES
+from pico.model.robot import XARM7_RANGES
 
 ORIGINS: tuple[tuple[float, float, float], ...] = (
     (0.0, 0.0, 267.0),

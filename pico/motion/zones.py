@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from pico.geometry import Shape, disc, polygon, separation
-from pico.model.lab import Robot, Setup
+from pico.model.robot import Robot
+from pico.model.setup import Setup
 from pico.motion.kinematics import joint_at, span
 from pico.motion.types import Joints, MovePath
 

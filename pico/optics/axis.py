@@ -15,9 +15,9 @@ from typing import Any
 
 from pico.geometry.shape import Shape, placed
 from pico.model.catalog import ClearAperture, ComponentType
-from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
+from pico.model.setup import Setup
 from pico.optics.geometry import Event, Kick, Struck, Vector, geometry_of
 from pico.optics.unseen import SEEN, Unseen
 

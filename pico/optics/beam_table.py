@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.lab import Setup
 from pico.model.observation import slot_at
 from pico.model.pose import short
+from pico.model.setup import Setup
 from pico.optics.axis import Meeting
 from pico.optics.beam import Beam, moments
 from pico.optics.ends import stray

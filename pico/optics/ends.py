@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.lab import Setup
 from pico.model.pose import short
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.optics.axis import Meeting, beams
 

@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pico.model.lab import Environment, Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.model.simulated import Environment
 from pico.optics.geometry import MIRRORS
 
 _WARM = 900.0

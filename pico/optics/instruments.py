@@ -9,7 +9,7 @@ from itertools import combinations, groupby
 
 import numpy as np
 
-from pico.model.lab import SensorErrors
+from pico.model.simulated import SensorErrors
 from pico.optics.beam_table import decibel, efficiency, electrons
 from pico.optics.light import Arrival, irradiance
 from pico.optics.part import Part, side

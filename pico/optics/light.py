@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from pico.manifest.checks.elements import module_of
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.axis import Optic, Ray, Values, beside_the_edge, first_met, optic_of
 from pico.optics.beam import Beam, forward, moments, scaled
 from pico.optics.coherence import dispersed

@@ -15,7 +15,7 @@ from os import cpu_count
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.model.lab import SensorErrors
+from pico.model.simulated import SensorErrors
 
 Electrons = NDArray[np.float32]
 Counts = NDArray[np.uint16]

@@ -9,9 +9,10 @@ from functools import cached_property
 from typing import Any
 
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.vocabulary import numbers_of
 from pico.optics.axis import Axis, beams
 from pico.planning.nominal_bench import STEERS, straight

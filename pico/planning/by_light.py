@@ -12,9 +12,10 @@ from dataclasses import dataclass, field, replace
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import deviation
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import NULL, THROUGH, LabState, LightReference, goals_of, place_of
 from pico.model.vocabulary import numbers_of
 from pico.optics.axis import Meeting, Values, beams

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, error, warning
-from pico.model.lab import Setup
 from pico.model.observation import Observation, left_standing
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.model.state import LabState, references_of
 from pico.motion.types import Blocked, Motion, MovePath
 from pico.planning.actors import actors, asides, hand_warnings

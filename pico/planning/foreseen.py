@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.operation import Operation
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 
 def foreseen(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Observation:

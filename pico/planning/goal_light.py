@@ -6,10 +6,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.diff import show_value
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 from pico.model.vocabulary import measured_in
 from pico.optics.axis import Meeting, Values, beams
 from pico.optimize.choosing import CYCLES

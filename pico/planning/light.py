@@ -8,10 +8,10 @@ from dataclasses import replace
 from pico.diagnostics import Diagnostic
 from pico.model.arming import LaserClass
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import UNARMED, Plan
+from pico.model.setup import Setup
 from pico.planning.checks.emission import left_shut, lets_out, refused, unlicensed
 from pico.planning.request import Request
 from pico.planning.values import value_operations

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from pico.model.arming import LaserClass
 from pico.model.catalog import Measurable
-from pico.model.lab import Setup
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason
 from pico.model.primitive import primitive
 from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.setpoint import set_seconds
+from pico.model.setup import Setup
 from pico.motion.types import Motion
 from pico.planning.checks.emission import unlicensed
 from pico.planning.checks.interlocks import CLOSED

@@ -8,9 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation, with_value
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.model.vocabulary import measured_in
 from pico.optimize.problem import Nominal
 from pico.planning.nominal_arms import nominal_arms, seen_by

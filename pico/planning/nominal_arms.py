@@ -6,8 +6,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.optimize.problem import Nominal
 from pico.planning.nominal_bench import Astray, NominalBench
 

@@ -8,9 +8,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from pico.geometry.seat import PlacementError, scatter_of
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.vocabulary import measured_in
 
 if TYPE_CHECKING:

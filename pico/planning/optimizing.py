@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import EXPOSURE, Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason, touched_by
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
+from pico.model.setup import EXPOSURE, Setup
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
 from pico.optimize.registry import algorithm_file

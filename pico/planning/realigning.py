@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pico.diagnostics import PicoError
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
+from pico.model.setup import Setup
 from pico.motion.types import Motion
 from pico.planning.foreseen import foreseen
 from pico.planning.measuring import measuring

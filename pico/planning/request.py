@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Reason
+from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.motion.types import Motion
 from pico.planning.checks.target import Source, no_source

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
-from pico.model.lab import Setup
 from pico.model.observation import Observation, live_state, with_value
 from pico.model.operation import Operation, Reason, searched_by
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, state_from_json
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion

@@ -8,9 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pico.model.lab import Goal, Setup, goal_from_json
+from pico.model.goal import Goal, goal_from_json
 from pico.model.observation import Observation
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.model.vocabulary import measured_in
 from pico.optimize.choosing import Tuned, choose, usual_parameters
 from pico.optimize.problem import Nominal, nominal_from_json

@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Setup
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
+from pico.model.setup import Setup
 from pico.motion.types import Motion
 from pico.planning.measuring import granted, kept_shut, measuring, needed, setting
 from pico.planning.parts.setdown import park_operation

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion
 from pico.planning.checks.emission import lets_out
 from pico.planning.parts.movers import standing_obstacles

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from pico.model.lab import Budget, Goal
+from pico.model.goal import Budget, Goal
 from pico.model.quantities import Value
 from pico.planning.asked import Asked, Bounds, Ready
 from pico.planning.openings import stopped_down, wide_open

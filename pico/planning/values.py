@@ -8,11 +8,11 @@ from dataclasses import replace
 from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import Tunable
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import home_seconds, set_seconds
+from pico.model.setup import Setup
 
 OPERATOR_SECONDS = 60.0
 """What a plan reckons with for something that a person does by hand [s]."""

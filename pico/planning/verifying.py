@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Set
 from dataclasses import replace
 
-from pico.model.expectation import GoalRead
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation, ObservedValue
+from pico.model.setup import Setup
 from pico.model.state import LabState, is_reference, place_of
+from pico.model.trace.expectation import GoalRead
 from pico.model.vocabulary import measured_in
 from pico.planning.goal_light import goal_light, kept_back
 from pico.planning.measuring import granted, needed

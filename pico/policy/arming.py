@@ -8,8 +8,8 @@ from datetime import datetime, timedelta
 
 from pico.diagnostics import Diagnostic, error
 from pico.model.arming import Arming, ArmingPolicy, LaserClass, LaserRole, Licence, within
-from pico.model.lab import Setup
 from pico.model.plan import UNARMED
+from pico.model.setup import Setup
 
 AHEAD = timedelta(days=7)
 """So long before it begins an arming may be given."""

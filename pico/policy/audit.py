@@ -8,11 +8,11 @@ from itertools import product
 from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, searched_by
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of, state_from_json
 from pico.optics.audit.findings import Audit, Finding, told
 from pico.optics.audit.lasers import laser_class, lasers_of

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from graphlib import TopologicalSorter
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
+from pico.model.setup import Setup
 from pico.planning.checks.beams import shutter_of
 
 CLOSED = "closed"

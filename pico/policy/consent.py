@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pico.model.lab import Setup
 from pico.model.operation import Operation
+from pico.model.setup import Setup
 
 _DARK = ("closed", False, 0)
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.policy.beams import open_beams
 
 

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence, Set
 
 from pico.diagnostics import PicoError, error
 from pico.expressions import ExpressionError, Language, UnknownValue
-from pico.model.expectation import Expected
-from pico.model.lab import Setup
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.model.state import Expectation
+from pico.model.trace.expectation import Expected
 from pico.model.vocabulary import functions_of, names_of, numbers_of, spoken_of, values_of
 from pico.policy.reaching import reaching
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.lab import Setup
 from pico.model.quantities import convert
+from pico.model.setup import Setup
 
 
 def expired(setup: Setup, calibrated: str, now: str) -> Iterator[Diagnostic]:

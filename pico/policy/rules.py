@@ -8,9 +8,10 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.expressions import ExpressionError, Language, UnknownValue, words_of
-from pico.model.lab import PolicyRule, Setup
+from pico.model.lab import PolicyRule
 from pico.model.observation import Observation
 from pico.model.plan import Plan
+from pico.model.setup import Setup
 from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, spoken_of, values_of
 from pico.policy.audit import audit_of
 from pico.policy.context import policy_values

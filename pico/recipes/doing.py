@@ -13,9 +13,9 @@ from pico.scripting.outcome import require_done, require_possible
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.bench.teleoperation import Teleoperation
-    from pico.model.event import Event
     from pico.model.measurement import Measurement
     from pico.model.plan import Plan
+    from pico.model.trace.event import Event
 
 
 def _deaf(_: object) -> None:

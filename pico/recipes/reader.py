@@ -15,8 +15,8 @@ from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_value
 from pico.manifest.wording import expected_quantity, quantity, shown
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.quantities import QuantityError, convert
+from pico.model.setup import Setup
 from pico.model.vocabulary import numbers_of
 from pico.recipes.recipe import Name
 from pico.recipes.scope import Scope, even, function_names, spaced

@@ -9,7 +9,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.text.kinds import API
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Map, Node, Scalar, parse
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.recipes.parameters import read_parameters
 from pico.recipes.reader import Able, Reader
 from pico.recipes.reading_steps import Reading, read_steps

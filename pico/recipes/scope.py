@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any
 
 from pico.expressions import Function, Language
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.vocabulary import cameras_of, names_of
 from pico.recipes.recipe import Name
 

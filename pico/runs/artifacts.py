@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from pico.model.run import Artifact, Run
+from pico.model.trace.run import Artifact, Run
 from pico.runs.files import run_folder
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")

@@ -8,16 +8,16 @@ from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import Diagnostic
-from pico.model.expectation import Expected
-from pico.model.lab import Setup
 from pico.model.measurement import measurement_from_json
 from pico.model.operation import address_of
 from pico.model.plan import LabRef
 from pico.model.pose import Pose
 from pico.model.record import digest, record
-from pico.model.run import STRENGTH, Cause, Run, Seen, TraceEvent
+from pico.model.setup import Setup
 from pico.model.shown.html import table
 from pico.model.state import LabState, state_from_json
+from pico.model.trace.expectation import Expected
+from pico.model.trace.run import STRENGTH, Cause, Run, Seen, TraceEvent
 from pico.runs.journal import JournalRecord, RunRecord
 from pico.runs.memory import Memory
 from pico.runs.operations import OperationRun, operations

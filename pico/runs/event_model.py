@@ -12,8 +12,8 @@ from datetime import datetime
 from types import MappingProxyType
 from typing import Any
 
-from pico.model.lab import Setup
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.runs.document import RecordedRun
 from pico.runs.table import Row, rows
 

@@ -14,11 +14,11 @@ from datetime import datetime
 
 from pico.model.diff import deviation, diff_observed, value_deviation
 from pico.model.drift import drift_of
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, touched_by
-from pico.model.run import STRENGTH
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
+from pico.model.trace.run import STRENGTH
 from pico.runs.document import weakest
 from pico.runs.journal import Success
 from pico.runs.memory import Memory

@@ -15,7 +15,7 @@ from pathlib import PurePosixPath
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.record import canonical
-from pico.model.run import Artifact, FileRef, Run, TraceEvent
+from pico.model.trace.run import Artifact, FileRef, Run, TraceEvent
 from pico.runs.reading import read_document
 
 DOCUMENT, TRACE, MEASUREMENTS = "run.json", "trace.jsonl", "measurements.jsonl"

@@ -15,9 +15,9 @@ from itertools import groupby
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.lab import Setup
 from pico.model.record import as_json, canonical, digest
-from pico.model.run import FOLD, SHARED, Run, TraceEvent
+from pico.model.setup import Setup
+from pico.model.trace.run import FOLD, SHARED, Run, TraceEvent
 from pico.runs.document import RecordedRun
 from pico.runs.files import FOLDED, MEASUREMENTS, TRACE, jsonl, numbered, references
 from pico.runs.reading import members

@@ -25,7 +25,7 @@ from pico.model.observation import ObservedComponent, ObservedValue, Uncertainty
 from pico.model.operation import Operation, OperationResult, Outcome, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json, digest, record
-from pico.model.run import RunOutcome
+from pico.model.trace.run import RunOutcome
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 

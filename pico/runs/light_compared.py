@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from pico.kernels.pipeline import parsed
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.measurement import Compared, Measurement, incomparable
+from pico.model.setup import Setup
 from pico.model.vocabulary import numbers_of
 from pico.optics.nominal.spread import Spread
 

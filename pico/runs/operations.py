@@ -8,7 +8,7 @@ from typing import Any
 
 from pico.model.operation import address_of
 from pico.model.record import record
-from pico.model.run import TraceEvent
+from pico.model.trace.run import TraceEvent
 
 _ENDS = ("done", "failed", "unknown")
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.record import as_json
-from pico.model.run import FOLD, FORMAT, SHARED, Run, TraceEvent
+from pico.model.trace.run import FOLD, FORMAT, SHARED, Run, TraceEvent
 
 LARGEST = 1 << 20
 """Bytes above which no document of a run is read."""

@@ -15,9 +15,9 @@ from pico.model.diff import (
     slot_left,
     value_deviation,
 )
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, live_state, slot_at
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, place_of
 from pico.runs.journal import JournalRecord, observed_from_json
 

@@ -10,7 +10,7 @@ from typing import Any
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.operation import touched_by
 from pico.model.record import record
-from pico.model.run import TraceEvent
+from pico.model.trace.run import TraceEvent
 
 FIRST = ("seq", "t", "at", "measured")
 """Columns of every row: its number in the trace, seconds on the bench's clock, the wall time (UTC), and what was

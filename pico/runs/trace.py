@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from pico.model.run import Artifact, TraceEvent, tally
+from pico.model.trace.run import Artifact, TraceEvent, tally
 from pico.runs.files import numbered
 from pico.runs.journal import JournalRecord
 

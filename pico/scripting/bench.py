@@ -14,8 +14,8 @@ from pico.model.measurement import Measurement
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan
 from pico.model.quantities import Value
-from pico.model.report import Committed, RunReport
 from pico.model.state import LabState
+from pico.model.trace.report import Committed, RunReport
 from pico.runs.event_model import documents, units_of
 from pico.scripting.outcome import require_done, require_possible
 from pico.scripting.parts import Part

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.plan import Plan
-from pico.model.report import RunReport
+from pico.model.trace.report import RunReport
 
 
 def require_possible(plan: Plan) -> Plan:

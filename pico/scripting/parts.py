@@ -8,8 +8,8 @@ from pico.diagnostics import did_you_mean
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.model.quantities import Value
-from pico.model.report import RunReport
 from pico.model.shown.html import number, table
+from pico.model.trace.report import RunReport
 from pico.scripting.protocol import Scripted
 from pico.scripting.readings import Measurable
 from pico.scripting.tunables import Tunable

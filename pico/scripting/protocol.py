@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.quantities import Value
-from pico.model.report import RunReport
+from pico.model.setup import Setup
+from pico.model.trace.report import RunReport
 from pico.scripting.status import Status
 
 if TYPE_CHECKING:

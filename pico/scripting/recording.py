@@ -19,8 +19,8 @@ from pico.edge.protocol import RECORDING, Job
 from pico.edge.running import new_run_id
 from pico.model.observation import live_state
 from pico.model.plan import LabRef, Plan, Target
-from pico.model.report import RunReport
-from pico.model.run import RunOutcome
+from pico.model.trace.report import RunReport
+from pico.model.trace.run import RunOutcome
 from pico.scripting.tables import Table
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.measurement import Measurement, incomparable, measurement_from_json
 from pico.model.plan import Plan, Target
 from pico.model.record import record
-from pico.model.report import RunReport
+from pico.model.trace.report import RunReport
 from pico.runs.operations import OperationRun, operations
 from pico.scripting.outcome import require_done, require_possible
 from pico.scripting.recording import Recording

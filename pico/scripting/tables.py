@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas
 
     from pico.drawing.plots.scatter import Points
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.runs.document import RecordedRun
 
 

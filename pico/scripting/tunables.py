@@ -7,8 +7,8 @@ from typing import Any
 from pico.bench.plans import written
 from pico.model.catalog import Tunable as Kind
 from pico.model.quantities import Value
-from pico.model.report import RunReport
 from pico.model.request import read_value
+from pico.model.trace.report import RunReport
 from pico.runs.event_model import epoch
 from pico.scripting.protocol import Scripted
 from pico.scripting.status import Status

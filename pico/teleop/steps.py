@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.teleop.frames import STEP_SECONDS
 
 SLOW = 250.0

@@ -12,8 +12,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import ArmErrors, Robot, Setup
 from pico.model.pose import Pose
+from pico.model.robot import Robot
+from pico.model.setup import Setup
+from pico.model.simulated import ArmErrors
 from pico.motion.types import Joints
 from pico.vision.arm import NOMINAL, ArmOffsets
 

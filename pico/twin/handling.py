@@ -15,8 +15,8 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Grasp
-from pico.model.lab import Robot
 from pico.model.pose import Pose, angle_between
+from pico.model.robot import Robot
 from pico.motion.kinematics import Column, columns, tool_pose
 from pico.motion.timing import CORRECTING
 from pico.motion.types import Joints, MovePath, Segment, SegmentName

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.motion.engine import require_mujoco
 from pico.motion.types import Joints, Stage
 from pico.twin.arms import TwinArm, arms_of

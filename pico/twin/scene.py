@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from pico.geometry.mass import bodies_of, masses
 from pico.model.body import Body
 from pico.model.catalog import Geometry
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.motion.engine import require_mujoco
 from pico.twin.arms import TwinArm
 from pico.twin.placement import Placement

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Datum, Setup
+from pico.model.lab import Datum
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     import mujoco

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.vision.camera import CameraModel
 from pico.vision.datums import ENOUGH, datum_corners
 from pico.vision.least_squares import solve

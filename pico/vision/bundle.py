@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BoardView
 from pico.vision.datums import ENOUGH, datum_corners, resection

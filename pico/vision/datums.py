@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Datum, Setup
+from pico.model.lab import Datum
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.vision.calibration import Accuracy
 from pico.vision.camera import CameraModel
 from pico.vision.least_squares import Solution, solve

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     import numpy as np

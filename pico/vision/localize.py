@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from pico.model.catalog import MarkerPlate
-from pico.model.lab import Setup
 from pico.model.observation import Uncertainty
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.vision.calibration import Calibration
 from pico.vision.datums import check
 from pico.vision.judge import Verdict, combined, judged

@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Camera, Setup
+from pico.model.lab import Camera
+from pico.model.setup import Setup
 from pico.vision.camera import CameraModel
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.vision.charuco import BOARD, Board
 from pico.vision.markers import CELLS, cells
 from pico.vision.pdf import PAPERS, Page, pdf

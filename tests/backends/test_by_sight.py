@@ -20,10 +20,11 @@ from pico.backends.sim.session import WorldSession
 from pico.backends.sim.store import save_world
 from pico.backends.sim.world import new_world
 from pico.cameras.simulated import Eyes
-from pico.model.lab import ArmErrors, Setup, SimErrors
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.simulated import ArmErrors, SimErrors
 from pico.motion.arms import ArmMotion
 from pico.motion.types import Blocked
 

@@ -18,7 +18,7 @@ from pico.cameras.errors import CameraShift
 from pico.diagnostics import PicoError
 from pico.drawing.picture import posed_model
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.resources import labs_dir
 from pico.vision.nominal import camera_models
 

@@ -13,9 +13,9 @@ from pico.backends.sim.device import SimDevice
 from pico.backends.sim.faults import Faults, save_faults
 from pico.backends.sim.store import load_world
 from pico.backends.sim.world import World
-from pico.model.lab import Setup
 from pico.model.measurement import measurement_from_json
 from pico.model.operation import Operation, OperationResult, Reason
+from pico.model.setup import Setup
 
 SETUP = shel("gantry")[0]
 SETUP = replace(SETUP, lab=replace(SETUP.lab, sim=replace(SETUP.lab.sim, environment="none")))

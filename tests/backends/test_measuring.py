@@ -18,11 +18,12 @@ from pico.diagnostics import PicoError
 from pico.edge.local import embedded
 from pico.manifest.load import load_folder
 from pico.model.catalog import Measurable
-from pico.model.lab import Part, Setup
+from pico.model.lab import Part
 from pico.model.measurement import PEEKED, Measurement, measurement_from_json
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.resources import labs_dir
 
 SETUP = load_folder(labs_dir() / "shel").require()[0]

@@ -17,9 +17,10 @@ from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.store import load_world, save_world, world_from_json
 from pico.backends.sim.world import FreePose, World, WorldBody, new_world, observe
 from pico.geometry.seat import Seat, drawn
-from pico.model.lab import Setup, SimErrors
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 
 SETUP, _ = shel()
 PART, GOAL = "lx_100", Pose(520.0, 320.0, 0.0)

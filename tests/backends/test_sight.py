@@ -19,10 +19,11 @@ from pico.backends.sim.world import FreePose, World, new_world
 from pico.diagnostics import PicoError
 from pico.model.catalog import Footprint
 from pico.model.drift import drift_of
-from pico.model.lab import BadLight, Setup, SimErrors
 from pico.model.observation import Observation, Uncertainty, UnknownObject, doubtful, live_state
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
+from pico.model.simulated import BadLight, SimErrors
 from pico.model.state import LabState, home_state
 from pico.model.status import compare
 from pico.vision.calibration import Accuracy, Calibration, write_calibration

@@ -19,12 +19,12 @@ from pico.backends.sim.world import new_world
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Edge, Lease
-from pico.model.event import Event
 from pico.model.lab import Policy
 from pico.model.observation import ObservedValue, UnknownObject
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.trace.event import Event
 
 SETUP, _ = shel("gantry")
 SETUP = replace(SETUP, lab=replace(SETUP.lab, policy=Policy(open_beam=True)))  # no plan closes the shutter here

@@ -15,9 +15,9 @@ from pico.backends.sim.store import load_world, save_world, world_from_json
 from pico.backends.sim.world import World, new_world, observe
 from pico.diagnostics import PicoError
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.observation import ObservedValue
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.resources import labs_dir
 
 

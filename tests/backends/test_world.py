@@ -22,11 +22,12 @@ from pico.diagnostics import ExitCode, PicoError
 from pico.edge.lease import BenchLock
 from pico.edge.local import embedded
 from pico.model.catalog import Axis, Tunable
-from pico.model.lab import Part, Setup
+from pico.model.lab import Part
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import as_json
+from pico.model.setup import Setup
 
 SETUP, _ = shel()
 

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from pico.bench.bench import Bench
 from pico.edge.protocol import Job
 from pico.edge.running import new_run_id
-from pico.model.event import Event
 from pico.model.plan import Plan
-from pico.model.report import RunReport
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
 
 
 def ended_when(bench: Bench, plan: Plan, when: Callable[[Event], bool], *, at_once: bool = False) -> RunReport:

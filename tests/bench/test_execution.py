@@ -20,8 +20,8 @@ from pico.bench.running.loop import LoopThread
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.local import LocalEdge
 from pico.history.examples.example import make_example
-from pico.model.event import Event
 from pico.model.plan import Plan
+from pico.model.trace.event import Event
 
 SETUP, C3 = shel("gantry")
 

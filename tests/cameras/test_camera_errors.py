@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from physical import bench
 
 from pico.cameras.errors import CameraShift, bumped, common_shifts, true_cameras, turned
-from pico.model.lab import Setup, SimErrors
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 from pico.vision.camera import CameraModel
 from pico.vision.nominal import camera_models, looking
 

@@ -18,8 +18,9 @@ from pico.cameras.stickers import Sticker, flat
 from pico.diagnostics import PicoError
 from pico.drawing.picture import pose_model
 from pico.model.catalog import Footprint, Geometry
-from pico.model.lab import BadLight, Setup, SimErrors
 from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.model.simulated import BadLight, SimErrors
 from pico.twin.placement import Placement, upright
 from pico.twin.scene import SceneBody, build_scene
 from pico.vision.frame import Frame

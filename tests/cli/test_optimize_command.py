@@ -314,7 +314,7 @@ def test_the_list_of_goals_and_the_line_of_a_teleoperation_fit_a_narrow_terminal
 ) -> None:
     from cli.views import goals, style, teleop
     from pico.bench.ready.registry import takes
-    from pico.model.lab import Goal
+    from pico.model.goal import Goal
     from pico.teleop.steps import Jogged
 
     for view in (goals, style, teleop):

@@ -7,7 +7,7 @@ from pathlib import Path
 from commanding import Pico, edit
 from pico_cli.views import report as view
 
-from pico.model.report import RunReport
+from pico.model.trace.report import RunReport
 
 
 def test_a_plan_can_be_drawn(shel: Path, pico: Pico) -> None:

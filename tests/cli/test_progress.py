@@ -8,8 +8,8 @@ from typing import Any
 from pico_cli.views.run import Progress
 from pico_cli.views.style import plain
 
-from pico.model.event import Event
 from pico.model.operation import Operation, Reason
+from pico.model.trace.event import Event
 
 
 def event(kind: Any, time: float, operation: str = "op1", **data: Any) -> Event:

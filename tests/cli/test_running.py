@@ -20,10 +20,10 @@ from pico.bench.bench import Bench
 from pico.bench.moves import Moves
 from pico.bench.plans import Plans
 from pico.manifest.load import load_folder
-from pico.model.event import Event
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
-from pico.model.report import RunReport
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
 from pico.resources import labs_dir
 
 

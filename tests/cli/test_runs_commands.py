@@ -13,7 +13,7 @@ from commanding import Pico
 from pico_cli.views.verified import proof
 
 from pico.bench.bench import Bench
-from pico.model.expectation import Standing
+from pico.model.trace.expectation import Standing
 
 
 @pytest.fixture(scope="module")

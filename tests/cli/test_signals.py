@@ -19,7 +19,7 @@ from test_stopping_commands import PROGRAM, moving, started
 from pico.bench.bench import Bench
 from pico.bench.plans import Plans
 from pico.bench.running.attending import attend
-from pico.model.event import Event
+from pico.model.trace.event import Event
 from pico.runs.journal import Journal
 
 PARTS = ("lx_125", "p2")

@@ -19,7 +19,7 @@ from pico.diagnostics import PicoError, Position, SourceRange, error, warning
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import CommitEntry
 from pico.model.plan import LabRef
-from pico.model.run import Run
+from pico.model.trace.run import Run
 
 
 def at(line: int, start: int, end: int, snippet: str) -> SourceRange:

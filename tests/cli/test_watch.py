@@ -13,7 +13,7 @@ from pico.diagnostics import PicoError
 from pico.edge.lease import BenchLock
 from pico.manifest.load import load_folder
 from pico.model.diff import Change
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.resources import labs_dir
 
 HEAL = "policy:\n  heal: true\n"

@@ -20,8 +20,8 @@ from pico.drawing.film.film import Caption, write_film
 from pico.drawing.film.gif import GifWriter
 from pico.drawing.label_places import overlap
 from pico.drawing.labels import Anchor, label
-from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.twin.placement import upright
 from pico.twin.snapshot import Recording, Snapshot, at

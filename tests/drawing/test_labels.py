@@ -19,8 +19,8 @@ from pico.drawing.standpoint import hidden, standpoint
 from pico.drawing.steps import DrawnStep
 from pico.drawing.topview import drawn, new_canvas
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 
 SIZES = ((960, 785), (960, 720), (640, 480), (1600, 1000))

@@ -18,8 +18,8 @@ from pico.drawing.picture import placed, posed_model, render, scene_extent, writ
 from pico.drawing.standpoint import standpoint
 from pico.drawing.topview import new_canvas
 from pico.history.examples.example import make_example
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 
 W, H = 320, 240

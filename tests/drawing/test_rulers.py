@@ -14,8 +14,8 @@ from pico.drawing.picture import placed
 from pico.drawing.ruler import end_of, measure
 from pico.geometry.shape import placed as shape_at
 from pico.geometry.shape import separation
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 POSES = {"lx_125": Pose(395, 420, 0), "ly_150": Pose(670, 420, 0), "p2": Pose(520, 300, 30)}
 coordinate = st.floats(100, 800)

@@ -15,8 +15,8 @@ from pico.drawing.label_places import free_place, overlap
 from pico.drawing.sheet import sheet
 from pico.drawing.svg import Box, text_box
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 
 SVG = "{http://www.w3.org/2000/svg}"

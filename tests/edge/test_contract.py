@@ -29,10 +29,10 @@ from pico.edge.link.opening import opened
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Edge, Job
 from pico.history.examples.example import example_names, make_example
-from pico.model.event import Event
 from pico.model.operation import Operation, Reason
 from pico.model.plan import LabRef, Plan, Target
 from pico.model.record import as_json
+from pico.model.trace.event import Event
 from pico.twin.snapshot import Recording
 from pico.vision.arm import NOMINAL
 

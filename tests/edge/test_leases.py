@@ -22,9 +22,9 @@ from pico.edge.link.server import edge_of
 from pico.edge.protocol import Asking, Edge, Job
 from pico.edge.stopping import ask_to_stop
 from pico.history.examples.example import make_example
-from pico.model.event import Event
 from pico.model.operation import Operation, Reason
-from pico.model.report import RunReport
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
 from pico.planning import set_one
 
 Acting = Callable[[Callable[[Edge], Awaitable[Any]]], Any]

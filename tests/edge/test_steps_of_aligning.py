@@ -12,9 +12,9 @@ from pico.backends.sim.device import SimDevice
 from pico.backends.sim.faults import Faults, save_faults
 from pico.edge.aligning import Aligning
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.setpoint import set_seconds
+from pico.model.setup import Setup
 from pico.planning.optimizing import Turn, optimizing
 from pico.planning.sought import Sought
 

@@ -13,9 +13,9 @@ from pico.backends.sim.faults import Faults, save_faults
 from pico.edge.aligning import Aligning
 from pico.execution.report import goal_read
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.planning.optimizing import Turn, optimizing
 from pico.planning.sought import Sought
 from pico.planning.verifying import readable

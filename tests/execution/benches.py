@@ -14,11 +14,11 @@ from pico.backends.sim.device import SimDevice
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Edge, Job
 from pico.manifest.load import load_folder
-from pico.model.event import Event
-from pico.model.lab import Setup
 from pico.model.observation import live_state
 from pico.model.plan import Base, Plan, Target
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
+from pico.model.trace.event import Event
 from pico.motion.arms import ArmMotion
 from pico.planning import plan
 

@@ -22,12 +22,12 @@ from pico.edge.attempts import Attempts
 from pico.edge.recovery import open_questions, settle
 from pico.execution.executor import Dispatch, Executor
 from pico.execution.resume import renumbered
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.runs.journal import Journal
 
 PARTS = ("p1", "p2", "lx_100", "lx_125", "ly_150")

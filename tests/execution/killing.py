@@ -25,12 +25,12 @@ from pico.backends.attempt import attempt
 from pico.backends.device import Began, Capabilities
 from pico.diagnostics import PicoError
 from pico.edge.local import LocalEdge
-from pico.model.event import Event
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Base, LabRef, Plan
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.trace.event import Event
 from pico.runs.journal import Journal
 
 DIGEST = SETUP.digest()

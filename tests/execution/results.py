@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pico.model.event import Event
+from pico.model.trace.event import Event
 
 _ENDS = {f"operation_{end}": end for end in ("done", "failed", "unknown", "skipped")}
 

@@ -18,11 +18,11 @@ from kept import differs
 
 from pico.diagnostics import error
 from pico.execution.executor import Dispatch, Executor
-from pico.model.event import Event
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.trace.event import Event
 
 CODES = ("timeout", "jammed", "dropped", "misplaced", "blocked", "stopped", "put-back")
 

@@ -10,9 +10,9 @@ from pathlib import Path
 from benches import apply, changed, plan_to, shel, sim
 
 from pico.model.diff import diff_observed
-from pico.model.event import Event
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
+from pico.model.trace.event import Event
 
 SETUP, C3 = shel()
 BEFORE = changed(C3, {"p2": {"pose": Pose(520, 420, 30)}, "lx_100": {"pose": Pose(420, 420)}})

@@ -18,13 +18,13 @@ from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.local import LocalEdge
 from pico.execution.report import measured
-from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.operation import Operation, Reason, ReasonKind
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.state import LabState
+from pico.model.trace.event import Event
 
 SETUP, C3 = shel("gantry")
 

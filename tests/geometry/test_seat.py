@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from pico.geometry.seat import PlacementError, drawn, scatter, scatter_of
 from pico.manifest.catalog import load_catalog
 from pico.model.catalog import SEATINGS, Repeatability, as_first_written
-from pico.model.lab import Lab, Part, Setup, Table
+from pico.model.lab import Lab, Part, Table
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 CATALOG = load_catalog()
 AXES = tuple(f.name for f in fields(PlacementError))

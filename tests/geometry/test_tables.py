@@ -21,8 +21,9 @@ from pico.geometry import (
     rectangle,
 )
 from pico.model.catalog import Footprint, Grasp
-from pico.model.lab import Box2, Fingers, Gripper, KeepOut, Slot, Table
+from pico.model.lab import Box2, KeepOut, Slot, Table
 from pico.model.pose import Pose
+from pico.model.robot import Fingers, Gripper
 
 
 def random_shapes(count: int) -> dict[int, object]:

@@ -12,8 +12,8 @@ from typing import Any
 
 from pico.history.repository.repository import Repository
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.reach import check_reach
 
 AUTHOR, BEGIN = ("A Physicist", "physicist@localhost"), datetime(2026, 1, 5, 9, 0, tzinfo=UTC)

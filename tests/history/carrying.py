@@ -11,9 +11,9 @@ from pico.history.repository.repository import Repository
 from pico.history.runs import standing_of, unrecorded
 from pico.history.runs.committed import places_in_history
 from pico.history.runs.proof import Standings
-from pico.model.expectation import Standing
-from pico.model.report import Committed
-from pico.model.run import Run
+from pico.model.trace.expectation import Standing
+from pico.model.trace.report import Committed
+from pico.model.trace.run import Run
 
 
 def git(folder: Path, *arguments: str, code: int = 0) -> str:

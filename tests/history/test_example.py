@@ -15,7 +15,7 @@ from pico.history.examples.example import example_names, init_empty, make_exampl
 from pico.history.git.lanes import lanes
 from pico.history.repository.repository import Repository
 from pico.manifest.load import load_files, load_folder
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.resources import labs_dir
 

@@ -13,8 +13,8 @@ from pico.manifest.files import decode
 from pico.manifest.text.tree import parse
 from pico.model.body import Body
 from pico.model.catalog import ComponentType, Parameter, as_first_written, lifted
-from pico.model.lab import Fingers
 from pico.model.quantities import dimension
+from pico.model.robot import Fingers
 from pico.resources import catalog_dir
 
 CATALOG = load_catalog()

@@ -14,10 +14,11 @@ from shapely import affinity
 
 from pico.history.examples.example import example_names, make_example
 from pico.manifest.load import load_files, load_folder
-from pico.model.lab import Fingers, Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
+from pico.model.robot import Fingers
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state, place_of
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose

@@ -20,8 +20,8 @@ from pico.drawing.beams import standing as upright
 from pico.drawing.picture import carried
 from pico.history.examples.example import make_example
 from pico.manifest.load import load_files, load_folder
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.axis import axis_of
 from pico.resources import labs_dir
 

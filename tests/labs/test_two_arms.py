@@ -19,11 +19,11 @@ from pico.bench.bench import Bench
 from pico.history.examples.example import make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.arming import Licence
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation
 from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, place_of
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import fk, joint_at

@@ -15,8 +15,8 @@ from pico.manifest.edit import capture, set_values
 from pico.manifest.load import load_files
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import parse, plain
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 HEAD = "apiVersion: pico/v1\nkind: LabState\nmetadata: {lab: bench}\n"

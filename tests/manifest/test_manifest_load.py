@@ -18,8 +18,8 @@ from pico.manifest.load import find_lab, load_files, load_folder
 from pico.manifest.text.scalars import resolve
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import parse, plain
-from pico.model.lab import Fingers
 from pico.model.pose import Pose
+from pico.model.robot import Fingers
 from pico.resources import catalog_dir, labs_dir, schemas_dir
 
 

@@ -12,8 +12,8 @@ from manifest_samples import LAB, OWN_TYPE, STATE
 from pico.manifest.schema import outdated, schemas
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import parse, plain
-from pico.model.event import Event
 from pico.model.plan import Base, LabRef, Plan, Target
+from pico.model.trace.event import Event
 from pico.resources import catalog_dir, labs_dir, schemas_dir
 
 SCHEMAS = schemas()

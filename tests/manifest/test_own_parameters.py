@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from pico.diagnostics import Diagnostic
 from pico.manifest.load import load_folder
 from pico.model.catalog import RADII, ComponentType, Parameter, with_parameters
-from pico.model.lab import Lab, Setup
+from pico.model.lab import Lab
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.light import light_of
 from pico.resources import labs_dir
 

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from pico.manifest.exchange import exchanged
 from pico.manifest.load import load_files
-from pico.model.lab import Known, Setup
+from pico.model.lab import Known
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.light import Light, light_of
 from pico.optics.nominal.specimens import uncertain
 from pico.policy.expired import expired, old

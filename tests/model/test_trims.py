@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 from pico.manifest.catalog import load_catalog
 from pico.model.catalog import Restore, Tunable
 from pico.model.diff import as_trimmed, diff_observed, value_deviation, within_trim
-from pico.model.lab import Lab, Part, Setup, Slot, Table
+from pico.model.lab import Lab, Part, Slot, Table
 from pico.model.observation import Aligned, Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 CATALOG = load_catalog()

@@ -8,8 +8,10 @@ from typing import Any
 
 from pico.model.body import Body
 from pico.model.catalog import ComponentType, Footprint, Geometry, Grasp
-from pico.model.lab import KeepOut, Lab, Mount, Part, Robot, Setup, Slot, Table
+from pico.model.lab import KeepOut, Lab, Part, Slot, Table
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose

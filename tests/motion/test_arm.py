@@ -9,7 +9,7 @@ from oracles.inverse import ik
 from outline import OUTLINE
 from test_kinematics import SAMPLES
 
-from pico.model.lab import Fingers, Gripper, Mount, Robot
+from pico.model.robot import Fingers, Gripper, Mount, Robot
 from pico.motion.arm import FINGERS, attach_arm, build_arm
 from pico.motion.hulls import of_shapes
 from pico.motion.shapes import LINKS

@@ -11,8 +11,9 @@ from oracles.inverse import ik
 from pico.geometry.mass import center_of_mass
 from pico.model.body import Body
 from pico.model.catalog import Footprint, Geometry, Grasp
-from pico.model.lab import Box2, KeepOut, Mount, Robot
+from pico.model.lab import Box2, KeepOut
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.recheck import Recheck, Task

@@ -17,8 +17,9 @@ from shapely.geometry import Point, Polygon
 
 from pico.model.body import Body
 from pico.model.catalog import Footprint, Geometry, Grasp
-from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot, Table
+from pico.model.lab import Box2, KeepOut, Table
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
 from pico.motion import frames, gantry, timing
 from pico.motion.arms import ARM_REACH, ArmMotion
 from pico.motion.hulls import Hull, Placed, distance, of_geometry

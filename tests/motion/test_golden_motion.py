@@ -20,8 +20,9 @@ from kept import differs
 from oracles.inverse import ik
 
 from pico.model.catalog import Footprint, Grasp
-from pico.model.lab import Box2, Gripper, KeepOut, Margins, Mount, Robot
+from pico.model.lab import Box2, KeepOut, Margins
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
 from pico.motion.arm import build_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.hulls import of_geometry, of_shapes

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracles.inverse import ik
 
-from pico.model.lab import Mount, Robot
+from pico.model.robot import Mount, Robot
 from pico.motion.kinematics import column_of, columns, fk, reaches, span, tool_pose
 from pico.motion.xarm7 import LIMITS
 

@@ -9,8 +9,9 @@ import pytest
 from benchtop import DISC, PART, TALL, TRIANGLE, WIDE, bench, collisions, moved, refused, stands
 from oracles.inverse import ik
 
-from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot
+from pico.model.lab import Box2, KeepOut
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import fk, tool_pose
 from pico.motion.types import Blocked, MovePath

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from pico.manifest.load import load_folder
 from pico.model.catalog import Grasp
-from pico.model.lab import Box2, Gripper, KeepOut, Mount, Robot, Slot
+from pico.model.lab import Box2, KeepOut, Slot
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
 from pico.model.state import home_state, place_of
 from pico.motion.arms import ArmMotion
 from pico.motion.types import MovePath, StandingObject

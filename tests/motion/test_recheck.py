@@ -14,8 +14,9 @@ from benchtop import ARM, DISC, PART, TALL, TRIANGLE, WIDE, bench, depth_of, mov
 from oracles.inverse import ik
 
 from pico.model.catalog import Geometry
-from pico.model.lab import Box2, KeepOut, Margins, Mount, Robot
+from pico.model.lab import Box2, KeepOut, Margins
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
 from pico.motion import frames
 from pico.motion.arm import attach_arm
 from pico.motion.arms import ArmMotion

@@ -9,8 +9,9 @@ import pytest
 from benchtop import DISC, PART, TALL, TRIANGLE, bench, stands
 from oracles.inverse import ik
 
-from pico.model.lab import Box2, KeepOut, Margins, Mount, Robot
+from pico.model.lab import Box2, KeepOut, Margins
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm
 from pico.motion.arms import ArmMotion
 from pico.motion.scene import FREE, Scene, within_reach

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from oracles.inverse import ik
 
 from examples import examples
-from pico.model.lab import Mount, Robot
+from pico.model.robot import Mount, Robot
 from pico.motion.kinematics import columns, fk
 from pico.motion.paths import usable
 from pico.motion.timing import Limits, jaw_seconds, profile, straight, vertical

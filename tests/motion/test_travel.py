@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from oracles.inverse import ik
 
 from examples import examples
-from pico.model.lab import Gripper, Mount, Robot
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
 from pico.motion import timing
 from pico.motion.arms import ArmMotion
 from pico.motion.timing import Limits

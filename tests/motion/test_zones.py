@@ -12,8 +12,9 @@ from oracles.inverse import ik
 from outline import OUTLINE
 
 from pico.geometry import disc, polygon, separation
-from pico.model.lab import Mount, Robot, Table
+from pico.model.lab import Table
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
 from pico.motion import frames
 from pico.motion.arms import ArmMotion
 from pico.motion.recheck import Recheck

@@ -15,12 +15,13 @@ from pico.history.examples.replay import replay
 from pico.manifest.catalog import load_catalog
 from pico.manifest.load import load_files, load_folder
 from pico.model.catalog import Parameter
-from pico.model.lab import Part, Setup
+from pico.model.lab import Part
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.policy.audit import audit_of, told_of
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 from shapely import LineString, Point, Polygon
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 KINDS = ("mirror", "beam_splitter", "lens", "detector", "block")
 WEIGHTS = (10, 4, 3, 1, 1)

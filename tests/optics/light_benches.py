@@ -8,8 +8,9 @@ from typing import Any
 
 from pico.manifest.catalog import load_catalog
 from pico.model.catalog import ComponentType, Parameter
-from pico.model.lab import Lab, Part, Setup, Table
+from pico.model.lab import Lab, Part, Table
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.light import Light, light_of
 
 CATALOG = load_catalog()

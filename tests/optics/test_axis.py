@@ -11,10 +11,11 @@ from layouts import KINDS, layout, reference
 from pico.drawing.beams import beam_paths
 from pico.drawing.ruler import measure
 from pico.manifest.catalog import load_catalog
-from pico.model.lab import Lab, Part, Setup, Table
+from pico.model.lab import Lab, Part, Table
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, Reason
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.optics.axis import LEGS, axis_of
 from pico.optics.ends import stray_beams

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from light_benches import kind, setup_of
 
-from pico.model.lab import Environment, SimSettings
 from pico.model.pose import Pose
+from pico.model.simulated import Environment, SimSettings
 from pico.optics.environment import disturbed, in_the_world, temperature, wander
 from pico.optics.light import light_of
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_nominal_bench import ALONG, FOLDED, POSES, ROW, SPOT, goal, standing
 
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, Uncertainty
 from pico.model.pose import Pose
 from pico.model.state import LabState

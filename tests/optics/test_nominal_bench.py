@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from light_benches import kind, setup_of
 
 from pico.geometry.seat import scatter_of
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.optics.nominal.bench import Nominal
 from pico.optics.nominal.spans import missing, nominal_of, span_of

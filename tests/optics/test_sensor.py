@@ -7,7 +7,7 @@ import pytest
 
 from pico.kernels.frame import Frame
 from pico.kernels.pipeline import parsed, run
-from pico.model.lab import SensorErrors
+from pico.model.simulated import SensorErrors
 from pico.optics.sensor import NORMAL, Sensor, frame, shot
 
 SENSOR = Sensor((400, 300), 3.45, name="cam", read_noise=2.5, dark_current=1.0, black=64.0)

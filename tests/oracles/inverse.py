@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pico.model.lab import Robot
+from pico.model.robot import Robot
 from pico.motion.kinematics import columns
 from pico.motion.types import Joints
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.vision.calibration import Calibration
 from pico.vision.frame import Frame
 from pico.vision.localize import recognize, replace_dark

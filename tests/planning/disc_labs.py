@@ -14,9 +14,11 @@ from collections.abc import Sequence
 from random_labs import Case
 
 from pico.model.catalog import ComponentType, Footprint, Geometry, Grasp
-from pico.model.lab import Gripper, Lab, Margins, Mount, Part, Robot, Setup, Slot, Table
+from pico.model.lab import Lab, Margins, Part, Slot, Table
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 Places = Sequence[Sequence[float]]

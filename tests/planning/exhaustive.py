@@ -15,9 +15,9 @@ from checker import World
 from random_labs import Case
 from shapely import Point
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose, wrap
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 Spot = tuple[Pose, str | None]

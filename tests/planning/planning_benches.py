@@ -7,10 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from pico.model.catalog import Axis, ComponentType, Footprint, Geometry, Grasp, Tunable
-from pico.model.lab import Lab, Mount, Part, Robot, Setup, Slot, Table
+from pico.model.lab import Lab, Part, Slot, Table
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.motion.types import Motion
 from pico.planning import plan

@@ -10,9 +10,11 @@ from dataclasses import dataclass
 from checker import base, fingers
 
 from pico.model.catalog import Axis, ComponentType, Footprint, Geometry, Grasp, SeatingKind, Tunable
-from pico.model.lab import Lab, Margins, Mount, Part, Robot, Setup, Slot, Table
+from pico.model.lab import Lab, Margins, Part, Slot, Table
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, place_of
 
 PITCH = 110.0

@@ -14,7 +14,7 @@ from random_labs import Case, random_case
 
 from pico.diagnostics import error, warning
 from pico.model.catalog import Axis, ComponentType, Footprint, Geometry, OpticalElement, Parameter, PoseTunable, Tunable
-from pico.model.lab import Box2, Gripper, KeepOut, Lab, Mount, Part, Policy, Region, Robot, Setup, Tether
+from pico.model.lab import Box2, KeepOut, Lab, Part, Policy, Region, Tether
 from pico.model.observation import (
     Observation,
     ObservedComponent,
@@ -26,6 +26,8 @@ from pico.model.observation import (
 )
 from pico.model.plan import Base, Plan, Target
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, place_of
 from pico.motion.arms import ArmMotion
 from pico.planning import move_one, plan

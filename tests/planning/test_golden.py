@@ -11,9 +11,9 @@ from kept import differs, kept
 from planning_benches import Places, bench, part, planned, see, want
 from random_labs import random_case
 
-from pico.model.lab import Setup
 from pico.model.plan import Plan
 from pico.model.record import canonical
+from pico.model.setup import Setup
 
 CASES: dict[str, tuple[Setup, Places, Places]] = {
     "swap_of_two": (

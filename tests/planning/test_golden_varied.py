@@ -14,10 +14,12 @@ from test_golden import told
 
 from pico.model.body import Body
 from pico.model.catalog import Footprint
-from pico.model.lab import Box2, KeepOut, Margins, Mount, Region, Robot, Setup, Slot, Table
+from pico.model.lab import Box2, KeepOut, Margins, Region, Slot, Table
 from pico.model.observation import ObservedComponent, ObservedRobot, UnknownObject
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.motion.arms import ArmMotion
 
 REFUSED = (315, 320, 321, 333, 368, 402, 447, 452, 500, 580, 693, 726)

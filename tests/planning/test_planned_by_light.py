@@ -8,9 +8,10 @@ from dataclasses import replace
 import pytest
 
 from pico.manifest.load import load_files, load_folder
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, LightReference, goals_of
 from pico.planning.by_light import ByLight, reference_goals
 from pico.planning.goal_light import goal_light

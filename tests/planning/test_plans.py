@@ -12,10 +12,11 @@ from checker import check
 from planning_benches import SLOTS, bench, moves, part, planned, see, want
 
 from pico.model.catalog import Footprint
-from pico.model.lab import Gripper, Margins, Mount, Robot, Slot
+from pico.model.lab import Margins, Slot
 from pico.model.observation import ObservedRobot, UnknownObject
 from pico.model.plan import Staging
 from pico.model.pose import Pose
+from pico.model.robot import Gripper, Mount, Robot
 
 
 def test_what_is_right_stays() -> None:

@@ -11,9 +11,9 @@ from planning_benches import bench, part, planned, see, want
 
 from pico.backends.device import Capabilities
 from pico.execution.report import run_report
-from pico.model.event import Event
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, Uncertainty
 from pico.model.pose import Pose
+from pico.model.trace.event import Event
 
 SETUP = bench({"a": part(), "b": part(home="s2")})
 THERE = want({"a": (400, 250), "b": "s2"})

@@ -9,9 +9,9 @@ from planning_benches import TYPES, bench, moves, part, see, want
 
 from pico.diagnostics import PicoError
 from pico.model.catalog import Frames
-from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.request import place_after
+from pico.model.setup import Setup
 from pico.planning import home_one, move_one, set_one
 
 

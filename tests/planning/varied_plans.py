@@ -22,9 +22,9 @@ from random_labs import Case, random_case  # noqa: E402
 
 from pico.history.examples.example import example_names, make_example  # noqa: E402
 from pico.history.lab.folder import LabFolder  # noqa: E402
-from pico.model.lab import Setup  # noqa: E402
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state  # noqa: E402
 from pico.model.plan import Base, Plan, Target  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
 from pico.model.state import LabState, place_of  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Motion  # noqa: E402

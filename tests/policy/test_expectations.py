@@ -9,13 +9,13 @@ import pytest
 
 from pico.diagnostics import ExitCode
 from pico.manifest.load import load_folder
-from pico.model.expectation import Expected, Verified
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, Uncertainty
 from pico.model.pose import Pose
-from pico.model.report import RunReport
+from pico.model.setup import Setup
 from pico.model.state import Expectation
+from pico.model.trace.expectation import Expected, Verified
+from pico.model.trace.report import RunReport
 from pico.policy.expectations import check_expectations, shown
 from pico.policy.reaching import reaching
 from pico.resources import labs_dir

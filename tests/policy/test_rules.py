@@ -9,10 +9,11 @@ import pytest
 
 from pico.diagnostics import ExitCode, PicoError
 from pico.manifest.load import load_folder
-from pico.model.lab import PolicyRule, Setup
+from pico.model.lab import PolicyRule
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.policy.beams import open_beams
 from pico.policy.rules import judged, require_allowed

@@ -7,9 +7,9 @@ from typing import Any
 from hypothesis import strategies as st
 
 from pico.model.diff import Change
-from pico.model.expectation import Expected
 from pico.model.plan import LabRef
-from pico.model.run import Artifact, Cause, Run, Seen, TraceEvent
+from pico.model.trace.expectation import Expected
+from pico.model.trace.run import Artifact, Cause, Run, Seen, TraceEvent
 
 A, B = "sha256:" + "a" * 64, "sha256:" + "b" * 64
 

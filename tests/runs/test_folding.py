@@ -16,9 +16,9 @@ from run_documents import run_document
 
 from pico.diagnostics import Diagnostic
 from pico.history.lab.folder import LabFolder
-from pico.model.lab import Setup
-from pico.model.run import Cause, Run, Seen, TraceEvent
+from pico.model.setup import Setup
 from pico.model.state import LabState
+from pico.model.trace.run import Cause, Run, Seen, TraceEvent
 from pico.runs import folding
 from pico.runs.document import RecordedRun
 from pico.runs.files import FOLDED, MEASUREMENTS, TRACE, numbered, run_files, run_folder

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.model.run import TraceEvent
+from pico.model.trace.run import TraceEvent
 from pico.runs.operations import operations
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from run_documents import DOCUMENTS, EVENTS, run_document
 
 from pico.diagnostics import Diagnostic
-from pico.model.run import Run, TraceEvent
+from pico.model.trace.run import Run, TraceEvent
 from pico.runs.files import INLINE, intact, read_runs, run_files, run_folder
 from pico.runs.reading import read_events
 

@@ -12,7 +12,7 @@ import pytest
 from commanding import Pico
 
 import pico as library
-from pico.model.run import TraceEvent
+from pico.model.trace.run import TraceEvent
 from pico.scripting.bench import Bench
 from pico.scripting.replaying import replay
 

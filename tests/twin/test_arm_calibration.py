@@ -12,7 +12,7 @@ from pico.cameras.calibrating import HELD, TAKES
 from pico.cameras.postures import Rests, rests, seen_by
 from pico.cameras.postures import postures as found_postures
 from pico.diagnostics import PicoError
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.motion.built.correction import told
 from pico.motion.built.fitting import SLACK, fitted, grip
 from pico.motion.built.poses import reached

@@ -15,8 +15,9 @@ from pico.backends.sim.mover import WorldMover
 from pico.backends.sim.physics import PhysicsWorld, seeing
 from pico.backends.sim.sight import Posed
 from pico.backends.sim.world import World, new_world
-from pico.model.lab import ArmErrors, Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.model.simulated import ArmErrors
 from pico.motion.built.correction import taken, told
 from pico.motion.built.poses import reached
 from pico.motion.kinematics import columns, fk

@@ -11,8 +11,8 @@ from physical import bench, carry, finish, fresh, moved_by_hand, path_to, to
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.world import FreePose, new_world
-from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 
 GOAL = Pose(395.0, 420.0, 30.0)
 

@@ -14,9 +14,10 @@ from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld, seeing
 from pico.backends.sim.world import World, new_world
 from pico.manifest.catalog import packaged_type
-from pico.model.lab import Setup, SimErrors
 from pico.model.observation import Uncertainty
 from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import MovePath

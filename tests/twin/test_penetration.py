@@ -6,8 +6,8 @@ import pytest
 from oracles.penetration import Watch
 from physical import bench, finish, fresh, path_to, to
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.kinematics import columns
 
 GOAL = Pose(395.0, 420.0, 30.0)

@@ -13,8 +13,8 @@ from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.world import World, new_world
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.arms import ArmMotion
 from pico.motion.types import MovePath
 from pico.twin.sight import Exact

@@ -11,8 +11,9 @@ from physical import bench
 from pico.geometry.mass import bodies_of, masses
 from pico.model.body import Body
 from pico.model.catalog import Footprint, Geometry
-from pico.model.lab import Mount, Robot, Setup
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.twin.physics import Twin
 from pico.twin.placement import Placement, placement_of, upright

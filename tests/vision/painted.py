@@ -10,8 +10,10 @@ import cv2
 import numpy as np
 
 from pico.manifest.catalog import load_catalog
-from pico.model.lab import Camera, Datum, Lab, Mount, Part, Robot, Setup, Slot, Table
+from pico.model.lab import Camera, Datum, Lab, Part, Slot, Table
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.vision.camera import CameraModel
 from pico.vision.frame import Frame
 from pico.vision.rigid import motion, rotation, square, upright

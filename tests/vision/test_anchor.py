@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from pico.cameras.errors import true_cameras
 from pico.manifest.load import load_folder
-from pico.model.lab import Setup, SimErrors
+from pico.model.setup import Setup
+from pico.model.simulated import SimErrors
 from pico.vision.anchor import SHARED, anchored
 from pico.vision.datums import datum_corners
 from pico.vision.markers import Markers, read_marker

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 
 def opened(setup: Setup, root: Path, fidelity: str, clock: Callable[[], str]) -> NoReturn:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.backends.device import Device

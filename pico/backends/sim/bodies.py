@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pico.backends.sim.world import World
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.motion.kinematics import tool_pose
 from pico.twin.placement import Placement, upright
 from pico.twin.snapshot import Snapshot

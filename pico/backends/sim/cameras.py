@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from pico.backends.sim.world import World
 from pico.cameras.errors import CameraShift, common_shifts, true_cameras
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.model.lab import BadLight, Setup
+from pico.model.setup import Setup
+from pico.model.simulated import BadLight
 from pico.planning.checks.interlocks import LAMP
 
 if TYPE_CHECKING:

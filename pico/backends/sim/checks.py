@@ -10,12 +10,12 @@ from pico.backends.sim.world import World
 from pico.diagnostics import Diagnostic, error
 from pico.model.catalog import Geometry, Tunable
 from pico.model.diff import deviation
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.setpoint import refusal
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, StandingObject
 
 _PRESENCE = {"missing": "is not on the table", "held": "is in the gripper", "toppled": "lies on its side"}

@@ -15,13 +15,13 @@ from pico.backends.sim.steering.pace import Pace
 from pico.backends.sim.store import load_world, world_path
 from pico.backends.sim.world import observe
 from pico.diagnostics import Diagnostic, PicoError
-from pico.model.event import Event
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.record import remembered
+from pico.model.setup import Setup
+from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
 from pico.teleop.frames import STEPS

@@ -11,11 +11,11 @@ from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.mover import MoveFailed, WorldMover
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.observation import ObservedValue, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 
 Steps = Generator[float, None, None]
 UPRIGHT = 0.7

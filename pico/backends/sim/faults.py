@@ -21,10 +21,10 @@ from pico.diagnostics import PicoError, did_you_mean, error
 from pico.disk import write_whole
 from pico.geometry.shape import placed, separation
 from pico.geometry.table import overhang
-from pico.model.lab import Setup
 from pico.model.pose import Pose
 from pico.model.primitive import OWN
 from pico.model.record import as_json, record
+from pico.model.setup import Setup
 
 _MOVES = tuple(p.name for p in OWN.values() if p.carries)
 _SETS = ("set", "home")

@@ -10,9 +10,9 @@ from pico.backends.sim.world import World, WorldBody, footprints, initial_value
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.geometry.shape import placed, separation
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue
 from pico.model.pose import Pose, wrap
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.optics.unseen import Unseen
 

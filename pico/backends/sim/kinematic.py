@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from pico.backends.sim.mover import InProgress, MoveFailed
 from pico.backends.sim.world import World, put_down
 from pico.geometry.seat import Seat
-from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Joints, MovePath, Segment, Stage
 from pico.twin.arms import arms_of

@@ -11,9 +11,9 @@ from pico.backends.last_seen import Taken, recall_hands, remember_hands, repeate
 from pico.backends.sim.mover import MoveFailed, WorldMover
 from pico.backends.sim.senses import sensed
 from pico.backends.sim.world import World, observe
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
 from pico.motion.types import MovePath
 

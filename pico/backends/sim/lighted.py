@@ -10,8 +10,8 @@ from pico.backends.sim.cameras import lamps
 from pico.backends.sim.readings import Table
 from pico.backends.sim.world import WorldBody
 from pico.geometry.seat import Seat
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.unseen import SEEN, Unseen
 
 if TYPE_CHECKING:

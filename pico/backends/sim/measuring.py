@@ -13,8 +13,8 @@ from pico.backends.sim.world import World, observe
 from pico.content.arrays import keep_array
 from pico.content.store import store_of
 from pico.model.catalog import Measurable
-from pico.model.lab import Setup
 from pico.model.measurement import PEEKED, Condition, Measurement
+from pico.model.setup import Setup
 
 
 def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurable, Measurer]:

@@ -14,10 +14,10 @@ from pico.backends.sim.world import FreePose, World, WorldBody, put_down
 from pico.diagnostics import error
 from pico.geometry.seat import Seat
 from pico.model.catalog import Geometry
-from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.motion.types import MovePath, Stage
 from pico.twin.arms import arms_of
 from pico.twin.gestures import walk

@@ -11,8 +11,8 @@ from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from pico.backends.sim.world import World
-from pico.model.lab import Setup
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

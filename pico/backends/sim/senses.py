@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from pico.backends.last_seen import Taken
 from pico.backends.sim.world import World, read_back
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of, tool_pose
 from pico.motion.reach import grasp_height
 

@@ -31,14 +31,14 @@ from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.model.event import Event, EventKind
-from pico.model.lab import Setup
 from pico.model.observation import ObservedComponent, ObservedValue, doubtful, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
+from pico.model.setup import Setup
+from pico.model.trace.event import Event, EventKind
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
 from pico.motion.zones import enters, shared_zones
 from pico.teleop.frames import STEPS

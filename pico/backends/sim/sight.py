@@ -14,7 +14,7 @@ from pico.backends.sim.cameras import eyes_of
 from pico.backends.sim.senses import let_go, sensed
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.twin.arms import arms_of, motors
 from pico.twin.placement import Placement
 from pico.vision.arm import ArmOffsets

@@ -18,10 +18,10 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import sweep, write_whole, writing
 from pico.geometry.seat import Seat
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.optics.unseen import Unseen
 
 

@@ -15,11 +15,11 @@ from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, new_world
 from pico.backends.world import Held
 from pico.cameras.errors import CameraShift, true_cameras
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.request import require_component
+from pico.model.setup import Setup
 from pico.twin.arms import arms_of
 from pico.twin.placement import Placement
 from pico.vision.arm import ArmOffsets

@@ -12,11 +12,11 @@ from typing import Any
 from pico.cameras.errors import CameraShift
 from pico.geometry.seat import Seat, drawn
 from pico.model.catalog import ComponentType, Footprint, Tunable
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import Format, record
+from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.optics.unseen import Unseen
 

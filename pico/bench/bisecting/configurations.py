@@ -9,8 +9,8 @@ from pico.bench.bisecting.costs import Leaves, PlanSeconds, leaves
 from pico.diagnostics import PicoError
 from pico.history.bisect.choice import NextCommit, Suspects, choices, halfway
 from pico.history.lab.folder import LabFolder
-from pico.model.lab import Setup
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 READ = 256

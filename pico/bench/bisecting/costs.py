@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from pico.model.diff import diff_observed
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.motion.deferred import DeferredMotion
 

@@ -9,9 +9,9 @@ from typing import Any
 from pico.bench.bisecting.records import Tried
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.history.bisect.git_state import Verdict
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
+from pico.model.setup import Setup
 from pico.model.state import Expectation, LabState
 from pico.model.vocabulary import measured_in, spoken_of, values_of
 from pico.policy.expectations import check_expectations, shown

@@ -14,10 +14,10 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.history.bisect.choice import NextCommit
 from pico.history.bisect.git_state import Ends, GitBisect, Verdict
 from pico.history.lab.folder import LabFolder
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.record import as_json
+from pico.model.setup import Setup
 
 PLANNED = 3
 """So many of the best choices are really planned, before one of them is taken."""

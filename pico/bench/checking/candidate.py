@@ -16,7 +16,7 @@ from pico.history.repository.repository import Repository
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 
 

@@ -13,11 +13,11 @@ from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
 from pico.history.merge.checked import overlapping
 from pico.manifest.text.places import find, where
 from pico.model.diff import Change
-from pico.model.expectation import Expected
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.plan import Plan
+from pico.model.setup import Setup
 from pico.model.state import LabState
+from pico.model.trace.expectation import Expected
 
 
 @dataclass(frozen=True)

@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.backends.devices import SIMULATOR
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
-from pico.model.report import RunReport
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
+from pico.model.trace.report import RunReport
 from pico.motion.deferred import DeferredMotion
 from pico.planning import plan
 from pico.planning.checks.target import Source

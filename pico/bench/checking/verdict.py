@@ -9,9 +9,9 @@ from typing import Any, Literal
 from pico.diagnostics import Diagnostic, ExitCode
 from pico.history.repository.comparison_base import ComparisonBase
 from pico.model.diff import Change
-from pico.model.expectation import Expected
 from pico.model.plan import Plan
 from pico.model.record import record
+from pico.model.trace.expectation import Expected
 
 Question = Literal["valid", "formatted", "stands", "feasible", "expectations", "policy"]
 Verdict = Literal["passed", "advised", "failed", "skipped"]

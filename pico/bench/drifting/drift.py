@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, value_distance
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, Uncertainty, slot_at
 from pico.model.operation import touched_by
 from pico.model.pose import Pose, angle_between
 from pico.model.primitive import primitive
 from pico.model.record import record
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.runs.journal import JournalRecord

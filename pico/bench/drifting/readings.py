@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from pico.diagnosis.quantities import Got, Quantity, Shot, quantity
 
 if TYPE_CHECKING:
-    from pico.model.event import Event
     from pico.model.measurement import Measurement
-    from pico.model.report import RunReport
+    from pico.model.trace.event import Event
+    from pico.model.trace.report import RunReport
 
 NOT_ASKED = "that would shut a laser which nobody lets emit again"
 """Why a frame in the dark is not taken."""

@@ -13,9 +13,9 @@ from pico.diagnosis.quantities import Got, Quantity
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.model.diff import value_distance
-from pico.model.lab import Setup
 from pico.model.pose import Pose, angle_between
 from pico.model.record import Format, as_json
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.diagnosis.nominal import Nominal

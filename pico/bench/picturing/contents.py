@@ -12,14 +12,15 @@ from pico.drawing.film.film import Caption
 from pico.drawing.steps import DrawnStep
 from pico.model.catalog import ComponentType, Geometry
 from pico.model.diff import Change, show_value
-from pico.model.event import Event
-from pico.model.lab import Part, Setup
+from pico.model.lab import Part
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
+from pico.model.trace.event import Event
 from pico.planning.checks.contacts import Contact, ends_of
 from pico.planning.explaining.blocking import moved_by, why_impossible
 from pico.twin.placement import Placement

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from pico.drawing.plots.scatter import Points
-    from pico.model.lab import Setup
+    from pico.model.setup import Setup
     from pico.runs.document import RecordedRun
     from pico.runs.table import Row
 

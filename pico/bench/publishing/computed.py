@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from pico.bench.publishing.parts import File, file
 from pico.history.git.commit import Commit
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.record import canonical
+from pico.model.setup import Setup
 from pico.model.state import LabState
 
 if TYPE_CHECKING:

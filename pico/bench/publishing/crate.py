@@ -13,7 +13,7 @@ from typing import Any
 from urllib.parse import quote
 
 from pico.bench.publishing.parts import File, Revision
-from pico.model.run import Run
+from pico.model.trace.run import Run
 from pico.runs.files import run_folder
 
 NAME = "ro-crate-metadata.json"

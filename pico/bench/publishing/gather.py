@@ -13,9 +13,9 @@ from pico.bench.publishing.run_files import chosen_runs, files_of
 from pico.content.store import Store
 from pico.diagnostics import PicoError
 from pico.history.lab.folder import LabFolder
-from pico.model.lab import Setup
-from pico.model.run import STRENGTH, Run
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
+from pico.model.trace.run import STRENGTH, Run
 
 _BESIDE = re.compile(r"(?:README|LICEN[SC]E|COPYING|CITATION)(?:\.[a-z]+)?|calibration\.json|notes/[^/]+\.md")
 _LICENSE = re.compile(r"lab/(?:LICEN[SC]E|COPYING)(?:\.[a-z]+)?")

@@ -6,9 +6,9 @@ import hashlib
 
 from pico.history.git.commit import Commit
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.record import record
-from pico.model.run import Run
+from pico.model.setup import Setup
+from pico.model.trace.run import Run
 
 JSON, JSON_LINES, TEXT, YAML, PNG = (
     "application/json",

@@ -19,7 +19,7 @@ from pico.history.runs.committed import (
     runs_added,
 )
 from pico.history.runs.loading import load_run
-from pico.model.run import Artifact, Run
+from pico.model.trace.run import Artifact, Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import intact
 

@@ -11,8 +11,8 @@ from typing import Protocol, cast
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.manifest.checks.goals import goal_errors
-from pico.model.lab import Setup
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal import within_reach
 

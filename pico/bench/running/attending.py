@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 from pico.bench.running.execution import Execution
-from pico.model.event import Event
+from pico.model.trace.event import Event
 
 SAFELY = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"
 UNMOVED = "Stopping: what has begun comes to its end, and nothing else begins (press again to stop at once)"

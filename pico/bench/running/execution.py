@@ -14,9 +14,9 @@ from pico.bench.running.loop import HEED, LoopThread
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.protocol import Edge, Job
 from pico.edge.running import new_run_id
-from pico.model.event import Event
 from pico.model.plan import Plan
-from pico.model.report import RunReport
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
 
 if TYPE_CHECKING:
     from pico.twin.snapshot import Recording

@@ -10,7 +10,7 @@ from pico.drawing.lighting import KEY
 from pico.drawing.perspective import FLOOR, Beam, Stage, photograph
 from pico.drawing.picture import center_of, glow, model_of, pose_model, scene_extent, shadows, top_of
 from pico.drawing.standpoint import standpoint
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.twin.placement import Placement
 from pico.twin.snapshot import Snapshot
 from pico.twin.surfaces import surfaces

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pico.disk import beside, removed, sweep, writing
 from pico.drawing.film.camerawork import Set, build_set
 from pico.drawing.film.movie_file import open_movie, require_kind
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.twin.snapshot import Snapshot, at
 
 if TYPE_CHECKING:

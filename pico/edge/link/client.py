@@ -15,13 +15,13 @@ from pico.edge.armings import Kept
 from pico.edge.link import wire
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.arming import Arming
-from pico.model.event import Event
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.pose import Pose
-from pico.model.report import RunReport
-from pico.model.run import RunOutcome
+from pico.model.trace.event import Event
+from pico.model.trace.report import RunReport
+from pico.model.trace.run import RunOutcome
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.teleop.frames import Answer, Frame
 from pico.vision.calibration import calibration_from_json

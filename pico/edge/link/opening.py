@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.attachment import bench_folder
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.backends.device import Capabilities

@@ -12,7 +12,7 @@ from pico.history.blame.follow import Address
 from pico.history.git.commit import Commit
 from pico.history.messages.trailers import EVIDENCE, HAND, LAB, values
 from pico.model.record import as_json, record
-from pico.model.run import Run
+from pico.model.trace.run import Run
 
 
 @record

@@ -21,7 +21,7 @@ from pico.history.git.cache import VERSION, Cache
 from pico.history.git.unread import modules
 from pico.history.repository.repository import Repository
 from pico.manifest.file_names import MAX_BYTES, is_manifest
-from pico.model.run import Run
+from pico.model.trace.run import Run
 from pico.resources import catalog_dir
 
 CACHE = "pico/blame.sqlite"

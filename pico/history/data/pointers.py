@@ -11,7 +11,7 @@ from pico.disk import disk_trouble, write_whole
 from pico.history.data.places import LfsObjects
 from pico.history.repository.repository import Repository
 from pico.model.record import record
-from pico.model.run import Run
+from pico.model.trace.run import Run
 from pico.runs.artifacts import artifact_paths
 from pico.runs.files import read_runs
 

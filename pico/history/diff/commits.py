@@ -18,7 +18,7 @@ from pico.manifest.state import read_states
 from pico.manifest.text.kinds import kind_of
 from pico.manifest.text.tree import parse
 from pico.model.diff import Change, diff_states
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 Files = Mapping[str, str]

@@ -17,8 +17,8 @@ from pico.manifest.load import load_files
 from pico.model.address import Named
 from pico.model.diff import Change
 from pico.model.record import record
-from pico.model.report import Committed
 from pico.model.state import LabState
+from pico.model.trace.report import Committed
 
 _BESIDE = (".gitattributes", ".gitignore")
 """What `pico init` writes beside the manifests: the first commit of a lab takes it along, so that clones have it."""

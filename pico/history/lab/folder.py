@@ -26,16 +26,16 @@ from pico.manifest.files import bench_files, read_folder, shown_path, states_alo
 from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named
 from pico.model.diff import Change, diff_states
-from pico.model.lab import Setup
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
     from pico.edge.protocol import OwnLab
     from pico.history.repository.repository import Repository
-    from pico.model.expectation import Standing
-    from pico.model.report import Captured
-    from pico.model.run import Run
+    from pico.model.trace.expectation import Standing
+    from pico.model.trace.report import Captured
+    from pico.model.trace.run import Run
 
 FULL = 40
 """Digits of the whole id of a commit."""
@@ -339,7 +339,7 @@ class LabFolder:
         return capture(self._files, self.setup, self.state, live, named)
 
     def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
-        from pico.model.report import Captured
+        from pico.model.trace.report import Captured
 
         manifests = self._read({**self._files, **spliced}, self.setup) if spliced else self.manifests
         after = manifests.require()[1]

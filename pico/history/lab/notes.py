@@ -8,8 +8,8 @@ from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.manifest.file_names import MAX_BYTES
-from pico.model.lab import Setup
 from pico.model.record import record
+from pico.model.setup import Setup
 
 FOLDER = "notes"
 _LINE = re.compile(r"[-*] (\d{4}-\d{2}-\d{2}) ([^:]+): (.*)")

@@ -7,9 +7,9 @@ from pico.diagnostics import Diagnostic
 from pico.history.lab.folder import LabFolder
 from pico.history.merge.commits import MergeMade, merge_revision
 from pico.manifest.load import Manifests
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.plan import Base, Target
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state, place_of
 from pico.motion.deferred import DeferredMotion
 

@@ -15,7 +15,7 @@ from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, load_files
 from pico.model.address import addresses, holds, read_addresses
 from pico.model.diff import Change, diff_states
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 _GONE = ("unknown-component", "unknown-slot")

@@ -17,7 +17,7 @@ from pico.diagnostics import Diagnostic, warning
 from pico.history.git.cache import Cache
 from pico.history.git.commit import Commit
 from pico.history.repository.repository import Repository
-from pico.model.run import FOLD, Run
+from pico.model.trace.run import FOLD, Run
 from pico.runs.files import DOCUMENT
 from pico.runs.folding import folded_ids
 from pico.runs.reading import read_document

@@ -8,10 +8,10 @@ from contextlib import suppress
 from typing import Any
 
 from pico.model.diff import Change, show_value
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement, incomparable, measurement_from_json
 from pico.model.record import as_json, record
-from pico.model.run import Run
+from pico.model.setup import Setup
+from pico.model.trace.run import Run
 from pico.runs.document import RecordedRun
 from pico.runs.operations import OperationRun, operations
 from pico.runs.states import changes

@@ -11,7 +11,7 @@ from pico.history.repository.ranges import read_range
 from pico.history.repository.repository import Repository
 from pico.history.runs.committed import RunPlace, places_in_history, read_carried
 from pico.history.runs.uncommitted import unrecorded
-from pico.model.run import Run
+from pico.model.trace.run import Run
 from pico.runs.reading import members
 
 

@@ -23,9 +23,9 @@ from pico.history.runs.committed import (
     read_place,
 )
 from pico.history.runs.uncommitted import unrecorded
-from pico.model.lab import Setup
-from pico.model.run import Run, TraceEvent
+from pico.model.setup import Setup
 from pico.model.state import LabState
+from pico.model.trace.run import Run, TraceEvent
 from pico.runs.document import RecordedRun
 from pico.runs.files import MEASUREMENTS, TRACE, intact, run_folder
 from pico.runs.folding import unfolded

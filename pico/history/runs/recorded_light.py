@@ -11,7 +11,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.runs.loading import runs_in
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.primitive import primitive
-from pico.model.run import TraceEvent
+from pico.model.trace.run import TraceEvent
 from pico.runs.trace import measurement_in
 
 _ALONG = ("interlock", "parked")

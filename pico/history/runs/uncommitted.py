@@ -19,10 +19,10 @@ from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
 from pico.model.drift import drift_of
-from pico.model.expectation import Standing
 from pico.model.observation import Observation, live_state
-from pico.model.run import FOLD, TRIALS, GoalStood, Run
 from pico.model.state import LabState
+from pico.model.trace.expectation import Standing
+from pico.model.trace.run import FOLD, TRIALS, GoalStood, Run
 from pico.runs.document import RecordedRun, recorded
 from pico.runs.files import DOCUMENT, MEASUREMENTS, TRACE, Keep, run_files, run_folder
 from pico.runs.folding import fold

@@ -9,7 +9,8 @@ from dataclasses import fields
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
-from pico.model.lab import Camera, Lab, Setup
+from pico.model.lab import Camera, Lab
+from pico.model.setup import Setup
 
 MARKERS = 1000
 """How many markers the dictionary has (OpenCV's DICT_4X4_1000)."""

@@ -8,8 +8,9 @@ from collections.abc import Collection, Iterator, Mapping
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.expressions import ExpressionError, Language
 from pico.manifest.checks.own_parameters import lasting
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 from pico.model.vocabulary import cameras_of, functions_of, measured_in, names_of
 from pico.optimize.registry import known
 

@@ -14,7 +14,9 @@ from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType
-from pico.model.lab import TOOL_SPEED, Fingers, Lab, Robot, Setup
+from pico.model.lab import Lab
+from pico.model.robot import TOOL_SPEED, Fingers, Robot
+from pico.model.setup import Setup
 
 BEAM_HEIGHT_MISMATCH = 0.5
 """How far a type's optical frame may lie from the lab's beam height [mm]."""

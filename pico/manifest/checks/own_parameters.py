@@ -12,8 +12,9 @@ from pico.manifest.checks.parameters import wrong_parameters
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType, Restore, value_of
-from pico.model.lab import Known, Setup
+from pico.model.lab import Known
 from pico.model.quantities import QuantityError, Value, convert
+from pico.model.setup import Setup
 
 
 def check_own_parameters(document: Document, setup: Setup) -> Iterator[Diagnostic]:

@@ -11,7 +11,7 @@ from pico.geometry.seat import PlacementError, placed_on, scatter
 from pico.manifest.text.places import where
 from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 SIGMAS = 3.0
 """How many standard deviations of placement a trim takes in."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Robot
+from pico.model.robot import Robot
 from pico.motion.built.poses import reached
 from pico.motion.xarm7 import LIMITS
 from pico.vision.arm import ArmOffsets

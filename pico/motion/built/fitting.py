@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
-from pico.model.lab import Robot
+from pico.model.robot import Robot
 from pico.motion.built.poses import reached
 from pico.vision.arm import ArmOffsets, FoundArm
 from pico.vision.least_squares import Solution, solve

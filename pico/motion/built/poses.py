@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
-from pico.model.lab import Mount, Robot
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
 from pico.motion.xarm7 import ORIGINS, ROLLS
 from pico.vision.arm import NOMINAL, ArmOffsets
 from pico.vision.rigid import motion, moved, rotation, upright

@@ -11,8 +11,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from itertools import product
 
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.audit.branches import Branches
 from pico.optics.audit.damage import damaged, unjudged
 from pico.optics.audit.ends import open_ends

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from pico.model.arming import LaserClass
-from pico.model.lab import Setup
 from pico.model.pose import short
+from pico.model.setup import Setup
 from pico.optics.audit.findings import Finding, Kind
 from pico.optics.light import Crossing, Light
 from pico.optics.part import Part

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from pico.model.arming import LaserClass
-from pico.model.lab import Setup
 from pico.model.quantities import convert
+from pico.model.setup import Setup
 from pico.optics.audit.limits import class_of
 from pico.optics.axis import Values
 

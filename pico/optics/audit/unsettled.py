@@ -13,7 +13,7 @@ from dataclasses import replace
 from itertools import product
 from typing import Any
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.optics.audit.findings import Finding
 from pico.optics.axis import Values
 

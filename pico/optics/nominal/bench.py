@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.geometry.seat import Seat
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.light import Arrival, light_of
 from pico.optics.unseen import SEEN, Unseen
 

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
 from pico.model.observation import Observation
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.model.vocabulary import measured_in
 from pico.optics.nominal.bench import TOLD, Array, Nominal

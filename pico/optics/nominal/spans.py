@@ -13,7 +13,8 @@ from pico.geometry.seat import scatter_of
 from pico.manifest.checks.goals import goal_errors
 from pico.manifest.load import Manifests
 from pico.manifest.text.places import where
-from pico.model.lab import Goal, Setup
+from pico.model.goal import Goal
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.optics.nominal.bench import PLACED, Array, Nominal
 

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from pico.model.catalog import value_of
-from pico.model.lab import Setup
 from pico.model.quantities import convert
+from pico.model.setup import Setup
 from pico.optics.light import Light
 
 

@@ -8,8 +8,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from pico.geometry.seat import Seat, scatter_of
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.optics.axis import Values
 from pico.optics.light import Light, light_of
 from pico.optics.unseen import SEEN, Unseen

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
+from pico.model.setup import Setup
 from pico.optics.axis import axis_of
 
 SQUARE = 20.0

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.planning.checks.contacts import bases
 from pico.planning.checks.target import Source, no_source
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 _OWN = {"beam", "clipped"}  # what `pico.optics.beam_table` tells of where beams go; not how strong they are

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import Literal
 
 from pico.geometry import Shape, capture_disc, conflict, finger_height, finger_zones, placed, separation
-from pico.model.lab import Setup
 from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.record import record
+from pico.model.setup import Setup
 
 
 @record

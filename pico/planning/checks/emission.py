@@ -12,10 +12,10 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.arming import LaserClass, within
-from pico.model.lab import Setup
 from pico.model.observation import Observation
 from pico.model.operation import Operation, searched_by
 from pico.model.plan import UNARMED
+from pico.model.setup import Setup
 from pico.optics.audit.lasers import laser_class
 from pico.optics.audit.limits import above_class_2
 

@@ -10,8 +10,8 @@ from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.model.body import Body
 from pico.model.catalog import ComponentType, Geometry, Grasp
-from pico.model.lab import Gripper
 from pico.model.pose import Pose
+from pico.model.robot import Gripper
 from pico.motion.reach import out_of_reach
 
 _TOUCHING = 0.5

@@ -10,11 +10,11 @@ from typing import Any
 from pico.diagnostics import Diagnostic, error, warning
 from pico.model.arming import LaserClass
 from pico.model.catalog import Tunable
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedValue
 from pico.model.operation import Operation, Reason
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
+from pico.model.setup import Setup
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import unlicensed
 from pico.planning.parts.phrases import listed

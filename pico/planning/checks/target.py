@@ -9,8 +9,8 @@ from itertools import islice
 
 from pico.diagnostics import Diagnostic, SourceRange, error
 from pico.geometry import Grid, Shape, conflict, fits, moved, outline, overhang, placed, reaches, separation
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.reach import out_of_reach
 from pico.planning.parts.movers import Mover, Obstacle, Place
 from pico.planning.parts.phrases import listed

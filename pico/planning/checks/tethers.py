@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, error
 from pico.geometry.tethers import tether_fault
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.planning.checks.target import Source, located, no_source
 from pico.planning.parts.movers import Mover
 

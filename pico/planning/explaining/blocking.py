@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from pico.model.lab import Setup
 from pico.model.plan import Plan
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.planning.checks.contacts import Contact, Spot, bases, ends_of, fingers, holds, mouth, starts_of
 from pico.staging.feedback.digraph import shortest_cycle
 

@@ -7,10 +7,10 @@ from typing import Literal
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.operation import Operation
 from pico.model.plan import Plan, Staging
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.planning.checks.contacts import Contact, Spot, bases, fingers, mouth, spot_of
 from pico.planning.explaining.blocking import Block, Clash, blocks_of, moved_by, ring_through, rings_of, why_impossible
 from pico.planning.explaining.graph import Dependency, PlanGraph, ScheduledOperation, graph_of

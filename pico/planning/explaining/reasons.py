@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pico.geometry import separation
-from pico.model.lab import Setup
 from pico.model.operation import Reason
+from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.planning.ordering.conflicts import Conflicts, Spot
 from pico.planning.ordering.order import Closure

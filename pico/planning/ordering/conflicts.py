@@ -22,8 +22,8 @@ from pico.geometry import (
     reaches,
 )
 from pico.model.catalog import Footprint
-from pico.model.lab import Setup
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion
 from pico.planning.parts.movers import Hold, Mover, Obstacle, with_storage
 from pico.planning.parts.spots import with_spots

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, MovePath
 from pico.motion.zones import MARGIN, Zone, enters, shared_zones
 from pico.planning.ordering.order import turns

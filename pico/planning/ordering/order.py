@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.search import OrderedMove
 

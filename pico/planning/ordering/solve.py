@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from pico.model.lab import Setup
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.motion.types import Motion
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.fewest_stagings import COMPLETE, search_fewest, stagings

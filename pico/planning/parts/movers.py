@@ -9,9 +9,9 @@ from heapq import nsmallest
 
 from pico.geometry import Shape, disc, fits, half_turn_symmetric, placed
 from pico.model.catalog import Footprint, Geometry
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.pose import Pose, wrap
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.motion.types import StandingObject
 

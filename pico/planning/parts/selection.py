@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.model.address import Named, addresses, holds, read_addresses
 from pico.model.diff import Change
-from pico.model.lab import Setup
 from pico.model.operation import Operation
+from pico.model.setup import Setup
 from pico.planning.parts.phrases import listed
 
 

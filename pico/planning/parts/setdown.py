@@ -9,10 +9,10 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry import Grid, fits, placed
-from pico.model.lab import Setup
 from pico.model.observation import Observation, ObservedRobot, astray
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion, MovePath, StandingObject
 from pico.planning.parts.movers import Obstacle, Place, standing_obstacles, turned
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from pico.diagnostics import Diagnostic, warning
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import uncertain
-from pico.model.lab import Setup
 from pico.model.observation import Observation
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 

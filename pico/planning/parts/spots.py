@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from pico.geometry import Grid, Shape, capture_disc, placed, separation
-from pico.model.lab import Region, Setup
+from pico.model.lab import Region
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.planning.parts.movers import Mover, Obstacle, Place
 
 PITCH = 20.0

@@ -32,10 +32,10 @@ from pico.history.git import cache as blame_cache
 from pico.history.lab.folder import LabFolder
 from pico.history.repository.repository import Repository
 from pico.model.diff import Change, place_json
-from pico.model.lab import Setup
 from pico.model.plan import LabRef
-from pico.model.run import Cause, Run
+from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
+from pico.model.trace.run import Cause, Run
 from pico.runs.files import run_files
 
 Git = Any

@@ -32,7 +32,7 @@ from pico.history.lab.folder import LabFolder
 from pico.history.repository.repository import Repository
 from pico.history.runs.committed import places_at, read_carried, runs_added
 from pico.history.runs.loading import load_run
-from pico.model.run import Run
+from pico.model.trace.run import Run
 from pico.runs.journal import Journal
 from pico.runs.operations import operations
 

@@ -9,9 +9,10 @@ from dataclasses import replace
 from kept import differs
 from random_labs import random_case
 
-from pico.model.lab import Box2, KeepOut, Margins, Setup, Slot, Table, Tether
+from pico.model.lab import Box2, KeepOut, Margins, Slot, Table, Tether
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.planning.checks.target import check_target
 from pico.planning.checks.tethers import check_tethers

@@ -18,11 +18,13 @@ from pico.diagnostics import PicoError
 from pico.execution.graph import Graph
 from pico.model.arming import Licence
 from pico.model.catalog import ComponentType, OpticalElement, Parameter, Tunable
-from pico.model.lab import Mount, Policy, Robot, Setup
+from pico.model.lab import Policy
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.planning import home_one, move_one, set_one
 from pico.planning.checks.emission import require_licensed

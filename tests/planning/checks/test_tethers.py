@@ -13,8 +13,10 @@ from planning_benches import GRASP, TALL, TYPES, bench, moves, part, planned, se
 
 from pico.geometry.tethers import MOST, tether_fault, turn_between, wound
 from pico.manifest.load import load_folder
-from pico.model.lab import Mount, Robot, Setup, Slot, Tether
+from pico.model.lab import Slot, Tether
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Blocked, MovePath

@@ -12,8 +12,9 @@ from random_labs import random_case
 from examples import examples
 from pico.diagnostics import PicoError
 from pico.geometry import placed, separation
-from pico.model.lab import Setup, Slot
+from pico.model.lab import Slot
 from pico.model.plan import Plan
+from pico.model.setup import Setup
 from pico.planning.checks.contacts import Contact, spot_of
 from pico.planning.explaining.blocking import blocks_of, ring_through, why_impossible
 from pico.planning.explaining.explain import explain, kind_of

@@ -11,12 +11,13 @@ from planning_benches import Places, bench, part, planned, see, want
 
 from pico.diagnostics import Diagnostic, PicoError, Position, SourceRange, error, warning
 from pico.model.catalog import Footprint
-from pico.model.lab import Box2, KeepOut, Margins, Part, Setup, Slot
+from pico.model.lab import Box2, KeepOut, Margins, Part, Slot
 from pico.model.observation import Observation, UnknownObject
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base
 from pico.model.pose import Pose
 from pico.model.request import place_after
+from pico.model.setup import Setup
 from pico.motion.types import Blocked
 from pico.planning import set_one
 from pico.planning.actors import actors

@@ -15,9 +15,11 @@ from test_paths_in_plans import Arm
 
 from pico.geometry import separation
 from pico.model.catalog import ComponentType, Footprint, Geometry, Grasp
-from pico.model.lab import Box2, Mount, Region, Robot, Setup, Slot
+from pico.model.lab import Box2, Region, Slot
 from pico.model.observation import Observation
 from pico.model.pose import Pose
+from pico.model.robot import Mount, Robot
+from pico.model.setup import Setup
 from pico.motion.types import Blocked, Joints, MovePath
 from pico.motion.zones import shared_zones
 from pico.planning.actors import actors, asides

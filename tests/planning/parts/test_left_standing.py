@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 from planning_benches import bench, planned, see, want
 
-from pico.model.lab import Robot
 from pico.model.observation import ObservedRobot, left_standing
+from pico.model.robot import Robot
 
 SETUP = bench({"a": "block"})
 NAME = next(iter(SETUP.lab.robots))

@@ -7,7 +7,7 @@ from planning_benches import TYPES, bench, moves, part, planned, see, want
 
 from pico.diagnostics import PicoError
 from pico.model.catalog import ComponentType, OpticalElement, Tunable
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 
 def test_only_the_targets_move() -> None:

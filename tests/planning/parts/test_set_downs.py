@@ -8,10 +8,11 @@ from typing import Any
 import pytest
 from planning_benches import SLOTS, bench, moves, planned, see, want
 
-from pico.model.lab import Setup, Slot
+from pico.model.lab import Slot
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.plan import Plan
 from pico.model.pose import Pose
+from pico.model.setup import Setup
 
 THREE = {**SLOTS, "s3": Slot(x=260, y=60)}
 

@@ -10,7 +10,7 @@ from pico.backends.sim.readings import Reading, Table, measurer_of
 from pico.diagnostics import PicoError, error
 from pico.kernels.measured import computed, version
 from pico.kernels.pipeline import parsed
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 
 def measures(setup: Setup, component: str, measurable: str) -> bool:

@@ -8,7 +8,7 @@ from pico.backends.attempt import Failed
 from pico.backends.sim.lighted import alone, detects, light_on
 from pico.backends.sim.readings import Reading, Table
 from pico.diagnostics import error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 SPECK = 1e-6
 """The share of the light on a fibre below which its shape does not matter."""

@@ -6,7 +6,7 @@ from pico.backends.attempt import Failed
 from pico.backends.sim.lighted import detects, light_on, room_light
 from pico.backends.sim.readings import Reading, Table
 from pico.diagnostics import error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 SPECK = 1e-6
 """The share of the light on a camera below which the shape of a beam does not matter: where it interferes with the rest

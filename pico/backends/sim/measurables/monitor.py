@@ -6,7 +6,7 @@ import math
 
 from pico.backends.sim.lighted import standing_on
 from pico.backends.sim.readings import Reading, Table
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 NOISE = 0.001
 """Of a reading, as a share of it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pico.backends.attempt import Failed
 from pico.backends.sim.readings import Reading, Table
 from pico.diagnostics import error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 KERNEL, VERSION = "markers", "1"
 SEEN = ("stereo", "known height")

@@ -6,7 +6,7 @@ from pico.backends.attempt import Failed
 from pico.backends.sim.lighted import detects, light_on
 from pico.backends.sim.readings import Reading, Table
 from pico.diagnostics import error
-from pico.model.lab import Setup
+from pico.model.setup import Setup
 
 
 def measures(setup: Setup, component: str, measurable: str) -> bool:

@@ -4,7 +4,7 @@ in the focus of a lens, where the size of a spot is the divergence times the foc
 from __future__ import annotations
 
 from pico.bench.ready.tuning import ALONG
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.planning.asked import Asked, Ready
 
 TAKES = "LENS CAMERA [CAMERA]: as wide far as near; or smallest in the focus of a lens before one"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pico.bench.ready.tuning import ACROSS, ALONG, tuned
-from pico.model.lab import Budget, Goal
+from pico.model.goal import Budget, Goal
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_bench import STEERS
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pico.bench.ready.tuning import ACROSS, TURNED, tuned
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.planning.asked import Asked, Ready
 
 TAKES = "PART... DETECTOR: as little light as can be, by the angle of a polarizer or wave plate"

@@ -3,7 +3,7 @@ after the other, and what moves one of them brings it to where the other is."""
 
 from __future__ import annotations
 
-from pico.model.lab import Budget, Goal
+from pico.model.goal import Budget, Goal
 from pico.model.quantities import Value
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_bench import STEERS

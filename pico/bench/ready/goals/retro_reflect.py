@@ -3,7 +3,7 @@ as can be, as a detector beside the way sees it."""
 
 from __future__ import annotations
 
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_bench import STEERS
 from pico.planning.openings import stopped_down

@@ -3,7 +3,7 @@ a pinhole across and along."""
 
 from __future__ import annotations
 
-from pico.model.lab import Goal
+from pico.model.goal import Goal
 from pico.planning.asked import Asked, Ready
 
 TAKES = "FILTER|PINHOLE [DETECTOR]: as much light through it as can be, by its stages or its lens"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from pico.bench.ready.tuning import ALONG, tuned
-from pico.model.lab import Budget, Goal
+from pico.model.goal import Budget, Goal
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal_arms import CLEAR, VISIBILITY, met
 

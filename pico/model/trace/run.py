@@ -8,9 +8,9 @@ from dataclasses import field
 from typing import Any, Literal
 
 from pico.model.diff import Change
-from pico.model.expectation import Expected
 from pico.model.plan import LabRef
 from pico.model.record import Format, record
+from pico.model.trace.expectation import Expected
 
 FORMAT = Format("pico.run")
 

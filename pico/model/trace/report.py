@@ -8,14 +8,14 @@ from typing import Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
 from pico.model.diff import Change
-from pico.model.expectation import Expected, GoalRead
-from pico.model.lab import Setup
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, slot_at
 from pico.model.quantities import Value
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.model.shown.html import table
 from pico.model.state import LabState, place_of
+from pico.model.trace.expectation import Expected, GoalRead
 
 
 @record
