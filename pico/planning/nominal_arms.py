@@ -49,7 +49,7 @@ class _Arms(NominalBench):
     @property
     def meeting(self) -> Meeting:
         """How the two beams meet."""
-        return self._met(self._light)
+        return self._met(self.light)
 
 
 def seen_by(goal: Goal) -> str:

@@ -4,10 +4,11 @@ changes with tunables and with how parts are put down."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from pico.geometry.seat import PlacementError, scatter_of
+from pico.geometry.seat import scatter_of
 from pico.model.goal import Goal
 from pico.model.observation import Observation
 from pico.model.pose import Pose
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
     from pico.optics.light import Light
     from pico.optics.offsets import Falling, Place
-    from pico.optics.unseen import Unseen
 
     Array = NDArray[np.float64]
 
@@ -87,21 +87,17 @@ class NominalBench:
     of its light at all places, one after the other. Raises Astray where light does not come to one of them."""
 
     def __init__(self, setup: Setup, seen: Observation, ends: Sequence[Place]) -> None:
-        self.setup, self.places = setup, ends
-        self.poses = _standing(setup, seen)
-        self.values: Values = {name: _open(own) for name, own in seen.known_values.items()}
-        self._light = self._lit(self.poses, self.values)
+        from pico.optics.nominal.bench import Nominal
+
+        values = {name: _open(own) for name, own in seen.known_values.items()}
+        self.places, self.thought = ends, Nominal(setup, _standing(setup, seen), values)
+        self.light = self.thought.light()
         try:
-            self.offsets = self._offsets(self._light)
+            self.offsets = self._offsets(self.light)
         except Astray:  # what its mirrors make up for is not seen: as they were meant, it comes there
-            self.values = straight(self.values)
-            self._light = self._lit(self.poses, self.values)
-            self.offsets = self._offsets(self._light)
-
-    def _lit(self, poses: Mapping[str, Pose], values: Values, leaning: Mapping[str, Unseen] | None = None) -> Light:
-        from pico.optics.light import light_of
-
-        return light_of(self.setup, poses, values, lit=lambda _: True, unseen=leaning)
+            self.thought = replace(self.thought, values=straight(values))
+            self.light = self.thought.light()
+            self.offsets = self._offsets(self.light)
 
     def _offsets(self, light: Light) -> Array:
         import numpy as np
@@ -110,18 +106,18 @@ class NominalBench:
 
         return np.concatenate([_there(offset(light, place)) for place in self.places])
 
-    def falling(self, values: Values | None = None) -> list[Falling]:
-        """Return how the power falls with the offsets at each place, with tunables as they are or as given."""
+    def falling(self, light: Light | None = None) -> list[Falling]:
+        """Return how the power of the light falls with the offsets at each place; of another light, if given."""
         from pico.optics.offsets import falling
 
-        light = self._light if values is None else self._lit(self.poses, values)
-        return [_there(falling(light, place)) for place in self.places]
+        return [_there(falling(light or self.light, place)) for place in self.places]
 
     def moved_by(self, address: str, bounds: tuple[float, float]) -> Array:
         """Return by how much the offsets change with a unit of a tunable."""
-        here = self.value(address)
-        step = _STEP * (bounds[1] - bounds[0]) * (1 if here + _STEP * (bounds[1] - bounds[0]) <= bounds[1] else -1)
-        return (self._offsets(self._lit(self.poses, self._with(address, here + step))) - self.offsets) / step
+        step = _STEP * (bounds[1] - bounds[0])
+        if self.value(address) + step > bounds[1]:
+            step = -step
+        return (self._offsets(self.thought.set_to(address, step).light()) - self.offsets) / step
 
     def along(self, address: str, bounds: tuple[float, float], many: int) -> tuple[float, float, float]:
         """Return how the logarithm of the power at its best, at the first `many` places, falls with a tunable along the
@@ -130,14 +126,16 @@ class NominalBench:
         (low, high), here = bounds, self.value(address)
         step = _ALONG * (high - low)
         before, middle, after = (
-            sum(math.log(f.power) for f in self.falling(self._with(address, value))[:many])
-            for value in (here - step, here, here + step)
+            sum(math.log(f.power) for f in self.falling(self.thought.set_to(address, by).light())[:many])
+            for by in (-step, 0.0, step)
         )
         bend = (2 * middle - before - after) / (2 * step**2)
         if bend <= 0:
             raise Astray
         shift = min(high, max(low, here + (after - before) / (4 * step * bend))) - here
-        scatter = [scatter_of(self.setup, n).x for n in (_part(address), *(p.component for p in self.places[:many]))]
+        scatter = [
+            scatter_of(self.thought.setup, n).x for n in (_part(address), *(p.component for p in self.places[:many]))
+        ]
         return bend, shift, sum(x**2 for x in scatter)
 
     def scattered(self) -> Array:
@@ -145,30 +143,20 @@ class NominalBench:
         that an arm puts down, as others stand as they did; of all where it puts none down."""
         import numpy as np
 
-        columns = [np.zeros(len(self.offsets))]
-        met = sorted({c.component for c in self._light.crossings} & self.poses.keys())
-        for name in [n for n in met if self.setup.movable(n)] or met:
-            for poses, leaning in self._put_down(name):
-                columns.append((self._offsets(self._lit(poses, self.values, leaning)) - self.offsets) / _STEP)
+        from pico.optics.nominal.bench import PLACED
+
+        setup, columns = self.thought.setup, [np.zeros(len(self.offsets))]
+        met = sorted({c.component for c in self.light.crossings} & self.thought.poses.keys())
+        for name in [n for n in met if setup.movable(n)] or met:
+            one = scatter_of(setup, name)
+            for way in PLACED:
+                there = self.thought.put(name, way, _STEP * getattr(one, way))
+                columns.append((self._offsets(there.light()) - self.offsets) / _STEP)
         return np.stack(columns, axis=1)
-
-    def _put_down(self, name: str) -> Iterator[tuple[dict[str, Pose], dict[str, Unseen]]]:
-        """Yield poses, and how parts lean, with one part put down otherwise by a small share of how it scatters."""
-        from pico.optics.unseen import SEEN
-
-        one, pose = scatter_of(self.setup, name), self.poses[name]
-        for way in ("x", "y", "yaw", "pitch", "roll", "height"):
-            error = PlacementError(**{way: _STEP * getattr(one, way)})
-            leans = SEEN.sitting(error.seat(1), self.setup.type_of(name).frames.optical)
-            yield {**self.poses, name: error.of(pose)}, {name: leans}
 
     def value(self, address: str) -> float:
         """Return what a tunable is at: as seen, or as it was meant where only that brings light there."""
-        return float(self.values.get(_part(address), {}).get(address.partition(".")[2], 0.0))
-
-    def _with(self, address: str, value: float) -> Values:
-        component, _, tunable = address.partition(".")
-        return {**self.values, component: {**self.values.get(component, {}), tunable: value}}
+        return float(self.thought.values.get(_part(address), {}).get(address.partition(".")[2], 0.0))
 
 
 def straight(values: Values) -> Values:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pico.geometry.seat import Seat
 from pico.model.pose import Pose
 from pico.model.setup import Setup
-from pico.optics.light import Arrival, light_of
+from pico.optics.light import Arrival, Light, light_of
 from pico.optics.unseen import SEEN, Unseen
 
 Array = NDArray[np.float64]
@@ -45,6 +45,11 @@ class Nominal:
     values: Mapping[str, Mapping[str, Any]]
     unseen: Mapping[str, Unseen] = field(default_factory=dict)
 
+    def light(self) -> Light:
+        """Return its light, with every laser on and no shutter shut."""
+        shining = {n: {k: v for k, v in own.items() if k not in _OPEN} for n, own in self.values.items()}
+        return light_of(self.setup, self.poses, shining, lit=lambda _: True, unseen=self.unseen)
+
     def numbers(self, wanted: Sequence[str]) -> Array | None:
         """Return numbers (n,) by address; None where no light comes there, or the model cannot tell one of them."""
         found, light = [], None
@@ -52,9 +57,7 @@ class Nominal:
             detector, _, number = address.partition(".")
             if number not in TOLD:
                 return None
-            if light is None:
-                shining = {n: {k: v for k, v in own.items() if k not in _OPEN} for n, own in self.values.items()}
-                light = light_of(self.setup, self.poses, shining, lit=lambda _: True, unseen=self.unseen)
+            light = light or self.light()
             arrivals = light.at(detector)
             if not arrivals:
                 return None
@@ -63,8 +66,7 @@ class Nominal:
 
     def on_the_way(self, wanted: Sequence[str]) -> tuple[str, ...]:
         """Return the parts that light meets on its way to where numbers are measured, in order."""
-        shining = {n: {k: v for k, v in own.items() if k not in _OPEN} for n, own in self.values.items()}
-        light = light_of(self.setup, self.poses, shining, lit=lambda _: True, unseen=self.unseen)
+        light = self.light()
         detectors = {address.partition(".")[0] for address in wanted}
         ways = [light.way(n) for n, c in enumerate(light.crossings) if c.component in detectors]
         return tuple(dict.fromkeys(name for way in ways for c in way for name in (way[0].beam.source, c.component)))
