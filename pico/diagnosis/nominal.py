@@ -186,11 +186,13 @@ _MOST = 100
 
 
 def _spot(arrivals: Sequence[Arrival]) -> Numbers:
-    """Return the centroid [um] and the size [um] of what falls on a camera, as its kernels give them."""
+    """Return the centroid [um] and the size [um] of what falls on a camera, as its kernels give them; of one beam its
+    greater and lesser width, too."""
     if len(arrivals) == 1:
         (one,) = arrivals
         (y, z), (wide, narrow, _) = one.center, one.beam.widths
-        return {"x": 1e3 * y, "y": 1e3 * z, "size": 2e3 * math.sqrt(wide * narrow)}
+        size = 2e3 * math.sqrt(wide * narrow)
+        return {"x": 1e3 * y, "y": 1e3 * z, "size": size, "major": 2e3 * wide, "minor": 2e3 * narrow}
     from pico.optics.light import irradiance
 
     reach = 3 * max(a.beam.widths[0] for a in arrivals)

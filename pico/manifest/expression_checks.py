@@ -1,4 +1,4 @@
-"""Whether the expressions of a lab's policy and goals and of a state's expectations make sense, before anything is
+"""Whether the expressions of a lab's policy, goals and claims and of a state's expectations make sense, before anything is
 evaluated."""
 
 from __future__ import annotations
@@ -33,6 +33,17 @@ def check_goals(manifests: Manifests) -> list[Diagnostic]:
 
     lab = manifests.documents.get("Lab", ())[0]
     return [replace(wrong, source=where(lab, "goals", *path)) for path, wrong in goal_errors(setup, setup.lab.goals)]
+
+
+def check_claims(manifests: Manifests) -> list[Diagnostic]:
+    """Return what is wrong with the claims of a lab that is right otherwise, each at its place."""
+    setup = manifests.setup
+    if setup is None or not setup.lab.claims:
+        return []
+    from pico.manifest.checks.claims import claim_errors
+
+    lab = manifests.documents.get("Lab", ())[0]
+    return [replace(wrong, source=where(lab, "claims", *path)) for path, wrong in claim_errors(setup, setup.lab.claims)]
 
 
 def check_ignored(manifests: Manifests) -> list[Diagnostic]:

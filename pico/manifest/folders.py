@@ -68,11 +68,17 @@ def check_folder(start: Path, also: Asked = lambda *_: (), beside: Beside = lamb
 def expression_errors(manifests: Manifests) -> list[Diagnostic]:
     """Return what is wrong with the rules and expectations of manifests, read only where there are any."""
     lab, state = manifests.setup and manifests.setup.lab, manifests.state
-    if lab and (lab.policy.rules or lab.policy.ignore or lab.goals or (state and state.expect)):
-        from pico.manifest.expression_checks import check_expectations, check_goals, check_ignored, check_rules
+    if lab and (lab.policy.rules or lab.policy.ignore or lab.goals or lab.claims or (state and state.expect)):
+        from pico.manifest.expression_checks import (
+            check_claims,
+            check_expectations,
+            check_goals,
+            check_ignored,
+            check_rules,
+        )
 
         rules = [*check_rules(manifests), *check_ignored(manifests)]
-        return [*rules, *check_goals(manifests), *check_expectations(manifests)]
+        return [*rules, *check_goals(manifests), *check_claims(manifests), *check_expectations(manifests)]
     return []
 
 

@@ -1,4 +1,5 @@
-"""A goal of the lab: what light is to be brought to, by which tunables, and what that may cost."""
+"""A goal of the lab: what light is to be brought to, by which tunables, and what that may cost. A claim of it: how well
+a result must be known."""
 
 from __future__ import annotations
 
@@ -8,6 +9,9 @@ from typing import Literal
 
 from pico.model.quantities import Value
 from pico.model.record import record
+
+Looks = Mapping[str, Mapping[str, Value]]
+"""Settings by name, each the values of tunables by address."""
 
 
 @record
@@ -49,7 +53,7 @@ class Goal:
     offset: float | None = None
     during: Mapping[str, Value] | None = None
     description: str = ""
-    looks: Mapping[str, Mapping[str, Value]] | None = None
+    looks: Looks | None = None
     after: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
@@ -107,3 +111,18 @@ def goal_from_json(data: Mapping[str, object]) -> Goal:
 
     goal: Goal = TypeAdapter(Goal).validate_python(dict(data))
     return goal
+
+
+@record
+class Claim:
+    """How well a result must be known, whatever is within its tolerance: `to`, one standard deviation, as a share of the
+    result (`2 %`) or in its unit (`1 um`).
+
+    `of`: an expression over measured numbers (`cam.centroid.y`); with `looks` those are spoken of by the name of a
+    setting, as in a goal: `(plus.cam.centroid.y - minus.cam.centroid.y) / 2`.
+    """
+
+    of: str
+    to: Value
+    looks: Looks | None = None
+    description: str = ""

@@ -11,7 +11,7 @@ from pico.model.catalog import (
     Restore,
     SeatingKind,
 )
-from pico.model.goal import Goal
+from pico.model.goal import Claim, Goal
 from pico.model.pose import Pose
 from pico.model.quantities import Angle, Length, Value
 from pico.model.record import record
@@ -233,6 +233,7 @@ class Lab:
     policy: Policy = Policy()
     sim: SimSettings = SimSettings()
     goals: Mapping[str, Goal] | None = None
+    claims: Mapping[str, Claim] | None = None
     inventory: Mapping[str, Part]
 
     def __post_init__(self) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator, Mapping
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.expressions import ExpressionError, Language
 from pico.manifest.checks.own_parameters import lasting
-from pico.model.goal import Goal
+from pico.model.goal import Goal, Looks
 from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.model.vocabulary import cameras_of, functions_of, measured_in, names_of
@@ -24,9 +24,9 @@ def goal_errors(setup: Setup, goals: Mapping[str, Goal]) -> Iterator[tuple[tuple
         if wrong := _after(goals, setup, name):
             yield (name, "after"), wrong
         for address, value in (goal.during or {}).items():
-            if wrong := _setting(setup, goal, address, value):
+            if wrong := _setting(setup, goal.tunables, address, value):
                 yield (name, "during", address), wrong
-        for key, wrong in (*_looks(setup, goal), *_outputs(setup, goal)):
+        for key, wrong in (*look_errors(setup, goal.looks, goal.tunables), *_outputs(setup, goal)):
             yield (name, *key), wrong
         if goal.algorithm is not None and goal.algorithm not in known():
             hint = did_you_mean(goal.algorithm[:40], known()) or f"known: {', '.join(known())}"
@@ -90,18 +90,21 @@ def _no_such_tunable(kinds: Collection[str], component: str, tunable: str) -> Di
     return error("unknown-tunable", f"{component} has no tunable `{tunable[:40]}`", hint=hint)
 
 
-def _looks(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagnostic]]:
-    for look, settings in (goal.looks or {}).items():
+def look_errors(
+    setup: Setup, looks: Looks | None, sought: Collection[str] = ()
+) -> Iterator[tuple[tuple[str, ...], Diagnostic]]:  # fmt: skip
+    """Yield what is wrong with looks, each with its path of keys; tunables that are `sought` can't be set."""
+    for look, settings in (looks or {}).items():
         if look in setup.lab.inventory or look in setup.lab.cameras or not look.isidentifier():
             text = f"a look can't be called `{look[:40]}`"
             hint = "a word of its own, which no component has: `near`, `far`"
             yield ("looks", look), error("name", text, hint=hint)
         for address, value in settings.items():
-            if wrong := _setting(setup, goal, address, value):
+            if wrong := _setting(setup, sought, address, value):
                 yield ("looks", look, address), wrong
 
 
-def _setting(setup: Setup, goal: Goal, address: str, value: Value) -> Diagnostic | None:
+def _setting(setup: Setup, sought: Collection[str], address: str, value: Value) -> Diagnostic | None:
     """Return what is wrong with what a look sets."""
     component, _, tunable = address.partition(".")
     if component not in setup.lab.inventory:
@@ -109,7 +112,7 @@ def _setting(setup: Setup, goal: Goal, address: str, value: Value) -> Diagnostic
     kinds = setup.type_of(component).tunables
     if (kind := kinds.get(tunable)) is None:
         return _no_such_tunable(kinds, component, tunable)
-    if address in goal.tunables:
+    if address in sought:
         return error("goal", f"{address} is sought, and can't be set to look", hint="one of the two")
     if kind.mover not in ("motor", "electronics") or setup.type_of(component).optics.element == "source":
         text = f"a look can't set {address}"

@@ -58,7 +58,7 @@ def check_setup(document: Document, setup: Setup) -> list[Diagnostic]:
 def _names(document: Document) -> list[Diagnostic]:
     found = [
         d
-        for key in ("inventory", "robots", "cameras", "datums", "keep_out", "goals")
+        for key in ("inventory", "robots", "cameras", "datums", "keep_out", "goals", "claims")
         for d in check_names(document, key)
     ]
     found += [d for key in ("slots", "regions") for d in check_names(document, key, parts=True)]
