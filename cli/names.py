@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "budget": "error budgets",
     "devices": "the instruments of a bench",
     "commission": "taking a real bench into use",
     "serve": "serving a bench to others",
@@ -36,7 +35,7 @@ RESERVED = {
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
-    "stash", "swap",
+    "stash", "swap", "budget",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

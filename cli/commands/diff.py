@@ -22,6 +22,9 @@ From = Annotated[
 Picture = Annotated[
     Path | None, typer.Option("--picture", metavar="PNG", help="Draw it from above: A, and dashed where parts go.")
 ]
+Result = Annotated[
+    str | None, typer.Option("--budget", metavar="CLAIM|EXPRESSION", help="What it does to a result and its errors.")
+]
 
 
 def diff(
@@ -29,6 +32,7 @@ def diff(
     a: From = None,
     b: Revision = None,
     picture: Picture = None,
+    budget: Result = None,
     stat: Annotated[bool, typer.Option("--stat", help="A line a component, and the tally.")] = False,
     exit_code: Annotated[bool, typer.Option("--exit-code", help="Exit with 1 where anything differs.")] = False,
 ) -> int:
@@ -51,10 +55,11 @@ def diff(
         if found.b
         else "`pico plan` shows how it would be done."
     )
+    both = session.bench().light.budgets(budget, found.a, found.b) if budget else ()
     with paged(session):
         session.show(
             view, found, a=history.name_of(found.a), b=history.name_of(found.b) if found.b else "the manifest",
-            next_step="" if names else step, stat=stat,
+            next_step="" if names else step, stat=stat, budgets=(budget, *both) if both else None,
         )  # fmt: skip
     session.draw(
         picture, "the difference", lambda path: session.bench().pictures.render_diff(found.a, found.b, out=path)

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..session import Session
+from ..terminal import waiting as slow
 from ..views import validation as view
 
 
@@ -27,6 +28,7 @@ def validate(
       pico validate
     """
     from pico.bench.updating import waiting
+    from pico.diagnosis.claims import check_carried
     from pico.history.lab.missing_files import missing_files
     from pico.history.merge.checked import overlapping
     from pico.history.merge.doubts import doubts_in
@@ -45,13 +47,15 @@ def validate(
             *overlapping(read),
             *check_light(read),
             *check_spans(read),
+            *check_carried(read),
             *doubts_in(root, read),
             *waiting(root),
         ],
         missing_files,
     )
     where = session.folder
-    checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
+    with slow.waiting("Checking"):
+        checked = check_files(where, files, *asked) if files else check_folder(where, *asked)
     session.tell(checked.diagnostics)
     session.show(view, checked)
     return checked.exit_code

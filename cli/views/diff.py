@@ -9,25 +9,33 @@ from typing import TYPE_CHECKING, Any
 from pico.model.diff import Change
 from pico.model.record import as_json
 
+from . import budget
 from .style import columns, count, listed, paint, place
 
 if TYPE_CHECKING:
+    from pico.diagnosis.claims import Budgeted
     from pico.history.diff.states import StateDiff
 
 
+Budgets = tuple[str, "Budgeted", "Budgeted"]
+"""A result by name, or as an expression; its error budgets in both states."""
 _STEPS = re.compile(r" \(d[xy] [^()]*\)")
 
 
-def text(found: StateDiff, *, a: str, b: str, next_step: str = "", stat: bool = False) -> str:
-    """Return what differs from state `a` to state `b`, a line a tunable; with `stat` a line a component."""
+def text(
+    found: StateDiff, *, a: str, b: str, next_step: str = "", stat: bool = False, budgets: Budgets | None = None
+) -> str:
+    """Return what differs from state `a` to state `b`, a line a tunable; with `stat` a line a component. `budgets`: of
+    a result, its error budgets in both."""
+    told = ["", *budget.change(*budgets)] if budgets else []
     if found.same:
         return f"{a} and {b} are the same."
     head = f"{paint('bold', a)} → {paint('bold', b)}"
     if not found.changes:
-        return "\n".join([head, "No component differs.", *beside(found)])
+        return "\n".join([head, "No component differs.", *beside(found), *told])
     shown = _counts(found.changes) if stat else lines(found.changes)
     return "\n".join(
-        [head, f"{tally(found.changes)}:", "", *shown, *beside(found), *(["", next_step] if next_step else [])]
+        [head, f"{tally(found.changes)}:", "", *shown, *beside(found), *told, *(["", next_step] if next_step else [])]
     )
 
 
@@ -110,10 +118,13 @@ def _ends(change: Change) -> str:
     return f"from {place(change.before)}" + ("" if isinstance(change.after, str) else f" to {place(change.after)}")
 
 
-def data(found: StateDiff, *, a: str, b: str, **_: Any) -> dict[str, Any]:
+def data(found: StateDiff, *, a: str, b: str, budgets: Budgets | None = None, **_: Any) -> dict[str, Any]:
     """Return schema `pico.diff/v1`: `from`, `to`, `changes` (component, tunable, before, after, text), `expected`,
-    `bench` and `text` (files)."""
+    `bench` and `text` (files); `budgets`: of a result before and after, as in `pico.budget/v1`."""
     told = as_json(found)
-    return {"schema": "pico.diff/v1", "from": a, "to": b} | {
-        k: told[k] for k in ("changes", "expected", "bench", "text")
-    }
+    beside = {"budgets": [budget.one_data(one) for one in budgets[1:]]} if budgets else {}
+    return (
+        {"schema": "pico.diff/v1", "from": a, "to": b}
+        | {k: told[k] for k in ("changes", "expected", "bench", "text")}
+        | beside
+    )

@@ -17,7 +17,7 @@ from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
-from pico.diagnostics import ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.link.opening import remembered
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
@@ -131,7 +131,7 @@ class Commits:
             made = committed(
                 folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, hands=hands, empty=empty
             )  # fmt: skip
-        return replace(made, diagnostics=(*cut_short(self.opened, seen), *made.diagnostics))
+        return replace(made, diagnostics=(*cut_short(self.opened, seen), *made.diagnostics, *_uncarried(folder)))
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
         """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
@@ -158,6 +158,16 @@ def _kept(folder: LabFolder, seen: Observation, named: Named | None) -> tuple[st
     """Return the set-points which light finds that a capture leaves as they are, though the bench is elsewhere."""
     missed = _unaligned(folder, seen, folder.state)
     return tuple(a for a in missed if named is None or holds(named, a.partition(".")[0], a.partition(".")[2]))
+
+
+def _uncarried(folder: LabFolder) -> tuple[Diagnostic, ...]:
+    """Return the claims of the lab that the tolerances of what was committed do not carry; looked at where there are
+    any."""
+    if not folder.setup.lab.claims:
+        return ()
+    from pico.diagnosis.claims import uncarried
+
+    return tuple(one for _, one in uncarried(folder.setup, folder.state))
 
 
 def _unaligned(folder: LabFolder, seen: Observation, state: LabState) -> Mapping[str, str]:

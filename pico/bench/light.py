@@ -11,13 +11,16 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 
 if TYPE_CHECKING:
+    from pico.diagnosis.claims import Budgeted
     from pico.diagnosis.suspects import Suspect
     from pico.drawing.picture import Image
     from pico.history.runs.recorded_light import RecordedLight
     from pico.model.diff import Change
+    from pico.model.goal import Looks
     from pico.model.measurement import Compared, Measurement
     from pico.model.observation import Observation
     from pico.model.pose import Pose
+    from pico.model.quantities import Value
     from pico.model.setup import Setup
     from pico.optics.axis import Values
     from pico.optics.beam_table import BeamRow
@@ -53,6 +56,49 @@ class Lights:
         unread = () if revision or manifest else _unread(light, self.opened.observe())
         sigmas = uncertain(setup, light, lambda other: self._traced(other, poses, values, source)[0])
         return Beams(goal, rows(light, sigmas), dark, (*unread, *troubles(setup, light)))
+
+    def budget(
+        self, what: str, revision: str | None = None, *, to: Value | None = None, looks: Looks | None = None,
+        at: Mapping[str, Value] | None = None,
+    ) -> Budgeted:  # fmt: skip
+        """Return what every error of placement and of a set-point does to a result, in the manifest or a revision, and
+        what must be held tighter for it to be known `to` a share (`2 %`) or a size (`1 um`); raises PicoError.
+
+        `what`: a claim of the lab, or an expression over measured numbers, spoken of by the names of `looks`:
+        `budget("(a.cam.centroid.y - b.cam.centroid.y) / 2", "e1", looks={"a": {"p1.angle": 1.0}, "b": {"p1.angle":
+        179.0}})`. `at`: tunables by address that are supposed to be set otherwise.
+        """
+        from pico.diagnosis.claims import budgeted, judged
+
+        setup, state = self.folder.setup, self.folder.state_at(revision) if revision else self.folder.state
+        claim = (setup.lab.claims or {}).get(what)
+        if claim is None:
+            return judged(budgeted(setup, state, what, looks, at), to)
+        found = budgeted(setup, state, claim.of, {**(claim.looks or {}), **(looks or {})}, at)
+        return judged(found, claim.to if to is None else to, what)
+
+    def budgets(self, what: str, a: str, b: str | None = None) -> tuple[Budgeted, Budgeted]:
+        """Return the error budgets of a result in two revisions, or in one and the manifest; raises PicoError where it
+        can be told in neither."""
+        from pico.diagnosis.claims import Budgeted
+
+        found, wrong = [], []
+        for revision in (a, b):
+            try:
+                found.append(self.budget(what, revision))
+            except PicoError as exc:
+                wrong.append(exc)
+                found.append(Budgeted(what, why=exc.diagnostics[0].summary))
+        if len(wrong) == len(found):
+            raise wrong[0]
+        return found[0], found[1]
+
+    def claims(self, revision: str | None = None) -> tuple[Budgeted, ...]:
+        """Return the claims of the lab with their error budgets, in the manifest or a revision; raises PicoError."""
+        from pico.diagnosis.claims import claims_in
+
+        state = self.folder.state_at(revision) if revision else self.folder.state
+        return tuple(claims_in(self.folder.setup, state))
 
     def recorded(self, revision: str | None = None) -> RecordedLight:
         """Return what a revision recorded of its light; without one HEAD, where the manifest is as it says. Raises

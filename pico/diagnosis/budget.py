@@ -17,6 +17,8 @@ from pico.model.goal import Looks
 
 BENT = 0.1
 """From which share on an effect counts as not in proportion to its error."""
+_ROUNDING = 1e-6
+"""The share of its error below which a result is 0."""
 _FINE = 0.05
 """The share of the smaller standard deviation by which is stepped for a derivative."""
 
@@ -63,6 +65,11 @@ class ErrorBudget:
         return math.hypot(*(row.repeated or 0.0 for row in self.rows))
 
     @property
+    def nothing(self) -> bool:
+        """Whether the result is 0, but for how well numbers are computed."""
+        return abs(self.value) <= _ROUNDING * self.tolerated
+
+    @property
     def lost(self) -> tuple[str, ...]:
         """Errors within whose tolerance no light is left to tell the result."""
         return tuple(dict.fromkeys(row.address for row in self.rows if row.tolerated is None))
@@ -70,8 +77,8 @@ class ErrorBudget:
 
 @dataclass(frozen=True)
 class Tighter:
-    """To what an error must be held: `was` and `to` are its tolerance, or where it has none (`limit` false) one standard
-    deviation of how it repeats. `reached`: the bench repeats so well."""
+    """To what an error must be held: `was` and `to` are its tolerance, or where it has none (`limit` false) one
+    standard deviation of how it repeats. `reached`: the bench repeats so well."""
 
     address: str
     unit: str
@@ -82,8 +89,8 @@ class Tighter:
 
 
 def error_budget(nominal: Nominal, of: str, looks: Looks | None = None) -> ErrorBudget:
-    """Return the error budget of an expression over measured numbers; raises PicoError for what is none, and for what the
-    model cannot tell."""
+    """Return the error budget of an expression over measured numbers; raises PicoError for what is none, and for what
+    the model cannot tell."""
     result = result_of(nominal, of, looks or {})
     value = result.value()
     if value is None or not math.isfinite(value):
@@ -110,12 +117,14 @@ def tighter(budget: ErrorBudget, wanted: float) -> tuple[Tighter, ...]:
 
 
 def _contribution(result: Result, value: float, one: Error) -> Contribution:
-    tolerated, repeated = (_effect(result, value, one, size) for size in (one.tolerated, one.repeats))
     step = _FINE * min(size for size in (one.tolerated, one.repeats) if size)
     up, down = result.erring(one, step), result.erring(one, -step)
     slope = math.nan if up is None or down is None else (up - down) / (2 * step)
-    straight = abs(slope) * one.tolerated
-    bent = tolerated is None or not abs(tolerated - straight) <= BENT * tolerated
+    tolerated = _effect(result, value, one, one.tolerated)
+    bent = tolerated is None or not abs(tolerated - abs(slope) * one.tolerated) <= BENT * tolerated
+    repeated = abs(slope) * one.repeats  # what is straight to there is straight before
+    if bent or one.repeats > one.tolerated:
+        repeated = tolerated if one.repeats == one.tolerated else _effect(result, value, one, one.repeats)
     return Contribution(
         one.address, one.look, one.unit, slope, one.tolerance, one.repeats, tolerated, repeated, bent
     )  # fmt: skip

@@ -4,7 +4,7 @@ bench may have about it."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.diagnosis.nominal import QUIET, ZERO, Nominal, Step
@@ -68,7 +68,9 @@ class Result:
     used: Mapping[str, tuple[str, str]]
     looks: Looks
 
-    def value(self, steps: Sequence[Step] = (), *, times: float = 1.0, off: Mapping[str, Set] | None = None) -> float | None:
+    def value(
+        self, steps: Sequence[Step] = (), *, times: float = 1.0, off: Mapping[str, Set] | None = None
+    ) -> float | None:
         """Return the value with something changed, looks `off` from what they should set, all numbers as many `times`;
         None where there is none: the light is lost."""
         numbers = {}
@@ -145,8 +147,8 @@ class Result:
 
 
 def result_of(nominal: Nominal, of: str, looks: Looks) -> Result:
-    """Return the result that an expression is, in the names of looks; raises PicoError for what is none, and for numbers
-    that the model does not tell."""
+    """Return the result that an expression is, in the names of looks; raises PicoError for what is none, and for
+    numbers that the model does not tell."""
     try:
         expression, used = spoken(nominal.setup, of, looks)
     except ExpressionError as exc:

@@ -1,5 +1,5 @@
-"""Whether the expressions of a lab's policy, goals and claims and of a state's expectations make sense, before anything is
-evaluated."""
+"""Whether the expressions of a lab's policy, goals and claims and of a state's expectations make sense, before
+anything is evaluated."""
 
 from __future__ import annotations
 

@@ -15,7 +15,8 @@ from pico.resources import schemas_dir
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
 _NAMED = {"inventory": NAME, "robots": NAME, "cameras": NAME, "datums": NAME, "keep_out": NAME, "tunables": NAME,
-          "parameters": NAME, "measurables": NAME, "goals": NAME, "claims": NAME, "slots": PATH_NAME, "regions": PATH_NAME}  # fmt: skip
+          "parameters": NAME, "measurables": NAME, "goals": NAME, "claims": NAME,
+          "slots": PATH_NAME, "regions": PATH_NAME}  # fmt: skip
 _QUANTITY = [{"type": "number"}, {"type": "string", "pattern": r"^\s*[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?\s*\S+"}]
 
 

@@ -115,8 +115,8 @@ def goal_from_json(data: Mapping[str, object]) -> Goal:
 
 @record
 class Claim:
-    """How well a result must be known, whatever is within its tolerance: `to`, one standard deviation, as a share of the
-    result (`2 %`) or in its unit (`1 um`).
+    """How well a result must be known, whatever is within its tolerance: `to`, one standard deviation, as a share of
+    the result (`2 %`) or in its unit (`1 um`).
 
     `of`: an expression over measured numbers (`cam.centroid.y`); with `looks` those are spoken of by the name of a
     setting, as in a goal: `(plus.cam.centroid.y - minus.cam.centroid.y) / 2`.

@@ -37,7 +37,7 @@ def claim_errors(setup: Setup, claims: Mapping[str, Claim]) -> Iterator[tuple[tu
 def spoken(setup: Setup, of: str, looks: Looks | None) -> tuple[Expression, dict[str, tuple[str, str]]]:
     """Return an expression over measured numbers, and by the name of each its look (empty: as all stands) and its
     address; raises ExpressionError."""
-    names = [n for n in (*setup.lab.inventory, *cameras_of(setup))]
+    names = (*setup.lab.inventory, *cameras_of(setup))
     plain = {f"{name}.{number}": ("", f"{name}.{number}") for name in names for number in numbers_of(setup, name)}
     known = plain | {f"{look}.{address}": (look, address) for look in looks or () for address in plain}
     kinds: dict[str, Kind] = dict.fromkeys(known, "number")
