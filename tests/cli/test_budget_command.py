@@ -66,7 +66,7 @@ def test_a_claim_that_makes_no_sense_is_told_at_its_place(shel: Path, pico: Pico
 
 def test_what_cannot_be_asked_is_said(shel: Path, pico: Pico) -> None:
     for asked, said in (
-        (("budget", "--for", "2 %"), "of what result"), (("budget", "cam.power", "--set", "p1"), "--set can't read `p1`"),
+        (("budget", "--for", "2 %"), "of what result"), (("budget", "cam.power", "--set", "p1"), "can't read `p1`"),
         (("budget", "cam.power", "--set", "p1.angl=3"), "no tunable `angl`"), (("budget", "cam.powr"), "did you mean"),
         (("budget", "cam.power", "--set", "p1.angle=3 mm"), "is a length, not an angle"),
         (("budget", "cam.power", "nowhere"), "nowhere"), (("budget", "cam.power", "--for", "x"), "`x` is not"),
