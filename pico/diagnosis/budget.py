@@ -122,7 +122,7 @@ def _contribution(result: Result, value: float, one: Error) -> Contribution:
     slope = math.nan if up is None or down is None else (up - down) / (2 * step)
     tolerated = _effect(result, value, one, one.tolerated)
     bent = tolerated is None or not abs(tolerated - abs(slope) * one.tolerated) <= BENT * tolerated
-    repeated = abs(slope) * one.repeats  # what is straight to there is straight before
+    repeated: float | None = abs(slope) * one.repeats  # what is straight to there is straight before
     if bent or one.repeats > one.tolerated:
         repeated = tolerated if one.repeats == one.tolerated else _effect(result, value, one, one.repeats)
     return Contribution(
