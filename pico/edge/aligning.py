@@ -285,7 +285,7 @@ class _Run:
                 found = await self._measured(component, measurable)
                 if isinstance(found, str):
                     self.doubt = found
-                    return Reading(time=self.now, unknown=found)
+                    return Reading(time=self.now, unknown=found, missed=True)
                 if unsure := [f"{one}: {why}" for one, why in found.not_assured.items() if one != "not saturated"]:
                     self.doubt = f"of {found.address} not all was assured: {'; '.join(unsure)}"
                 taken[f"{look}.{found.address}" if look else found.address] = found

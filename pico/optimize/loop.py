@@ -49,13 +49,14 @@ class Ask:
 @dataclass(frozen=True)
 class Reading:
     """What came of an ask: outputs with their `<output>_sigma`, none where it is dark or a frame was lost (`unknown`
-    says why; `glaring`: there is too much light); `time` on the bench's clock [s]; `fault`: what does not answer, with
-    its last reading."""
+    says why; `glaring`: there is too much light; `missed`: no reading came, so that nobody knows whether there is
+    light); `time` on the bench's clock [s]; `fault`: what does not answer, with its last reading."""
 
     values: Mapping[str, float] = field(default_factory=dict)
     time: float = 0.0
     unknown: str = ""
     glaring: bool = False
+    missed: bool = False
     fault: str = ""
 
 
@@ -102,19 +103,21 @@ class _Walk:
     def __init__(self, problem: Problem, limits: Limits, stopping: Callable[[], bool]) -> None:
         self.problem, self.limits, self.stopping = problem, limits, stopping
         self.tried: list[Tried] = []
+        self.first: Tried | None = None
         self.here: Point = problem.start
         self.good: Tried | None = None
         self.began: float | None = None
         self.now = self.longest = 0.0
-        self.lost, self.fault, self.unknown, self.glaring = 0, "", "", False
+        self.lost, self.fault, self.unknown, self.glaring, self.missed = 0, "", "", False, False
         self.solution: Solution | None = None
 
     def run(self, refine: Making, acquire: Making | None) -> Loop:
-        yield from self._ask(self.problem.start)
-        while not (why := self._over()) and self.glaring and acquire is not None:
+        self.first = yield from self._ask(self.problem.start)
+        while not (why := self._over()) and (self.missed or (self.glaring and acquire is not None)):
             if self.lost >= LOST:
-                return (yield from self._end("there is too much light to begin with"))
-            yield from self._ask(self.problem.start)
+                told = "nothing was measured where it began" if self.missed else "there is too much light to begin with"
+                return (yield from self._end(Short(told)))
+            self.first = yield from self._ask(self.problem.start)
         if not why and self.good is None and acquire is not None:
             plain = replace(self.problem, offset=None)
             why = yield from self._stage(acquire(plain), until_light=True)
@@ -156,9 +159,9 @@ class _Walk:
         """Return why nothing more may be tried, empty while something may: one measurement is kept for the end."""
         limits, spent = self.limits, len(self.tried)
         spends = spent + 2 if spent else 1  # the next, and one at the end
-        if self.good is not None and self._doubtful(self.tried[0], self.good):
+        if self.first and self.good is not None and self._doubtful(self.first, self.good):
             spends += 2  # the start and the best again
-        if spent and not self._believed(self.tried[0].result):
+        if self.first and not self._believed(self.first.result):
             spends += 1  # the start again
         slow = self.now - (self.began or 0.0) + 2 * self.longest > limits.seconds
         ends = {
@@ -178,7 +181,7 @@ class _Walk:
             self.began = before = reading.time
         self.now = reading.time
         self.longest = max(self.longest, self.now - before)
-        self.unknown, self.glaring = reading.unknown, reading.glaring
+        self.unknown, self.glaring, self.missed = reading.unknown, reading.glaring, reading.missed
         if reading.fault:
             self.fault = self.fault or reading.fault
         tried = Tried({**point, **reading.values}, reading.time, why)
@@ -211,7 +214,7 @@ class _Walk:
 
     def _end(self, why: str) -> Loop:
         """Bring the tunables to the best point, measured again; or to where they began, where nothing better is."""
-        first = self.tried[0] if self.tried else None
+        first = self.first
         if self.problem.offset is not None and self.solution is not None and not self.fault:
             return (yield from self._leave(why, self.solution, self.problem.offset))
         if self.unknown and not self.fault and (self.good is None or self.lost):
@@ -259,6 +262,8 @@ class _Walk:
         lost = isinstance(why, Short) and not self._believed(first.result) and self.here != begun
         if lost and len(self.tried) + 2 <= self.limits.measurements:  # where it began light may only have been lost
             yield from self._ask(begun, why="check")
+            if self.missed and len(self.tried) + 2 <= self.limits.measurements:
+                yield from self._ask(begun, why="check")
         if not self._at_best():
             best = _point(self.problem, self.good)
             yield from self._ask(best, why="best")
@@ -273,10 +278,13 @@ class _Walk:
             if self.problem.cost(again.result) < self.problem.cost(first.result) / 2:
                 return Short(f"{LIGHT_LOST} on the way: less comes now to where it began")
             yield from self._ask(best, why="best")
-        if self._worse(first):
-            dark = not self._believed(self.tried[-1].result)
+        if self._worse(first, 0.0 if isinstance(why, Short) else 2.0):
+            gone = "nothing better was found than where it began"
+            if not self._believed(self.tried[-1].result):
+                gone = "there was no light any more at the best"
+            elif self._worse(first, 2.0):
+                gone = "the best is worse now than where it began"
             yield from self._ask(begun, measure=len(self.tried) < self.limits.measurements, why="start")
-            gone = "there was no light any more at the best" if dark else "the best is worse now than where it began"
             return Short(f"{why}, but {gone}")
         return why
 
@@ -303,19 +311,19 @@ class _Walk:
                 f" ({self.unknown})" if self.unknown else ""
             )
         return Outcome(
-            self.tried[0].result, last.result if there else None, tuple(self.tried), there, why, self.fault,
+            (self.first or last).result, last.result if there else None, tuple(self.tried), there, why, self.fault,
             self.now - (self.began or 0.0), solution,
         )  # fmt: skip
 
-    def _worse(self, first: Tried) -> bool:
-        """Whether it is worse now than it began, by two standard deviations."""
+    def _worse(self, first: Tried, sigmas: float) -> bool:
+        """Whether it is worse now than it began, by more than so many standard deviations."""
         last = self.tried[-1]
-        if last is first or self.fault or not self._believed(first.result):
+        if last is first or self.here == _point(self.problem, first) or self.fault or not self._believed(first.result):
             return False
         if not self._believed(last.result):
             return True
         noise = math.hypot(self.problem.noise(last.result), self.problem.noise(first.result))
-        return self.problem.cost(last.result) > self.problem.cost(first.result) + 2 * noise
+        return self.problem.cost(last.result) > self.problem.cost(first.result) + sigmas * noise
 
 
 def believed(problem: Problem, limits: Limits, result: Mapping[str, float]) -> bool:

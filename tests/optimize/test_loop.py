@@ -319,3 +319,48 @@ def test_a_tunable_that_does_nothing_is_told() -> None:
 
     found, _ = driven(PEAK, "peak", read)
     assert found.met and found.why.endswith("; by m.tilt it changes by no more than its noise")
+
+
+FOCUS = Problem((Variable("lens.x", -6.0, 6.0, -3.1),), ("cam.width",), "minimize")
+
+
+@pytest.mark.parametrize("algorithm", ["nelder_mead", "waist_parabola"])
+def test_where_readings_are_missed_it_never_ends_worse_than_it_began(algorithm: str) -> None:
+    """A third of all readings is missed, often the first: nothing is moved before the start is known."""
+    for seed in range(60):
+        rng = random.Random(seed)
+
+        def read(point: Point, number: int) -> Reading:
+            if rng.random() < 0.34:  # noqa: B023
+                return Reading({}, float(number), "what was measured got lost on the way", missed=True)
+            width = math.hypot(300.0, 20 * (point["lens.x"] + 1.5))
+            return Reading({"cam.width": width + 0.2 * rng.gauss(0, 1), "cam.width_sigma": 0.2}, float(number))  # noqa: B023
+
+        found, asks = driven(FOCUS, algorithm, read, Limits(measurements=20), acquire="spiral")
+        ended, began = (math.hypot(300.0, 20 * (x + 1.5)) for x in (asks[-1].point["lens.x"], -3.1))
+        assert ended <= began + 0.8, (seed, found.why)
+        assert sum(a.measure for a in asks) <= 20
+        assert found.first or all(a.point == FOCUS.start for a in asks)
+
+
+def test_where_no_reading_comes_at_all_nothing_is_moved() -> None:
+    missed = Reading(unknown="what was measured got lost on the way", missed=True)
+    found, asks = driven(FOCUS, "nelder_mead", lambda p, n: missed, acquire="spiral")
+    assert found.why == "nothing was measured where it began (what was measured got lost on the way)"
+    assert not found.met and len(found.tried) == 6 and all(a.point == FOCUS.start for a in asks)
+
+
+def test_where_it_ends_early_what_is_no_better_than_the_start_is_left_at_the_start() -> None:
+    """The second place reads best by its noise. Measured again it is less than the start, within two sigma: in truth it
+    may be worse by more."""
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        power = {1: 1.0, 2: 1.1}.get(number, 0.5)
+        if number > 2 and point["m.tip"] != 0.0 and point["m.tilt"] == 0.0:
+            power = 0.9
+        return {"pd.power": power, "pd.power_sigma": 0.07}
+
+    count = iter(range(99))
+    found, asks = driven(PEAK, "nelder_mead", read, stopping=lambda: next(count) > 3)
+    assert [a.why for a in asks][-2:] == ["best", "start"] and asks[-1].point == PEAK.start and not found.met
+    assert found.why == "it was stopped, but nothing better was found than where it began"
