@@ -8,8 +8,9 @@ recorded. Two histories are made so: one of the bench as it ships, and one of a 
 A restoration is `apply --align` of a commit. It succeeds where the bench is as the commit says, its goals are aligned
 again, the camera has 95 % of the recorded light against the laser's own monitor, the spot is within 5 um where a goal
 of the state puts it (else as near as the stated placement of the parts predicts: 2.49 standard deviations, both axes
-taken together, which one in 22 exceeds by chance), the differential shift (half the way of the spot from one side of
-crossed to the other; for E2-1 and E1-1 in E2-3 and E1-3, built again from there) is within 1 um, and it took no longer than 1.15 times its bound.
+taken together, which one in 22 exceeds by chance), the differential shift is within 1 um, and it took no longer than
+1.15 times its bound. The shift is half the way of the spot from one side of crossed to the other; after E2-1 and E1-1
+it is measured in E2-3 and E1-3, built again from there.
 
 The bound is reckoned before anything moves, from the bench as it is seen and the state that is wanted. Travel: the
 least time that the arm needs for these moves in any order, its hand and its parking included, or the slowest motor.
@@ -19,7 +20,8 @@ looks, for what is off and for that it no longer is, and what the commit recorde
 Rebuilding is counted as it was built, from C1 on. The percentage is the seconds of a restoration over those of
 rebuilding; without alignment neither counts what light took. Slow alignment makes it small: it informs, and is no bar.
 
-    python benchmarks/restoration.py [--experiments 5] [--first 1] [--fidelity kinematic] [--history shipped] [--only C3]
+    python benchmarks/restoration.py [--experiments 5] [--first 1] [--fidelity kinematic] [--history staged]
+                                     [--only C3] [--dark]
 """
 
 from __future__ import annotations
@@ -28,10 +30,10 @@ import argparse
 import math
 import statistics
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import astuple, dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 
 from restoring_light import KEPT, LIKELY, MEASURED, NEAR, bench_of, git
@@ -95,7 +97,7 @@ class Spent:
 
     @property
     def total(self) -> float:
-        return sum(astuple(self))
+        return float(sum(astuple(self)))
 
     @property
     def unaligned(self) -> float:
@@ -113,7 +115,7 @@ class Bound:
 
     @property
     def total(self) -> float:
-        return sum(astuple(self))
+        return float(sum(astuple(self)))
 
 
 @dataclass(frozen=True)
@@ -156,8 +158,10 @@ class Came:
 class Experiment:
     """One experiment on a new bench."""
 
-    def __init__(self, folder: Path, seed: int, fidelity: str, *, passive: bool, only: str = "") -> None:
-        self.folder, self.fidelity, self.only = folder, fidelity, only
+    def __init__(
+        self, folder: Path, seed: int, fidelity: str, passive: bool, only: str = "", shifts: bool = True
+    ) -> None:
+        self.folder, self.fidelity, self.only, self.shifts = folder, fidelity, only, shifts
         bench_of(folder, seed, passive=passive)
         self.built: dict[str, Spent] = {}
         self.shift: dict[str, tuple[float, float]] = {}
@@ -187,7 +191,8 @@ class Experiment:
             spent = (_spent(bench, report.run) if report.done else Spent()) + _aligned(bench, GOALS.get(tag, ""))
             if tag in ("C2", "C3"):
                 spent += self._nulled(bench, "p1" if tag == "C2" else "p2")
-            if restored := next((one for one in TABLE if one.beyond == tag), None):
+            restored = next((one for one in TABLE if one.beyond == tag and self.only in ("", one.tag)), None)
+            if restored and self.shifts:
                 self.shift[tag] = _shift(bench, restored)
             if tag in {one.tag for one in TABLE}:
                 spent += _recorded(bench, tag)
@@ -220,6 +225,8 @@ class Experiment:
             rebuilding = sum((self.built[t] for t in restored.way), Spent())
             came = replace(came, spent=_spent(bench, report.run, plan), rebuilding=rebuilding)
             came = _light(bench, came, tag, report)
+            if not self.shifts:
+                return replace(came, shifted=0.0)
             if restored.beyond != restored.tag:
                 onward = bench.apply(restored.beyond.lower())
                 if why := _unreached(onward):
@@ -264,7 +271,7 @@ def _spent(bench: Bench, run: str | None, plan: Plan | None = None, *, aligns: b
     ]
     took = dict.fromkeys(KINDS, 0.0)
     times = sorted({t for begin, end, _ in spans for t in (begin, end)})
-    for begin, end in zip(times, times[1:], strict=False):
+    for begin, end in pairwise(times):
         going = {kind for a, b, kind in spans if a <= begin and end <= b}
         took[next((kind for kind in ("moving", "aligning", "measuring") if kind in going), "settling")] += end - begin
     return Spent(**took)
@@ -283,7 +290,9 @@ def bound_of(bench: Bench, tag: str) -> Bound:
     """Return what it takes at least to bring the bench as it is seen to a commit with its light. Nothing of it is from
     a run, or from what a plan reckons for light."""
     setup, moves, whole = bench.setup, bench.plan(tag, align=False), bench.plan(tag, align=True)
-    goals = [(setup.lab.goals or {})[str(op.arguments["goal"])] for op in whole.operations if op.primitive == "optimize"]
+    goals = [
+        (setup.lab.goals or {})[str(op.arguments["goal"])] for op in whole.operations if op.primitive == "optimize"
+    ]
     recorded = bench.light.recorded(tag).measured
     wanted = bench.state_at(tag).components
     settling = SETTLING if recorded else 0.0
@@ -322,7 +331,7 @@ def _shift(bench: Bench, restored: Restored) -> tuple[float, float]:
         raise SystemExit(f"{restored.tag}: no shift at {found.at}: {[d.summary for d in found.diagnostics]}")
     for name, tunable in (("p1", "angle"), ("hwp", "angle"), ("cam", "exposure")):
         bench.apply(bench.single(name, "set", **{tunable: seen[name][tunable]}))
-    return found.returns["y"], found.returns["sigma"]
+    return float(found.returns["y"]), float(found.returns["sigma"])
 
 
 def _light(bench: Bench, came: Came, tag: str, report: RunReport) -> Came:
@@ -346,23 +355,29 @@ def main() -> None:
     parser.add_argument("--fidelity", default="physics", choices=("physics", "kinematic"))
     parser.add_argument("--history", choices=[*HISTORIES], help="this one of the two alone")
     parser.add_argument("--only", choices=[one.tag for one in TABLE], default="", help="this restoration alone")
+    parser.add_argument("--dark", action="store_true", help="without the differential shift, which takes longest")
     args = parser.parse_args()
-    for history in [args.history] if args.history else HISTORIES:
-        print(f"{history}, {args.fidelity}", flush=True)
-        came, completed, asked = [], 0, 1 if args.only else len(TABLE)
-        for seed in range(args.first, args.first + args.experiments):
-            found = []
+    histories, asked = [args.history] if args.history else [*HISTORIES], 1 if args.only else len(TABLE)
+    came: dict[str, list[list[Came]]] = {history: [] for history in histories}
+    for seed in range(args.first, args.first + args.experiments):
+        for history in histories:
+            came[history].append([])
             with tempfile.TemporaryDirectory(prefix="pico-restoration-") as place:
+                made = Experiment(
+                    Path(place) / "lab", seed, args.fidelity, HISTORIES[history], args.only, not args.dark
+                )
                 try:
-                    for one in Experiment(Path(place) / "lab", seed, args.fidelity, passive=HISTORIES[history],
-                                          only=args.only).run():  # fmt: skip
-                        found.append(one)
-                        print(f"  seed {seed:3}: {one.of.after:>4} to {one.of.tag:4} {_said(one)}", flush=True)
+                    for one in made.run():
+                        came[history][-1].append(one)
+                        print(f"seed {seed:3} {history}: {one.of.after} to {one.of.tag:4} {_said(one)}", flush=True)
                 except SystemExit as exc:
-                    print(f"  seed {seed:3}: {exc}", flush=True)
-            completed += len(found) == asked
-            came += found
-        _table(came, completed, args.experiments, args.experiments * asked)
+                    print(f"seed {seed:3} {history}: {exc}", flush=True)
+    for history, found in came.items():
+        completed = sum(len(each) == asked for each in found)
+        print(f"\n{history}, {args.fidelity}: {completed} of {args.experiments} experiments completed, ", end="")
+        _table([one for each in found for one in each], args.experiments * asked)
+    print("seconds are simulated, means but for `over`, the most of any over its bound; % of rebuilding from C1, with "
+          "alignment, and without (dark)")  # fmt: skip
 
 
 def _said(one: Came) -> str:
@@ -371,14 +386,16 @@ def _said(one: Came) -> str:
     spot = f"spot {one.off:4.2f} {'um' if one.open_to == NEAR else 'sigma'} off"
     took = f"{one.spent.total:5.1f} s, bound {one.bound.total:5.1f} s ({one.ratio:.2f})"
     shift = f"shift {one.shifted:+.2f} um (sigma {one.sigma:.2f})"
+    shift = shift if one.sigma == one.sigma else "no shift"
     return f"{100 * one.share:5.1f} % of the light, {spot}, {shift}, {took}{' NOT: ' if one.wrong else ''}{one.wrong}"
 
 
-def _table(came: Sequence[Came], completed: int, experiments: int, asked: int) -> None:
+def _table(came: Sequence[Came], asked: int) -> None:
     good = sum(not one.wrong for one in came)
-    print(f"\n{completed} of {experiments} experiments completed, {good} of {asked} restorations successful")
-    print(f"{'restoration':14}{'ratio':>6}  {'moving':>7}{'settling':>9}{'aligning':>9}{'measuring':>10}{'sum':>7}"
-          f"  {'travel':>7}{'settling':>9}{'exposures':>10}{'bound':>7}{'over':>6}  {'%':>6}{'% dark':>7}{'paper':>7}")  # fmt: skip
+    print(f"{good} of {asked} restorations successful")
+    columns = ("moving", "settling", "aligning", "measuring", "sum", "travel", "settling", "exposures", "bound", "over",
+               "%", "% dark", "paper")  # fmt: skip
+    print(f"{'restoration':14}{'ratio':>6} " + "".join(f"{one:>10}" for one in columns))
     for of in TABLE:
         mine = [one for one in came if one.of == of and not one.why]
         if not mine:
@@ -386,12 +403,9 @@ def _table(came: Sequence[Came], completed: int, experiments: int, asked: int) -
         own, least = (_mean([astuple(getattr(one, name)) for one in mine]) for name in ("spent", "bound"))
         whole = _mean([astuple(one.rebuilding) for one in mine])
         bright, dark = (statistics.mean(one.percent(aligned=lit) for one in mine) for lit in (True, False))
-        print(f"{of.after + ' to ' + of.tag:14}{of.ratio:>6}  {own[0]:7.1f}{own[1]:9.1f}{own[2]:9.1f}{own[3]:10.1f}"
-              f"{sum(own):7.1f}  {least[0]:7.1f}{least[1]:9.1f}{least[2]:10.2f}{sum(least):7.1f}"
-              f"{max(one.ratio for one in mine):6.2f}  {bright:6.1f}{dark:7.1f}{of.paper:7.1f}")  # fmt: skip
-        print(f"{'  rebuilt':14}{'':6}  {whole[0]:7.1f}{whole[1]:9.1f}{whole[2]:9.1f}{whole[3]:10.1f}{sum(whole):7.1f}")
-    print("seconds are simulated, means but for `over`, the most of any over its bound; % of rebuilding from C1, "
-          "with alignment, and without (dark)\n")  # fmt: skip
+        numbers = (*own, sum(own), *least, sum(least), max(one.ratio for one in mine), bright, dark, of.paper)
+        print(f"{of.after + ' to ' + of.tag:14}{of.ratio:>6} " + "".join(f"{n:10.2f}" for n in numbers))
+        print(f"{'  rebuilt':20} " + "".join(f"{n:10.2f}" for n in (*whole, sum(whole))))
 
 
 def _mean(rows: Sequence[Sequence[float]]) -> list[float]:
@@ -399,4 +413,4 @@ def _mean(rows: Sequence[Sequence[float]]) -> list[float]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
