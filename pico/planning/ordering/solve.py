@@ -101,6 +101,7 @@ def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
     """Return an order for exactly these movers, every path of it checked, or why there is none."""
     table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
     blocked: list[NoPath] = []
+    start: Configuration = (0,) * len(table.movers)
     while True:
         found = search_fewest(table, several=problem.fastest)
         if found.steps is None:
@@ -115,7 +116,7 @@ def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
             return OrderedMoves(table, tour, paths, found.least, found.slots)
         blocked.append(paths)
         if len(blocked) > PATH_ROUNDS:
-            return Refusal(table, (), found.closest, False, tuple(blocked))
+            return Refusal(table, (), found.closest or start, False, tuple(blocked))
         table.forbid(paths.step.mover, paths.step.start, paths.step.goal, paths.step.hold, paths.spot)
 
 

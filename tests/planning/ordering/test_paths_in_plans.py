@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from planning_benches import bench, moves, part, planned, see, want
 
+from pico.model.lab import Slot
 from pico.model.pose import Pose
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
@@ -102,6 +103,21 @@ def test_a_path_that_what_stays_blocks_is_refused_and_names_it() -> None:
     assert found.code == "blocked" and made.operations == ()
     assert found.summary.startswith("move of a to (500, 300, 0°) has no free path during transit: link 4 of arm1")
     assert found.detail == "in the way: wall by 12 mm"
+
+
+def test_where_every_path_is_blocked_the_refusal_says_by_what() -> None:
+    # each path that is asked for is blocked by another part wherever it stands, so the search for another one ends by
+    # its limit
+    def other(component: str, goal: Pose, yaw: float, standing: Mapping[str, StandingObject]) -> Blocked | None:
+        names = [n for n in standing if not n.startswith(component)]
+        return Blocked("collision", f"it would hit {names[0]}", "approach", names[0], 12.0) if component == "a" else None
+
+    setup = bench({"a": "block", "b": "block"}, {f"s{n}": Slot(x=60 + 80 * n, y=60) for n in range(9)})
+    seen = see(setup, {"a": (200, 300), "b": (500, 300)})
+    made = planned(setup, seen, want({"a": (500, 300), "b": (200, 300)}), Arm(other))
+    (found,) = made.diagnostics
+    assert found.code == "blocked" and made.operations == ()
+    assert "of a to" in found.summary and "no free path during approach: it would hit b" in found.summary
 
 
 def test_without_moves_no_arm_is_asked() -> None:
