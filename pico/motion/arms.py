@@ -17,7 +17,7 @@ from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion import gantry
-from pico.motion.reach import check_grip, check_reach, check_table, check_tether
+from pico.motion.reach import check_grip, check_height, check_reach, check_table, check_tether
 from pico.motion.stability import check_stability
 from pico.motion.travel import Travel
 from pico.motion.types import Blocked, Joints, MovePath, StandingObject
@@ -52,6 +52,7 @@ class ArmMotion:
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(component).geometry
         found = (
             check_grip(robot, arm, component, geometry)
+            or check_height(self.setup.lab, robot, component, geometry)
             or self._on_table(component, geometry, pose)
             or check_tether(self.setup, component, pose)
             or self._stability(component, geometry)
@@ -80,7 +81,7 @@ class ArmMotion:
         if arm.model == "gantry":
             turn = turn_between(self.setup, component, start, goal)
             goal = goal if turn is None else replace(goal, yaw=start.yaw + turn)
-            return gantry.move(robot, arm, component, geometry, start, goal, grasp_yaw, standing, now)
+            return gantry.move(self.setup.lab, robot, component, geometry, start, goal, grasp_yaw, standing, now)
         from pico.motion.moves import Move
         from pico.motion.recheck import Task
 
@@ -180,7 +181,7 @@ class ArmMotion:
         arm = self.setup.lab.robots[robot]
         now = joints or self.park_joints(robot)
         if arm.model == "gantry":
-            return gantry.park(robot, arm, now)
+            return gantry.park(self.setup.lab, robot, now, standing)
         from pico.motion.moves import find_park
         from pico.motion.recheck import Task
 

@@ -57,6 +57,30 @@ def check_grip(name: str, robot: Robot, component: str, geometry: Geometry) -> B
     return None
 
 
+def height_needed(lab: Lab, robot: Robot, geometry: Geometry) -> float:
+    """Return how high a robot must carry a part of `geometry` [mm, of its tool center point]: the part's foot is then
+    off the table, and its open fingers are above the part that they have let go of."""
+    fingers = robot.gripper.fingers
+    if fingers == "none":
+        return geometry.height + lab.margins.fingers
+    return max(geometry.height, geometry.grasp.height if geometry.grasp else 0.0) + fingers.tip + lab.margins.fingers
+
+
+def check_height(lab: Lab, name: str, component: str, geometry: Geometry) -> Blocked | None:
+    """Return why the robot called `name` can't let go of `component` and leave it, or None where it can."""
+    robot = lab.robots[name]
+    needed = height_needed(lab, robot, geometry)
+    if robot.transit_height >= needed - 1e-6:
+        return None
+    text = (
+        f"{component} is {geometry.height:.4g} mm tall; to leave it {name} must rise to {needed:.4g} mm, and carries "
+        f"at {robot.transit_height:.4g} mm"
+    )
+    higher = robot.model == "gantry" or span(robot, needed)[1] > 0
+    raised = f"let {name} carry higher (`transit_height: {math.ceil(needed - 1e-6)}`), or {_BY_HAND}"
+    return Blocked("height", text, by=needed - robot.transit_height, help=raised if higher else _BY_HAND)
+
+
 def check_table(lab: Lab, component: str, geometry: Geometry, pose: Pose) -> Blocked | None:
     """Return why `component` can't stand at `pose`: over the table's edge, or in a keep-out zone."""
     shape = placed(geometry.footprint, pose)

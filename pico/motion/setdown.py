@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 
-from pico.geometry.shape import placed, separation
 from pico.geometry.tethers import turn_between
 from pico.model.catalog import Geometry
 from pico.model.pose import Pose
@@ -108,12 +107,9 @@ def gantry_set_down(
     standing: Mapping[str, StandingObject], joints: Joints,
 ) -> MovePath | Blocked:  # fmt: skip
     """Return the way of a gantry over the top; blocked where the footprint at `goal` overlaps another."""
-    shape = placed(geometry.footprint, goal)
-    for other, thing in sorted(standing.items()):
-        gap = separation(shape, placed(thing.geometry.footprint, thing.pose))
-        if other != component and gap < 0:
-            text = f"{component} would hit {other} by {-gap:.1f} mm, setting it down at {goal}"
-            return Blocked("collision", text, "lower", other, round(-gap, 3))
+    others = {n: t for n, t in standing.items() if n != component}
+    if struck := gantry.overlapped(component, geometry, goal, others):
+        return struck
     assert geometry.grasp is not None  # the caller asked `check_grip`
     width, opened = geometry.grasp.width, opening(robot, geometry)
     high, low = robot.transit_height / 1000, grasp_height(robot, geometry) / 1000

@@ -86,7 +86,7 @@ class Blocked:
     """Why a motion is not possible: `obstacle` names the component, robot part, keep-out zone or `table` that is hit
     in `segment`, `by` how deep [mm] where known; a `reach` has no obstacle. `help` is what might let it pass."""
 
-    kind: Literal["reach", "collision", "keep_out", "table_edge", "width", "unstable"]
+    kind: Literal["reach", "collision", "keep_out", "table_edge", "width", "height", "unstable"]
     text: str
     segment: SegmentName | None = None
     obstacle: str | None = None

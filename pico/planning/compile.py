@@ -210,8 +210,9 @@ def _park(item: Item, own: Sequence[int], out: Sequence[Operation]) -> Operation
     assert item.park is not None
     robot, path = item.park.robot, item.park.path
     if isinstance(path, Blocked):
-        stuck = warning if item.park.before is None else error
-        return stuck("blocked", f"{robot} can't park: {path.text}", address=robot)
+        if item.park.before is None:  # one that was found standing there: where a move would end so there is no plan
+            return warning("not-parked", f"{robot} can't park: {path.text}", address=robot)
+        return error("blocked", f"{robot} can't park: {path.text}", address=robot)
     waited = {int(e) for k in own for e in out[k].after}
     return Operation(
         id="", primitive="park", component=robot, robot=robot, after=tuple(str(k) for k in own if k not in waited),

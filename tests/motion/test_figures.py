@@ -63,7 +63,9 @@ def test_a_gantry_speeds_up_goes_on_and_slows_down_on_a_straight_line(speed: flo
     start = (0.3, 0.2, 0.25, 0.1)
     robot = replace(GANTRY, speed=speed)
     way = max(math.dist(start[:3], goal[:3]), 0.3 * abs(goal[3] - start[3]))
-    segment = gantry.park("g", robot, start).segments[0]
+    parked = gantry.park(bench(robots={"g": robot}).lab, "g", start, {})
+    assert isinstance(parked, MovePath)
+    segment = parked.segments[0]
     assert (segment.joints[0], segment.opening) == (start, robot.gripper.stroke / 2)
     times, joints = gantry._straight(robot, start, goal)
     assert times[0] == 0.0 and times[-1] == pytest.approx(gone(way, speed, 0.0)[0])

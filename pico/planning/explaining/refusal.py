@@ -74,9 +74,10 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
     free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
     if reach and (free or not hits):
+        by_hand = "by hand: " if stands and reach[0].kind == "reach" else ""
         return error(
             "unreachable", f"{where}: {reach[0].text}",
-            hint=("by hand: " if stands else "") + (reach[0].help or "bring it nearer to the arm, or turn it"),
+            hint=by_hand + (reach[0].help or "bring it nearer to the arm, or turn it"),
             address=address, source=blame,
         )  # fmt: skip
     if not hits:
@@ -118,6 +119,12 @@ def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
     during = f" during {blocked.segment}" if blocked.segment else ""
     code = "unreachable" if blocked.kind == "reach" else "blocked"
     hint = f"move {blocked.obstacle} away first" if blocked.obstacle in table.obstacles else "choose another place"
+    if blocked.segment == "park":
+        return error(
+            code, f"after it brings {mover.name} to {goal} {no.step.hold.robot} can't park: {blocked.text}",
+            detail=_struck(blocked),
+            hint=blocked.help or hint, address=f"{mover.name}.pose", source=located(source, mover),
+        )  # fmt: skip
     return error(
         code, f"{primitive} of {mover.name} to {goal} has no free path{during}: {blocked.text}",
         detail=_struck(blocked),

@@ -36,7 +36,8 @@ class Paths:
 
 @dataclass(frozen=True, slots=True)
 class NoPath:
-    """A step without a path: what blocks it, and the spot of the component that does, if it is one that moves."""
+    """A step without a path, or after which its arm can't park: what blocks it, and the spot of the component that
+    does, if it is one that moves."""
 
     step: OrderedMove
     blocked: Blocked
@@ -64,6 +65,8 @@ def find_paths(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation
         arms.moved(k, path)
         moves[k] = path
     arms.park_all()
+    if arms.stuck is not None:
+        return arms.stuck
     return Paths(tuple(moves), tuple(arms.parks), extra)
 
 
@@ -72,6 +75,8 @@ class Arms:
 
     def __init__(self, table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, motion: Motion) -> None:
         self.parks: list[Park] = []
+        self.stuck: NoPath | None = None
+        """The first step after which an arm can't park; an arm that was found standing somewhere may stay there."""
         self.joints: dict[str, Joints | None] = {name: robot.joints for name, robot in seen.robots.items()}
         self._table, self._steps, self._motion = table, steps, motion
         self._zones = shared_zones(table.setup)
@@ -112,6 +117,13 @@ class Arms:
         self.parks.append(Park(robot, steps, before, path))
         if isinstance(path, MovePath):
             self.joints[robot] = path.end
+        elif path is not None and steps and self.stuck is None:
+            self.stuck = self._left_behind(self._steps[max(steps)], path, places_before(self._table, done, len(done)))
+
+    def _left_behind(self, step: OrderedMove, blocked: Blocked, places: Sequence[int]) -> NoPath:
+        movers = self._table.movers
+        spots = [(j, p) for j, p in enumerate(places) if movers[j].name == blocked.obstacle and j != step.mover]
+        return NoPath(step, blocked, spots[0] if spots else None)
 
 
 def _path(

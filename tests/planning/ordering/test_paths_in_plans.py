@@ -110,7 +110,9 @@ def test_where_every_path_is_blocked_the_refusal_says_by_what() -> None:
     # its limit
     def other(component: str, goal: Pose, yaw: float, standing: Mapping[str, StandingObject]) -> Blocked | None:
         names = [n for n in standing if not n.startswith(component)]
-        return Blocked("collision", f"it would hit {names[0]}", "approach", names[0], 12.0) if component == "a" else None
+        return (
+            Blocked("collision", f"it would hit {names[0]}", "approach", names[0], 12.0) if component == "a" else None
+        )
 
     setup = bench({"a": "block", "b": "block"}, {f"s{n}": Slot(x=60 + 80 * n, y=60) for n in range(9)})
     seen = see(setup, {"a": (200, 300), "b": (500, 300)})

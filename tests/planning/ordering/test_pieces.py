@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import permutations
 
 import pytest
-from planning_benches import TYPES, Places, bench, moves, part, planned, see, want
+from planning_benches import TYPES, Places, bench, part, planned, see, want
 from random_labs import random_case
 from test_paths_in_plans import Arm
 
@@ -20,7 +20,7 @@ from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
-from pico.motion.types import Blocked, Joints, MovePath
+from pico.motion.types import Blocked, Joints, MovePath, StandingObject
 from pico.motion.zones import shared_zones
 from pico.planning.actors import actors, asides
 from pico.planning.checks.contacts import footprint_at
@@ -294,18 +294,29 @@ def test_what_an_arm_tells_is_asked_for_the_places_and_grasps_of_a_move() -> Non
 # Arms.
 
 
-def test_a_park_that_can_not_be_made_is_told_and_left_out() -> None:
-    class Stuck(Arm):
-        def park(self, robot: str, joints: Joints, standing: object) -> MovePath | Blocked:
-            return Blocked("collision", "link 3 would hit b", "park", "b", 4.0)
+class Stuck(Arm):
+    """An arm that can't park while `b` stands where it stood."""
 
+    def park(self, robot: str, joints: Joints, standing: Mapping[str, StandingObject]) -> MovePath | Blocked:
+        blocked = Blocked("collision", "link 3 would hit b", "park", "b", 4.0)
+        return blocked if standing["b"].pose.x == 500 else super().park(robot, joints, standing)
+
+
+def test_what_would_leave_an_arm_that_can_not_park_is_refused() -> None:
+    setup = bench({"a": "block", "b": part(seating="bolted")})
+    seen = see(setup, {"a": (200, 300), "b": (500, 300)})
+    made = planned(setup, seen, want({"a": (300, 300), "b": (500, 300)}), Stuck())
+    assert made.operations == () and [(d.severity, d.code, d.summary, d.detail) for d in made.diagnostics] == [(
+        "error", "blocked", "after it brings a to (300, 300, 0°) arm1 can't park: link 3 would hit b",
+        "in the way: b by 4 mm",
+    )]  # fmt: skip
+
+
+def test_an_arm_parks_where_what_kept_it_from_that_has_gone() -> None:
     setup = bench({"a": "block", "b": "block"})
     seen = see(setup, {"a": (200, 300), "b": (500, 300)})
     made = planned(setup, seen, want({"a": (300, 300), "b": (600, 300)}), Stuck())
-    assert [o.primitive for o in made.operations] == ["move", "move"] and len(moves(made)) == 2
-    assert [(d.severity, d.code, d.summary, d.address) for d in made.diagnostics] == [
-        ("warning", "blocked", "arm1 can't park: link 3 would hit b", "arm1")
-    ]
+    assert [o.primitive for o in made.operations] == ["move", "move", "park"] and made.diagnostics == ()
 
 
 def test_a_move_is_in_a_zone_where_the_arm_comes_there_straight_from_its_base() -> None:
