@@ -10,13 +10,13 @@ import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
+from pico.geometry.around import Load, way
 from pico.geometry.shape import disc, placed, polygon, separation
 from pico.model.catalog import Geometry
 from pico.model.lab import Lab
 from pico.model.pose import Pose
 from pico.model.robot import Robot
 from pico.motion import timing
-from pico.motion.gantry_ways import Load, way
 from pico.motion.reach import grasp_height, opening
 from pico.motion.types import Blocked, Joints, MovePath, Segment, SegmentName, StandingObject
 

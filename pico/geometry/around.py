@@ -1,4 +1,4 @@
-"""The way of a gantry at transit height past what is taller: straight, or around it. mm and deg."""
+"""The way of a load at one height past what is taller: straight, or around it. mm and deg."""
 
 from __future__ import annotations
 
