@@ -17,6 +17,8 @@ from ..views import recipe as view
 from ..views import recipe_progress as progress
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from pico.recipes.ahead import Foreseen
     from pico.recipes.log import Log
     from pico.recipes.recipe import Recipe
@@ -29,6 +31,9 @@ Given = Annotated[
 Until = Annotated[str, typer.Option("--until", metavar="STEP", help="Stop before this step: `3`, `3[2].1`.")]
 Resume = Annotated[bool, typer.Option("--resume", help="Go on with the run that was cut short last.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the steps as far as they are known; move nothing.")]
+Unattended = Annotated[
+    bool, typer.Option("--unattended", help="Nobody will be there: hold it to what it states of that.")
+]
 
 
 def run(
@@ -38,6 +43,7 @@ def run(
     dry_run: DryRun = False,
     until: Until = "",
     resume: Resume = False,
+    unattended: Unattended = False,
     seed: Seed = None,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
@@ -68,7 +74,9 @@ def run(
     recipes = Recipes(bench)
     if resume:
         log = recipes.unended()
-        return _carry_out(session, recipes, recipes.taken_up(log), log, until, auto_approve)
+        found = recipes.taken_up(log)
+        alone = _alone(session, recipes, found, log.about.arguments, unattended)
+        return _carry_out(session, recipes, found, log, until, auto_approve, alone)
     assert recipe is not None
     found = recipes.read(recipe)
     arguments = recipes.arguments(found, _pairs(given or []))
@@ -78,12 +86,26 @@ def run(
         session.show(view, found, ahead)
         session.report(ahead.diagnostics)
         return int(ahead.exit_code)
+    alone = _alone(session, recipes, found, arguments, unattended)
     if not _agreed(session, found, ahead, auto_approve, seed):
         session.say("Nothing was done.")
         return int(ExitCode.ERROR)
     if seed is not None:
         bench.sim.reset(seed)
-    return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True)
+    return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True, alone)
+
+
+def _alone(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mapping[str, Any], said: bool) -> bool:
+    """Return whether nobody is there: that was said, or no terminal is, and the recipe states something of that. Raises
+    PicoError where it must not begin so now."""
+    alone = said or (recipe.unattended is not None and not _attended(session))
+    if alone:
+        recipes.require_unattended(recipe, arguments)
+    return alone
+
+
+def _attended(session: Session) -> bool:
+    return sys.stdin is not None and sys.stdin.isatty() and not session.json
 
 
 def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: bool, seed: int | None) -> bool:
@@ -94,13 +116,15 @@ def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: boo
     return session.confirm(f"Run {recipe.name}?", auto_approve)
 
 
-def _carry_out(session: Session, recipes: Recipes, recipe: Recipe, log: Log, until: str, agreed: bool) -> int:
+def _carry_out(
+    session: Session, recipes: Recipes, recipe: Recipe, log: Log, until: str, agreed: bool, alone: bool
+) -> int:  # fmt: skip
     from pico.recipes.running import Watching
 
     if not agreed and not session.confirm(f"Go on with {recipe.name}, run {log.about.id}?", agreed):
         session.say("Nothing was done.")
         return int(ExitCode.ERROR)
-    attended = sys.stdin is not None and sys.stdin.isatty() and not session.json
+    attended = _attended(session) and not alone
     lines = progress.Lines(recipes.bench.setup)
 
     def write(found: Any) -> None:
@@ -116,7 +140,7 @@ def _carry_out(session: Session, recipes: Recipes, recipe: Recipe, log: Log, unt
         ),
         until=until,
     )
-    how: dict[str, Any] = {"attended": attended, "say": say}
+    how: dict[str, Any] = {"attended": attended, "unattended": alone, "say": say}
     if attended:
         from ..runs.steering import steer
 

@@ -77,6 +77,8 @@ def outcome(found: Outcome, recipe: Recipe) -> str:
         f"\n{recipe.name}: {paint(colour, found.outcome)}{at}, {count(found.acted + found.before, 'step')}{before}"
     ]
     lines += [f"  {name} = {_short(value)}" for name, value in found.returns.items()]
+    if found.left:
+        lines.append(f"The bench is left {', '.join(found.left)}.")
     if found.outcome == "interrupted":
         lines.append("Go on with `pico run --resume`.")
     lines.append(f"Run {found.id}: `pico runs` lists what it did on the bench, `pico commit` keeps it.")
@@ -84,10 +86,10 @@ def outcome(found: Outcome, recipe: Recipe) -> str:
 
 
 def outcome_data(found: Outcome, recipe: Recipe) -> dict[str, Any]:
-    """Return schema `pico.recipe_run/v1`: `run`, `recipe`, `outcome`, `at`, `returns`, `acted`, `before`,
-    `diagnostics`."""
+    """Return schema `pico.recipe_run/v1`: `run`, `recipe`, `outcome`, `at`, `returns`, `acted`, `before`, `left` (how
+    the bench is left where nobody was there), `diagnostics`."""
     return {
         "schema": "pico.recipe_run/v1", "run": found.id, "recipe": recipe.name, "digest": recipe.digest,
         "outcome": found.outcome, "at": found.at, "returns": dict(found.returns), "acted": found.acted,
-        "before": found.before, "diagnostics": as_json(found.diagnostics),
+        "before": found.before, "left": list(found.left), "diagnostics": as_json(found.diagnostics),
     }  # fmt: skip

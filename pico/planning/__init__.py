@@ -9,12 +9,13 @@ from pico.planning.single import (
     measure,
     move_one,
     optimize_one,
+    park,
     set_one,
     survey,
     teleoperate_one,
 )
 
 __all__ = [
-    "again", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "plan", "set_one", "survey",
-    "teleoperate_one",
+    "again", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "park", "plan", "set_one",
+    "survey", "teleoperate_one",
 ]  # fmt: skip

@@ -200,6 +200,15 @@ def arm_one(
     )
 
 
+def park(
+    setup: Setup, seen: Observation, *, motion: Motion | None, backend: str = "sim", fidelity: str = "kinematic",
+    base: Base | None = None,
+) -> Plan:  # fmt: skip
+    """Return the plan that parks the arms that were stopped on their way with an empty hand; others stay."""
+    parks = parked_first(setup, seen, [], motion)
+    return _sealed(setup, seen, parks, [], backend, fidelity, base, live_state(setup, seen), ())
+
+
 def again(
     setup: Setup, seen: Observation, plan: Plan, sought: Mapping[str, Operation], *, motion: Motion | None
 ) -> Plan:  # fmt: skip

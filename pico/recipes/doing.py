@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -40,7 +41,8 @@ class Doing:
     `recipe`, `step`: what runs are recorded as caused by. `begin` is told the id of each run before it begins;
     `begun`: runs that this step began before it was cut short, as it was where it is done `again`. `head`: the commit
     checked out when it first began. `attended`: a person is there, to whom `ask` puts questions, and who can `steer`;
-    `show` hears events, `say` what a signal leads to.
+    `show` hears events, `say` what a signal leads to. `unattended`: nobody is there, and the recipe is held to what it
+    states of that: `allow` is asked about each plan before it is run, `watch` after every `every` seconds of waiting.
     """
 
     bench: Bench
@@ -55,6 +57,10 @@ class Doing:
     steer: Callable[[Teleoperation], object] = nobody_steers
     show: Callable[[Event], None] = _deaf
     say: Callable[[str], None] = _deaf
+    unattended: bool = False
+    allow: Callable[[Plan], None] = _deaf
+    watch: Callable[[], None] = lambda: None
+    every: float = math.inf
 
     def run(self, plan: Plan) -> Mapping[str, Measurement]:
         """Run a plan, and return what was measured in it; raises PicoError where it can't be run, or fails.
@@ -70,6 +76,7 @@ class Doing:
             return {}
         if (before := measured_before(self.bench, self.begun, plan)) is not None:
             return before
+        self.allow(plan)
         run_id = new_run_id()
         self.begin(run_id)
         run = self.bench.moves.run(plan, holder=f"pico run {self.recipe}", run_id=run_id)
@@ -81,7 +88,12 @@ class Doing:
 
     def pause(self, seconds: float) -> None:
         """Let time pass on the bench's clock [s]: a simulated one passes at once."""
-        if self.bench.wait(self.bench.edge.describe()).simulated:
-            self.bench.sim.wait(seconds)
-        else:
-            time.sleep(seconds)
+        while seconds > 0:
+            part = min(seconds, self.every)
+            if self.bench.wait(self.bench.edge.describe()).simulated:
+                self.bench.sim.wait(part)
+            else:
+                time.sleep(part)
+            seconds -= part
+            if seconds > 0:
+                self.watch()

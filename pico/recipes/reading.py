@@ -16,8 +16,9 @@ from pico.recipes.reading_steps import Reading, read_steps
 from pico.recipes.recipe import Name, Recipe
 from pico.recipes.scope import Scope, bench_names
 from pico.recipes.terms import Term
+from pico.recipes.unattended import read_unattended
 
-KEYS = ("apiVersion", "kind", "metadata", "parameters", "steps", "finally", "returns")
+KEYS = ("apiVersion", "kind", "metadata", "parameters", "steps", "finally", "returns", "unattended")
 METADATA = ("name", "title", "description", "lab")
 DEEPEST = 8
 """How deep recipes may call one another."""
@@ -55,10 +56,11 @@ def read_recipe(
         reader.wrong(root, "missing-key", "the recipe has no `steps`", "`steps: [{apply: e1}]`")
     finally_ = read_steps(reading, Scope(names, own), root.get("finally"), "finally.", "finally")
     returns, returned = _returns(reader, scope, root.get("returns"))
+    alone = read_unattended(reader, names, own, root.get("unattended"), (*steps, *finally_))
     digest = hashlib.sha256("\0".join([source.content, *(r.digest for r in called)]).encode()).hexdigest()
     recipe = Recipe(
         **about, parameters=parameters, steps=steps, finally_=finally_, returns=returns, returned=returned,
-        digest=f"sha256:{digest}", path=source.path,
+        digest=f"sha256:{digest}", path=source.path, unattended=alone,
     )  # fmt: skip
     return recipe, found
 

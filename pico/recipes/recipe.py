@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import time
 from typing import Any, Literal
 
 from pico.diagnostics import SourceRange
 from pico.expressions import Kind
+from pico.model.arming import LaserClass
 from pico.recipes.terms import Term
 
 MOST_ITEMS = 10_000
 """Items of a list, or characters of a text, that a value of a recipe may have."""
 MOST_TURNS = 10_000
 """Turns that a recipe takes in all its loops together; more are a loop that runs away."""
+
+SHUT, PARKED, LAMPS_OFF = "shut", "parked", "lamps off"
+ENDS = (SHUT, PARKED, LAMPS_OFF)
+"""How a bench may be left: no laser emits; arms are parked; what lights the table is off."""
+EVERY = 600.0
+"""After how long what stops a run is measured again [s], where a recipe does not say."""
 
 
 @dataclass(frozen=True)
@@ -124,9 +132,40 @@ class Call(Step):
 
 
 @dataclass(frozen=True)
+class Stop:
+    """What stops a run: `when` something holds of what is measured for it (`of`, addresses), or a goal is `lost`."""
+
+    text: str
+    when: Term | None = None
+    of: tuple[str, ...] = ()
+    lost: str = ""
+    source: SourceRange | None = None
+
+
+@dataclass(frozen=True)
+class Unattended:
+    """The highest class that a laser may emit as; from when to when it may run, by the clock on the wall (over midnight
+    where `begins` is later than `ends`); what stops it, measured again `every` so many seconds; how it leaves the
+    bench."""
+
+    laser_class: LaserClass
+    begins: time
+    ends: time
+    stops: tuple[Stop, ...] = ()
+    every: float = EVERY
+    end: tuple[str, ...] = ENDS
+
+    def covers(self, now: time) -> bool:
+        """Return whether it may run at a time of day."""
+        if self.begins <= self.ends:
+            return self.begins <= now < self.ends
+        return now >= self.begins or now < self.ends
+
+
+@dataclass(frozen=True)
 class Recipe:
     """An experiment. `digest`: of its text and of those that it calls; `returns`: values that a call has by
-    name, `returned` what they are."""
+    name, `returned` what they are; `unattended`: what it states of runs where nobody is there."""
 
     name: str
     title: str = ""
@@ -139,6 +178,7 @@ class Recipe:
     returned: Mapping[str, Name] = field(default_factory=dict)
     digest: str = ""
     path: str = ""
+    unattended: Unattended | None = None
 
 
 def blocks(step: Step) -> Sequence[tuple[str, tuple[Step, ...]]]:

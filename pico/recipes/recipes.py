@@ -102,6 +102,12 @@ class Recipes:
 
         return foresee(self.bench, recipe, arguments)
 
+    def require_unattended(self, recipe: Recipe, arguments: Mapping[str, Any]) -> None:
+        """Raise PicoError (exit code DENIED) where a recipe must not begin now with nobody there."""
+        from pico.recipes.guarding import guard_of
+
+        guard_of(self.bench, recipe, arguments).require_start()
+
     def begin(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Log:
         """Begin a run of a recipe with the values of all its parameters."""
         from pico.edge.running import new_run_id

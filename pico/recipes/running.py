@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
+from pico.recipes.guarding import Guard, guard_of
 from pico.recipes.log import Log
 from pico.recipes.recipe import Act, Recipe
 from pico.recipes.registry import step_file
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 class Outcome:
     """How a run of a recipe ended: `done`, `failed` or `interrupted`; what it `returns`; how many steps acted, and how
     many of them had been done before it was taken up; what went wrong at which step (`at`: `3[2].1`), and the exit
-    code."""
+    code. `left`: how it left the bench, of what it states of that, where nobody was there."""
 
     id: str
     outcome: str
@@ -33,6 +34,7 @@ class Outcome:
     before: int = 0
     diagnostics: tuple[Diagnostic, ...] = ()
     exit_code: ExitCode = ExitCode.DONE
+    left: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -49,8 +51,22 @@ def run_recipe(
     bench: Bench, recipe: Recipe, log: Log, doing: Doing, watching: Watching = Watching()
 ) -> Outcome:  # fmt: skip
     """Run a recipe with the arguments of its log, which may tell of a part that was done; never raises PicoError, which
-    is in the outcome."""
-    return _Run(bench, recipe, log, doing, watching).run()
+    is in the outcome. Where nobody is there it begins only as the recipe states, stops as it states, and leaves the
+    bench so; an interruption leaves it as it is."""
+    if not doing.unattended:
+        return _Run(bench, recipe, log, doing, watching).run()
+    try:
+        guard = guard_of(bench, recipe, log.about.arguments)
+        guard.require_start()
+    except PicoError as exc:
+        return Outcome(log.about.id, "failed", diagnostics=tuple(exc.diagnostics), exit_code=ExitCode.DENIED)
+    doing = replace(doing, attended=False, allow=guard.allow, every=guard.stated.every)
+    found = _Run(bench, recipe, log, doing, watching, guard).run()
+    if found.outcome == "interrupted":
+        return found
+    left, wrong = guard.leave(replace(doing, recipe=f"{recipe.name}@{log.about.id}", step="unattended"))
+    code = found.exit_code or (ExitCode.ERROR if wrong else ExitCode.DONE)
+    return replace(found, left=left, diagnostics=(*found.diagnostics, *wrong), exit_code=code)
 
 
 class _Until(Exception):
@@ -58,7 +74,10 @@ class _Until(Exception):
 
 
 class _Run:
-    def __init__(self, bench: Bench, recipe: Recipe, log: Log, doing: Doing, watching: Watching) -> None:
+    def __init__(
+        self, bench: Bench, recipe: Recipe, log: Log, doing: Doing, watching: Watching, guard: Guard | None = None
+    ) -> None:  # fmt: skip
+        self.guard = guard
         self.bench, self.recipe, self.log, self.doing, self.watching = bench, recipe, log, doing, watching
         self.acted = self.before = 0
         self.at = self.failed = ""
@@ -138,6 +157,9 @@ class _Run:
             self.doing, recipe=f"{self.recipe.name}@{self.log.about.id}", step=ask.path, begun=tuple(runs), again=again,
             head=head if again else None, begin=lambda run: self.log.running(ask.path, run),
         )  # fmt: skip
+        if (guard := self.guard) is not None:
+            guard.judge(doing, ask.path)
+            doing.watch = lambda: guard.judge(doing, ask.path)
         for attempt in range(step.retries + 1):
             try:
                 return step_file(step.kind).run(doing, ask.given)

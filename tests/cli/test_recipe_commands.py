@@ -37,6 +37,20 @@ def turning(shel: Path) -> Path:
     return shel
 
 
+def test_where_nobody_is_there_it_is_held_to_what_it_states(turning: Path, pico: Pico) -> None:
+    refused = pico("run", "turning", "--unattended", "--yes")
+    assert refused.code == 7 and "does not state how it runs unattended" in refused.err
+    always = "unattended: {laser_class: 3R, hours: {from: 0:00, to: 23:59}, stop: [], end: [shut, parked]}\n"
+    edit(turning / "recipes" / "turning.yaml", "steps:\n  - foreach", f"{always}steps:\n  - foreach")
+    answer = pico("run", "turning", "--yes")  # no terminal is there
+    assert answer.code == 0 and "The bench is left shut, parked." in answer.out
+    assert pico("get", "laser.shutter").out.split()[1] == "closed"
+    assert json.loads(pico("run", "turning", "--yes", "--json").out.splitlines()[-1])["left"] == ["shut", "parked"]
+    edit(turning / "recipes" / "turning.yaml", "laser_class: 3R", "laser_class: 4R")
+    wrong = pico("run", "turning", "--yes")
+    assert wrong.code == 1 and "turning.yaml:5:28" in wrong.err and "4R" in wrong.err
+
+
 def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     assert "turning  The first polarizer turns  angles [deg]" in pico("recipe").out
     answer = pico("recipe", "check", "turning", "-p", "angles=[5, 6, 7]")
