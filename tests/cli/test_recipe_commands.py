@@ -48,7 +48,7 @@ def test_where_nobody_is_there_it_is_held_to_what_it_states(turning: Path, pico:
     assert json.loads(pico("run", "turning", "--yes", "--json").out.splitlines()[-1])["left"] == ["shut", "parked"]
     edit(turning / "recipes" / "turning.yaml", "laser_class: 3R", "laser_class: 4R")
     wrong = pico("run", "turning", "--yes")
-    assert wrong.code == 1 and "turning.yaml:5:28" in wrong.err and "4R" in wrong.err
+    assert wrong.code == 1 and "turning.yaml:5:27" in wrong.err and "4R" in wrong.err
 
 
 def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:

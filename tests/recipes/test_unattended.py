@@ -144,7 +144,7 @@ def test_what_stops_it_is_measured_for_that_and_again_after_a_while(bench: Bench
     assert run(bench, STATED + STEPS).outcome == "done"
     assert bench.edge.memory is not None
     intents = [r for r in bench.edge.memory.records() if r.kind == "intent"]
-    measured = [r for r in intents if r.data["operation"]["primitive"] == "measure"]
+    measured = [r for r in intents if r.data["primitive"] == "measure"]
     assert len(measured) >= 6  # an hour of waiting, each ten minutes
 
 
