@@ -265,10 +265,6 @@ def _staging_faults(setup: Setup, wanted: LabState, operations: Sequence[Operati
             continue
         if setup.lab.inventory[operation.component].stage == "never":
             faults.append(f"{operation.id} stages {operation.component}, which is never staged")
-        shape = base(setup.type_of(operation.component).geometry.footprint, pose)
-        for other, place in setup.lab.slots.items():
-            if other != slot and Base(Point(place.x, place.y), place.capture).gap(shape) < -EPSILON:
-                faults.append(f"{operation.component} staged in {slot} blocks {other}")
     return faults
 
 

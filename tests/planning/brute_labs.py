@@ -103,10 +103,6 @@ class Lab:
         alone.poses = {}
         if alone.place_faults(self.names[i], spot.pose, spot.slot):
             return None
-        if spot.slot and p not in self.goals[i] and any(
-            Base(Point(s.x, s.y), s.capture).gap(spot.base) <= 0 for n, s in lab.slots.items() if n != spot.slot
-        ):  # fmt: skip
-            return None
         enough = max(lab.margins.body - EPSILON, 0.0)
         mask = self._near(i, spot.base, enough)
         if spot.slot:

@@ -11,7 +11,7 @@ import pytest
 from checker import check
 from planning_benches import SLOTS, bench, moves, part, planned, see, want
 
-from pico.model.catalog import Footprint
+from pico.model.catalog import ComponentType, Footprint, Geometry, Grasp
 from pico.model.lab import Margins, Slot
 from pico.model.observation import ObservedRobot, UnknownObject
 from pico.model.plan import Staging
@@ -102,13 +102,32 @@ def test_who_leaves_by_less_than_the_margin_must_leave_before_the_other_arrives(
         assert check(setup, seen, wanted, made) == []
 
 
-def test_a_part_is_not_put_down_meanwhile_where_it_covers_another_slot() -> None:
-    for apart, staged in ((30, False), (100, True)):
-        slots = {"s1": Slot(x=60, y=60), "s2": Slot(x=60 + apart, y=60)}
-        setup = bench({"a": "block", "b": "block"}, slots)
-        seen, wanted = see(setup, {"a": (300, 300), "b": (500, 300)}), want({"a": (500, 300), "b": (300, 300)})
-        made = planned(setup, seen, wanted)
-        assert (made.staging.count == 1, made.errored) == (staged, not staged)
+DISC = ComponentType(
+    name="disc", title="Disc", geometry=Geometry(
+        footprint=Footprint(disc=58), height=60, mass=0.3, grasp=Grasp(height=50, width=40, yaws=(0.0, 90.0)),
+    ),
+)  # fmt: skip
+
+
+def test_a_part_may_be_put_down_meanwhile_over_the_mouth_of_a_slot_that_nobody_needs() -> None:
+    slots = {f"s{n}": Slot(x=100 + 65 * n, y=60) for n in range(6)}
+    setup = bench({"a": "disc", "b": "disc"}, slots)
+    setup = replace(setup, catalog={**setup.catalog, "disc": DISC})
+    seen, wanted = see(setup, {"a": (300, 300), "b": (500, 300)}), want({"a": (500, 300), "b": (300, 300)})
+    made = planned(setup, seen, wanted)
+    assert made.diagnostics == () and made.staging == Staging(count=1, lower_bound=1, proven=True)
+    assert check(setup, seen, wanted, made) == []
+
+
+def test_who_covers_a_slot_meanwhile_leaves_before_another_is_put_there() -> None:
+    # c goes to s1, which a or b, staged in s2, covers
+    slots = {"s1": Slot(x=60, y=60), "s2": Slot(x=90, y=60)}
+    setup = bench(dict.fromkeys("abc", "block"), slots)
+    seen = see(setup, {"a": (300, 300), "b": (500, 300), "c": (700, 300)})
+    wanted = want({"a": (500, 300), "b": (300, 300), "c": "s1"})
+    made = planned(setup, seen, wanted)
+    order = [o.component for o in made.operations if o.kind.carries]
+    assert made.staging.count == 1 and order[-1] == "c" and check(setup, seen, wanted, made) == []
 
 
 def test_turning_in_place_is_one_move() -> None:

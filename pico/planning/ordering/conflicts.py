@@ -129,14 +129,10 @@ class Conflicts:
         mask = self._meeting(i, shape, margin)
         if slot is not None:
             mouth = self._mouths.shapes[slot]
-            if self.static.conflicts(mouth, 0.0) or (place in mover.staging and self._covers_slot(shape, slot)):
+            if self.static.conflicts(mouth, 0.0):
                 return None
             mask |= self._meeting(i, mouth, 0.0)
         return mask
-
-    def _covers_slot(self, shape: Shape, slot: str) -> bool:
-        """Whether a part staged in `slot` would keep another slot from being free."""
-        return any(other != slot for other in self._mouths.conflicts(shape, 0.0))
 
     def _meeting(self, i: int, shape: Shape, margin: float, above: float = -1.0) -> int:
         """Return the spots of others, taller than `above`, that come too near to a shape that mover `i` needs."""
