@@ -10,7 +10,7 @@ from pico.bench.in_use import goes_on
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge.link.opening import remembered
-from pico.edge.protocol import RECORDING, STEERING
+from pico.edge.protocol import RECIPE, RECORDING, STEERING
 
 if TYPE_CHECKING:
     from pico.model.observation import Observation
@@ -55,6 +55,8 @@ def _interrupted(opened: Opened) -> tuple[Diagnostic, ...]:
 def _goes_on_with(last: RunRecord | None) -> str:
     """Return what goes on with the last run, and what goes back; of a teleoperation only a person could go on."""
     back = "`pico undo` goes back to before it"
+    if last and last.holder.startswith(f"{RECIPE} ") and last.outcome != "failed":
+        return f"`pico run --resume` takes its recipe up again, {back}"
     if last and last.holder.startswith(RECORDING):
         return f"its script alone can go on; `pico recover` brings the bench to order, {back}"
     return back if last and last.holder.startswith(STEERING) else f"`pico resume` takes the run up again, {back}"

@@ -26,7 +26,7 @@ def _far(opened: Opened, run: str) -> str:
             ids = {op["id"] for op in plan["operations"]}
             done = {r.key.split("/")[1] for r in memory.records(run=run) if r.kind == "done"}
             goal = plan["target"].get("revision")
-            if plan["target"].get("cause") == "recording":
+            if not ids:  # it is open
                 return f", {len(done)} operations done"
             return f"{f' {goal}' if goal else ''}, {len(ids & done)} of {len(ids)} operations done"
     return ""

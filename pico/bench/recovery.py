@@ -169,7 +169,11 @@ def _steered(component: str, robot: str | None) -> Diagnostic:
 
 
 def _recorded(began: Plan, last: RunRecord) -> Diagnostic:
-    """Return why a recorded run is not taken up: nobody but its script knows what was to come."""
+    """Return why an open run is not taken up: nobody but its script or recipe knows what was to come."""
+    hint = "`pico run --resume` goes on with the recipe, `pico undo` goes back to before this run"
+    if began.target.recipe:
+        text = f"run {last.run} is of the recipe {began.target.name}, which alone can go on with it"
+        return error("nothing-to-resume", text, hint=hint)
     text = f"run {last.run} was recorded: {began.target.name}; its script alone can go on with it"
     hint = "`pico runs show` tells what it did; `pico recover` brings the bench to order, `pico undo` goes back"
     return error("nothing-to-resume", text, hint=hint)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from pico.backends.device import Capabilities
@@ -30,9 +30,7 @@ class OpenRun:
     def step(self, plan: Plan) -> Plan:
         """Return the plan of the next step, with ids that no other step has: `op1` of the third is `3.op1`."""
         self.steps += 1
-        new = {op.id: f"{self.steps}.{op.id}" for op in plan.operations}
-        operations = (replace(op, id=new[op.id], after=tuple(new[a] for a in op.after)) for op in plan.operations)
-        return replace(plan, operations=tuple(operations))
+        return plan.with_ids(f"{self.steps}.")
 
     def count(self, finished: Event) -> None:
         """Add what became of a step, as its last event tells."""

@@ -64,6 +64,8 @@ STEERING = "pico teleop"
 """For which a bench is taken, and what, where a person steers."""
 RECORDING = "recording"
 """For which a bench is taken, and what, where a script has an open run."""
+RECIPE = "pico run"
+"""For which a bench is taken, and for which recipe, where one runs."""
 
 
 @record

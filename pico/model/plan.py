@@ -45,9 +45,9 @@ class Target:
     `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
     is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
-    `heal`; `single`: for one operation that somebody asked for; `teleoperation`; `recording`: for a run whose
-    operations are asked for while it is open), and `of` which run; `recipe`: of
-    which run of a recipe (`NAME@ID`) it is a `step`. `align`: goals that are not aligned then
+    `heal`; `single`: for one operation that somebody asked for; `teleoperation`; `recording`, and `recipe`
+    without operations: for a run whose operations are asked for while it is open), and `of` which run; `recipe`: of
+    which run of a recipe (`NAME@ID`) it is, or is a `step`. `align`: goals that are not aligned then
     are sought at its end.
     """
 
@@ -175,7 +175,7 @@ class Plan:
     @property
     def open(self) -> bool:
         """Whether a run of it is open: it has no operations, they are asked for while it goes on."""
-        return self.target.cause == "recording" and not self.operations
+        return self.target.cause in ("recording", "recipe") and not self.operations
 
     def __repr__(self) -> str:
         count = f"{len(self.operations)} operation{'' if len(self.operations) == 1 else 's'}"
@@ -193,6 +193,12 @@ class Plan:
     def for_recipe(self, recipe: str, step: str) -> Plan:
         """Return the plan, sealed, as that of a step of a recipe: see `Target`."""
         return replace(self, target=replace(self.target, cause="recipe", recipe=recipe, step=step)).sealed()
+
+    def with_ids(self, prefix: str) -> Plan:
+        """Return the plan, not sealed, with something in front of the ids of its operations."""
+        new = {op.id: f"{prefix}{op.id}" for op in self.operations}
+        found = (replace(op, id=new[op.id], after=tuple(new[a] for a in op.after)) for op in self.operations)
+        return replace(self, operations=tuple(found))
 
     def sealed(self) -> Plan:
         """Return the plan with its digest set."""

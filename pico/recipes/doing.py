@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pico.model.measurement import Measurement
     from pico.model.plan import Plan
     from pico.model.trace.event import Event
+    from pico.recipes.one_run import OneRun
 
 
 def _deaf(_: object) -> None:
@@ -38,7 +39,8 @@ def nobody_steers(jog: Teleoperation) -> None:
 class Doing:
     """One recipe under way on a bench.
 
-    `recipe`, `step`: what runs are recorded as caused by. `begin` is told the id of each run before it begins;
+    `recipe`, `step`: what runs are recorded as caused by; `one`: the open run that the step is done in, None where it
+    has runs of its own. `begin` is told the id of each run before it begins;
     `begun`: runs that this step began before it was cut short, as it was where it is done `again`. `head`: the commit
     checked out when it first began. `attended`: a person is there, to whom `ask` puts questions, and who can `steer`;
     `show` hears events, `say` what a signal leads to. `unattended`: nobody is there, and the recipe is held to what it
@@ -48,6 +50,7 @@ class Doing:
     bench: Bench
     recipe: str = ""
     step: str = ""
+    one: OneRun | None = None
     begun: Sequence[str] = ()
     again: bool = False
     attended: bool = False
@@ -68,18 +71,21 @@ class Doing:
         A plan that only measures and was carried out before the recipe was cut short is not run again.
         """
         from pico.bench.running.attending import attend
+        from pico.edge.protocol import RECIPE
         from pico.edge.running import new_run_id
         from pico.recipes.taken_up import measured_before
 
+        if self.one is not None:
+            plan = plan.with_ids(f"{self.step}:")
         plan = plan.for_recipe(self.recipe, self.step)
         if not require_possible(plan).operations:
             return {}
-        if (before := measured_before(self.bench, self.begun, plan)) is not None:
+        if (before := measured_before(self.bench, self.begun, self.step, plan)) is not None:
             return before
         self.allow(plan)
-        run_id = new_run_id()
+        run_id = self.one.begin() if self.one is not None else new_run_id()
         self.begin(run_id)
-        run = self.bench.moves.run(plan, holder=f"pico run {self.recipe}", run_id=run_id)
+        run = self.bench.moves.run(plan, holder=f"{RECIPE} {self.recipe}", run_id=run_id)
         came = attend(run, self.show, self.say)
         report = run.report
         if came or report.exit_code == ExitCode.INTERRUPTED:

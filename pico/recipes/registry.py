@@ -24,12 +24,14 @@ CONTROL = ("foreach", "if", "while", "call", "let", "assert", "scan")
 @dataclass(frozen=True)
 class Kind:
     """What a file of FOLDER declares: `what` the step does, an `example` of it, and the keys that may stand beside it,
-    each with what it says. `asks`: it waits for a person."""
+    each with what it says. `asks`: it waits for a person. `within`: it is done in the open run that the steps before it
+    began; any other ends that first, for it needs a run that is over, or nobody knows how long it takes."""
 
     what: str
     example: str
     keys: Mapping[str, str] = ()  # type: ignore[assignment]
     asks: bool = False
+    within: bool = False
 
 
 @dataclass(frozen=True)

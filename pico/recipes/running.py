@@ -11,6 +11,7 @@ from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
 from pico.recipes.guarding import Guard, guard_of
 from pico.recipes.log import Log
+from pico.recipes.one_run import OneRun
 from pico.recipes.recipe import Act, Recipe
 from pico.recipes.registry import step_file
 from pico.recipes.taken_up import settle
@@ -79,24 +80,34 @@ class _Run:
     ) -> None:  # fmt: skip
         self.guard = guard
         self.bench, self.recipe, self.log, self.doing, self.watching = bench, recipe, log, doing, watching
+        self.one = OneRun(bench, f"{recipe.name}@{log.about.id}")
         self.acted = self.before = 0
         self.at = self.failed = ""
         self.taken_up = 0
 
     def run(self) -> Outcome:
+        try:
+            return self._run()
+        finally:
+            self.one.end("interrupted")
+
+    def _run(self) -> Outcome:
         steps = walk(self.recipe, self.log.about.arguments, self._entered)
         found: tuple[Diagnostic, ...] = ()
         code = ExitCode.DONE
         try:
             self.taken_up = self.log.taken_up() if self.log.steps else 0
             returns = self._to_the_end(steps)
+            self.one.end()
         except _Until:
             steps.close()
+            self.one.end("interrupted")
             return self._outcome("interrupted")
         except KeyboardInterrupt:  # between two runs on the bench
             steps.close()
             return self._outcome("interrupted", at=self.at, exit_code=ExitCode.INTERRUPTED)
         except PicoError as exc:
+            self.one.end("interrupted" if exc.exit_code == ExitCode.INTERRUPTED else "failed")
             found, code, returns = tuple(exc.diagnostics), exc.exit_code or ExitCode.ERROR, {}
         if code == ExitCode.INTERRUPTED:
             return self._outcome("interrupted", at=self.at, diagnostics=found, exit_code=code)
@@ -153,8 +164,12 @@ class _Run:
     def _act(self, ask: Ask, step: Act, runs: list[str], head: str | None, again: bool) -> Told:
         if again:
             settle(self.bench, runs)
+        file = step_file(step.kind)
+        one = self.one if file.KIND.within else None
+        if one is None:
+            self.one.end()
         doing = replace(
-            self.doing, recipe=f"{self.recipe.name}@{self.log.about.id}", step=ask.path, begun=tuple(runs), again=again,
+            self.doing, recipe=self.one.recipe, step=ask.path, one=one, begun=tuple(runs), again=again,
             head=head if again else None, begin=lambda run: self.log.running(ask.path, run),
         )  # fmt: skip
         if (guard := self.guard) is not None:
@@ -162,8 +177,9 @@ class _Run:
             doing.watch = lambda: guard.judge(doing, ask.path)
         for attempt in range(step.retries + 1):
             try:
-                return step_file(step.kind).run(doing, ask.given)
+                return file.run(doing, ask.given)
             except PicoError as exc:
+                self.one.end("interrupted" if exc.exit_code == ExitCode.INTERRUPTED else "failed")
                 if attempt == step.retries or exc.exit_code in (ExitCode.INTERRUPTED, ExitCode.DENIED):
                     raise
         raise AssertionError("a step has at least one attempt")

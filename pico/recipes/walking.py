@@ -7,6 +7,7 @@ being done.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -162,7 +163,7 @@ class _Walker:
         lists = []
         for address, term in step.over.items():
             lists.append((yield from self.value(term, names, f"{path}.{address}", step.source)))
-        turns = [] if _unknown(lists) else list(itertools.product(*lists))
+        turns = [] if _unknown(lists) else self.combined(step, lists)
         rows: list[dict[str, float]] = []
         point, taken, part = dict[str, Any](), 0, 0.0
         for n, values in enumerate(turns):
@@ -198,7 +199,7 @@ class _Walker:
         lists = []
         for name, term in step.over.items():
             lists.append((yield from self.value(term, names, f"{path}.{name}", step.source)))
-        turns = [] if _unknown(lists) else list(itertools.product(*lists))
+        turns = [] if _unknown(lists) else self.combined(step, lists)
         for n, values in enumerate(turns):
             self.count(step)
             own = dict(zip(step.over, values, strict=True))
@@ -280,6 +281,13 @@ class _Walker:
             text = f"`{term.text}` has {len(found)} items; a value has at most {MOST_ITEMS}"
             raise PicoError(_wrong("bound", text, source, "it is taken for one that runs away"))
         return found
+
+    def combined(self, step: Step, lists: list[Any]) -> list[tuple[Any, ...]]:
+        """Return all combinations of lists, the last fastest."""
+        if (many := math.prod(map(len, lists))) > MOST_TURNS:
+            text = f"this would go round {many} times; the loops of a recipe go round {MOST_TURNS} times in all"
+            raise PicoError(_wrong("bound", text, step.source, "it is taken for one that runs away"))
+        return list(itertools.product(*lists))
 
     def count(self, step: Step) -> None:
         self.turns += 1

@@ -17,12 +17,14 @@ if TYPE_CHECKING:
 
 def left_set(memory: Memory, seen: Observation) -> Mapping[str, Value]:
     """Return the tunables that the last step of the last run had set in passing and not set back, by address, each with
-    its value before, and where a search that was cut short began; nothing of a run that was not recorded."""
+    its value before, and where a search that was cut short began; nothing of a run that had no steps."""
     last = memory.last()
-    if last is None or last.outcome == "done" or not _recorded(memory, last.run):
+    if last is None or last.outcome == "done":
         return {}
     records = memory.records(run=last.run)
     step = max((step_of(r.key.split("/")[1]) for r in records), default=0)
+    if not step:
+        return {}
     own = [r for r in records if step_of(r.key.split("/")[1]) == step]
     begun = {r.key for r in own if r.kind == "started"}
     ended = {r.key for r in own if r.kind == "done"}
@@ -34,11 +36,6 @@ def left_set(memory: Memory, seen: Observation) -> Mapping[str, Value]:
         if op.primitive in ("optimize", "survey") and key not in ended:
             before |= op.arguments.get("from", {})
     return {a: v for a, v in before.items() if v is not None and _differs(seen, a, v)}
-
-
-def _recorded(memory: Memory, run: str) -> bool:
-    starts, _ = memory.about(run)
-    return bool(starts) and starts[0].get("cause", {}).get("kind") == "recording"
 
 
 def step_of(operation: str) -> int:

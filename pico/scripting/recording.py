@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable
 from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING, Any, Self
 
 from pico.bench.opened import Opened
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.edge.protocol import RECORDING, Job
+from pico.edge.protocol import RECIPE, RECORDING, Job
 from pico.edge.running import new_run_id
 from pico.model.observation import live_state
 from pico.model.plan import LabRef, Plan, Target
@@ -90,7 +89,9 @@ class Recording:
         if self.id:
             raise PicoError(error("recording", f"run {self.id} is over", hint="`bench.record(...)` begins another"))
         run = new_run_id()
-        job = Job(plan=self._plan(), holder=f"{RECORDING} {self.name}", wait=opened.lock_timeout, speed=opened.speed)
+        of = self._target.recipe
+        holder = f"{RECIPE} {of}" if of else f"{RECORDING} {self.name}"
+        job = Job(plan=self._plan(), holder=holder, wait=opened.lock_timeout, speed=opened.speed)
         opened.wait(opened.edge.open(job, run))
         self.id = opened.recording = run
         if threading.current_thread() is threading.main_thread():
@@ -100,15 +101,18 @@ class Recording:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, exc: BaseException | None, _: object) -> None:
-        for number, handler in self._handlers.items():
-            signal.signal(number, handler)
-        self.opened.recording = None
-        finishing: Callable[[RunOutcome], Any] = lambda how: self.opened.edge.finish(self.id, how)  # noqa: E731
         try:
-            self._report = self.opened.wait(finishing(_outcome(exc)))
+            self.end(_outcome(exc))
         except PicoError:
             if kind is None:
                 raise
+
+    def end(self, how: RunOutcome) -> None:
+        """End the run, and give the bench back; raises PicoError where it is not open any more."""
+        for number, handler in self._handlers.items():
+            signal.signal(number, handler)
+        self.opened.recording = None
+        self._report = self.opened.wait(self.opened.edge.finish(self.id, how))
 
     def _plan(self) -> Plan:
         """Return the plan of a run whose operations are asked for while it is open."""

@@ -83,8 +83,11 @@ def test_it_runs_to_its_end_and_the_commit_carries_its_runs(lab: Path) -> None:
     assert (found.outcome, found.returns) == ("done", {"left": 20.0}), found
     with Bench.open(lab) as bench:
         runs = [run for run, commit in bench.history.runs() if commit]
-        assert {r.cause.kind for r in runs} == {"recipe"} and any(r.cause.step for r in runs)
+        assert {r.cause.kind for r in runs} == {"recipe"}
         assert all(str(r.cause.recipe).startswith("scan@") for r in runs)
+        assert len(runs) == 1 and len(bench.history.runs()) == 2  # up to the commit, and after it
+        trace = bench.history.recorded_run(runs[0].id)[0].trace
+        assert {e.operation for e in trace} >= {"2.2[1].1:op1", "3.2[1].2:op1", "5.2[2].2:op1"}, trace
     with pytest.raises(PicoError, match="no run of a recipe was cut short"):
         resume(lab)
 

@@ -116,6 +116,12 @@ def test_loops_that_run_away_stop() -> None:
     assert isinstance(failed, PicoError) and failed.diagnostics[0].code == "bound"
 
 
+def test_a_product_that_runs_away_is_refused_before_it_is_made() -> None:
+    lists = "a: {from: 1, to: 9000, step: 1}, b: {from: 1, to: 9000, step: 1}, c: {from: 1, to: 9000, step: 1}"
+    _, failed = asked(right(f"steps:\n- foreach: {{{lists}}}\n  steps: [{{let: {{x: a}}}}]\n"))
+    assert isinstance(failed, PicoError) and "729000000000 times" in failed.diagnostics[0].summary
+
+
 def test_an_expression_that_runs_away_stops() -> None:
     text = "l.map(a, l.map(b, l.map(c, l.map(d, a + b + c + d)[0])[0])[0])[0]"
     recipe = right(f"steps:\n- let: {{l: 'range(1, 60, 1)'}}\n- let: {{x: '{text}'}}\n")

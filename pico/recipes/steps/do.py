@@ -13,7 +13,7 @@ from pico.recipes.reader import Reader
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
-KIND = Kind("another primitive of a component", "do: cam auto_range")
+KIND = Kind("another primitive of a component", "do: cam auto_range", within=True)
 ELSEWHERE = ("move", "stow", "set", "home", "measure", "scan")
 """Primitives that have steps of their own."""
 

@@ -12,7 +12,7 @@ from pico.recipes.reader import Reader
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
-KIND = Kind("an axis finds its zero", "home: p1.angle")
+KIND = Kind("an axis finds its zero", "home: p1.angle", within=True)
 
 
 def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:

@@ -19,7 +19,7 @@ from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
 _KINDS: Mapping[str, ValueKind] = {"float": "number", "bool": "bool", "choice": "text"}
-KIND = Kind("one measurable or several", "{measure: cam.centroid, as: spot}")
+KIND = Kind("one measurable or several", "{measure: cam.centroid, as: spot}", within=True)
 
 
 def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:

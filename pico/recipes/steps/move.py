@@ -13,7 +13,7 @@ from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 from pico.recipes.terms import literal
 
-KIND = Kind("parts go to poses, slots or home", "move: {p2: {x: 520, y: 420, yaw: 30}, lx_100: home}")
+KIND = Kind("parts go to poses, slots or home", "move: {p2: {x: 520, y: 420, yaw: 30}, lx_100: home}", within=True)
 _UNITS = {"x": "mm", "y": "mm", "yaw": "deg"}
 
 

@@ -11,7 +11,7 @@ from pico.recipes.reader import Reader
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
-KIND = Kind("something is noted on parts", "note: {p2: scratched at the rim}")
+KIND = Kind("something is noted on parts", "note: {p2: scratched at the rim}", within=True)
 
 
 def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:

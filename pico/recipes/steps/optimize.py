@@ -16,7 +16,7 @@ from pico.recipes.scope import Scope
 
 KIND = Kind(
     "light is brought to a goal", "optimize: centre ly_150 cam",
-    keys={"required": "whether the recipe fails where it is not met (true)"},
+    keys={"required": "whether the recipe fails where it is not met (true)"}, within=True,
 )  # fmt: skip
 
 

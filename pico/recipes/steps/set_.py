@@ -12,7 +12,7 @@ from pico.recipes.reader import Reader
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
-KIND = Kind("tunables get values", "set: {p1.angle: 3, cam.exposure: 2 ms}")
+KIND = Kind("tunables get values", "set: {p1.angle: 3, cam.exposure: 2 ms}", within=True)
 
 
 def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:
