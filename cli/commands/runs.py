@@ -119,7 +119,8 @@ def export(
 
     Runs, measurements, plan and pictures of the table, to publish. The same commit gives the same bytes. Refused where
     an artifact of a run is not here. `--as csv` writes what one run measured (`--run`, or the last), a row each;
-    `--as documents` the run in the documents of bluesky's event model, a line each; without `--out` to the terminal.
+    `--as documents` the run in the documents of bluesky's event model, a line each; without `--out`, or with
+    `--out -`, to the terminal.
 
     Examples:
       pico runs export e1 --out e1.zip
@@ -130,6 +131,8 @@ def export(
             raise PicoError(error("usage", f"--as {form} writes one run", hint=f"`--as {form} --run RUN`, or the last"))
         _export_run(Session.of(context), form, run[0] if run else None, out)
         return
+    if str(out) == "-":
+        raise PicoError(error("usage", "a crate is not written to the terminal", hint="name a folder or a file.zip"))
     from pico.bench.publishing import publish
     from pico.history.lab.folder import LabFolder
 
@@ -156,7 +159,7 @@ def _export_run(session: Session, form: Literal["csv", "documents"], run: str | 
         text = as_csv(rows(found.trace))
     else:
         text = "".join(f"{json.dumps(pair)}\n" for pair in documents(found, units_of(bench.setup)))
-    if out is None:
+    if out is None or str(out) == "-":
         session.say(text.removesuffix("\n"))
         return
     write_whole(session.folder / out, text.encode())

@@ -37,13 +37,7 @@ def text(found: Measurement, *, run: str, advice: str = "") -> str:
 
 
 def _rows(found: Measurement) -> list[list[str]]:
-    assert isinstance(found.value, Mapping)
-    units = found.unit.split(", ")
-    each = units if len(units) == len(found.value) else [found.unit] * len(found.value)
-    sigma = found.sigma if isinstance(found.sigma, Mapping) else {}
-    return [
-        [name, value(one, unit, sigma.get(name))] for (name, one), unit in zip(found.value.items(), each, strict=True)
-    ]
+    return [[name, value(one, unit, sigma)] for name, (one, sigma, unit) in found.numbers.items()]
 
 
 def data(found: Measurement, *, run: str, advice: str = "") -> dict[str, Any]:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from pico.recipes.registry import Kind
 
 LANGUAGE = {
+    "scan": "tunables are set to each value, measurables `read` there: scan: {p1.angle: {from: 1, to: 5, count: 9}}",
     "foreach": "steps for each value of a list, or each combination: foreach: {tilt: [0, 15, 30]}",
     "if": "steps where something holds, `else` others: if: cam.power > 200",
     "while": "steps while something holds, at most `most` times: while: cam.power < 200",

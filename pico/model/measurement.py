@@ -65,7 +65,9 @@ class Measurement:
     @property
     def numbers(self) -> Mapping[str, tuple[float, float | None, str]]:
         """Each number with its sigma (None where nobody tells) and unit, by its name; by `` where there is only one."""
-        values = self.value if isinstance(self.value, Mapping) else {"": self.value}
+        from pico.kernels.measured import in_order
+
+        values = in_order(self.kernel, self.value) if isinstance(self.value, Mapping) else {"": self.value}
         units = self.unit.split(", ") if isinstance(self.value, Mapping) else [self.unit]
         each = units if len(units) == len(values) else [self.unit] * len(values)
         sigmas = self.sigma if isinstance(self.sigma, Mapping) else {"": self.sigma}

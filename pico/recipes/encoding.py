@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 from pico.model.pose import Pose
 from pico.model.state import ComponentState
 from pico.runs.document import RecordedRun
+from pico.runs.left_set import step_of
 from pico.runs.operations import OperationRun, operations
 
 PASSED_OVER = ("park", "survey")
@@ -18,7 +20,8 @@ MOVES = ("move", "stow")
 
 def encoded(name: str, lab: str, runs: Iterable[RecordedRun]) -> str:
     """Return a recipe as YAML: a step for each thing that was done in the runs, in their order. Of a part that was
-    moved several times in a run, or set, only where it ended up counts: the rest made way, or kept light shut."""
+    moved several times in a plan, or set, only where it ended up counts: the rest made way, or kept light shut. A
+    recorded run is as many plans as it had steps."""
     import yaml
 
     lines = [
@@ -37,6 +40,11 @@ def encoded(name: str, lab: str, runs: Iterable[RecordedRun]) -> str:
 
 def _steps(run: RecordedRun) -> Iterator[tuple[str, Any]]:
     done = [op for op in operations(run.trace) if op.outcome == "done" and op.primitive not in PASSED_OVER]
+    for _, ops in groupby(done, lambda op: (op.run, step_of(op.id))):
+        yield from _of_plan([*ops], run)
+
+
+def _of_plan(done: Sequence[OperationRun], run: RecordedRun) -> Iterator[tuple[str, Any]]:
     last = {_changed(op): n for n, op in enumerate(done)}
     first = {_changed(op): op for op in reversed(done)}
     sets: dict[str, Any] = {}

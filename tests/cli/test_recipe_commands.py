@@ -198,3 +198,10 @@ steps:
     )
     answer = pico("run", "there_and_back", "--yes")
     assert answer.code == 0, answer.err + answer.out
+
+
+def test_every_step_that_recipes_may_have_is_listed(turning: Path, pico: Pico) -> None:
+    from pico.recipes.registry import CONTROL, known
+
+    listed = [line.split()[0] for line in pico("recipe", "steps").out.splitlines() if line.strip()]
+    assert set(listed) >= {*CONTROL, *known()}

@@ -18,7 +18,7 @@ from pico.model.measurement import (
     incomparable,
     measurement_from_json,
 )
-from pico.model.record import as_json
+from pico.model.record import as_json, canonical
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 NAMES = st.text("abcxyz_", min_size=1, max_size=6)
@@ -105,3 +105,16 @@ def test_what_is_no_measurement_is_refused(data: dict[str, Any], said: str) -> N
 
 def test_what_a_later_version_adds_is_passed_over() -> None:
     assert measurement_from_json(as_json(POWER) | {"weather": "fair"}) == POWER
+
+
+def test_units_stay_with_their_numbers_in_a_document_that_has_these_by_the_alphabet() -> None:
+    spot = {"major": 900.0, "minor": 800.0, "angle": 12.0, "ellipticity": 0.9}
+    found = Measurement(
+        component="cam", measurable="width", value=spot, sigma=dict.fromkeys(spot, 0.1), unit="um, um, deg, 1",
+        kernel="image | d4sigma",
+    )  # fmt: skip
+    again = measurement_from_json(json.loads(canonical(found)))
+    assert again.numbers == found.numbers
+    assert {name: unit for name, (_, _, unit) in again.numbers.items()} == {
+        "major": "um", "minor": "um", "angle": "deg", "ellipticity": "1",
+    }  # fmt: skip

@@ -99,6 +99,9 @@ def test_a_run_is_exported_by_the_command(bench: Bench, pico: Pico) -> None:
     run = scanned(bench)
     answer = pico("-C", str(bench.root), "runs", "export", "--as", "csv")
     assert answer.code == 0 and answer.out.splitlines()[0].startswith("seq,t,at,measured,p1.angle")
+    assert pico("-C", str(bench.root), "runs", "export", "--as", "csv", "--out", "-").out == answer.out
+    crate = pico("-C", str(bench.root), "runs", "export", "--out", "-")
+    assert crate.code != 0 and "name a folder or a file.zip" in crate.err and not (bench.root / "-").exists()
     words = ("runs", "export", "--as", "documents", "--run", run, "--out", "d.jsonl")
     assert pico("-C", str(bench.root), *words).code == 0
     assert pico("-C", str(bench.root), "runs", "export", "e1", "--as", "csv").code == 1

@@ -13,6 +13,7 @@ from attended import ended_when
 from serving import served
 
 from pico.diagnostics import ExitCode, PicoError
+from pico.recipes.encoding import encoded
 from pico.runs.operations import operations
 from pico.scripting.bench import Bench
 
@@ -242,3 +243,18 @@ def test_what_was_set_in_passing_is_set_back_after_it_was_cut_short(bench: Bench
     bench.apply(plan)
     assert bench.measurements.read("laser", "shutter") == before
     assert not bench.recovery.recover_plan().operations
+
+
+def test_a_recorded_loop_becomes_a_recipe_with_all_its_steps(bench: Bench) -> None:
+    with bench.record("mini"):
+        for angle in (20, 40, 60):
+            bench["p2"].angle = angle
+            bench.measure("p2.angle")
+        for x in (520, 540):
+            bench["p1"].move(x=x, y=420, yaw=0)
+    steps = [line for line in encoded("mini", "shel", [bench.history.recorded_run()[0]]).split("\n") if "  - " in line]
+    assert steps == [
+        "  - set: {p2.angle: 20.0}", "  - measure: p2.angle", "  - set: {p2.angle: 40.0}", "  - measure: p2.angle",
+        "  - set: {p2.angle: 60.0}", "  - measure: p2.angle",
+        "  - move: {p1: {x: 520.0, y: 420.0, yaw: 0.0}}", "  - move: {p1: {x: 540.0, y: 420.0, yaw: 0.0}}",
+    ]  # fmt: skip
