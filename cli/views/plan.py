@@ -313,7 +313,7 @@ def policy(plan: Plan) -> list[str]:
 
 def _scope(plan: Plan) -> str:
     """Return that a plan is for some components, and whether the bench will be as the target says nevertheless."""
-    left = plan.absent or plan.unsure or any(d.code == "left" for d in plan.diagnostics)
+    left = plan.absent or plan.unsure or any(d.code in ("left", "sample") for d in plan.diagnostics)
     will = f"the bench will {'not equal' if left else 'equal'} {goal_name(plan)}"
     return paint("yellow", f"{plan.target.scope}: {will}" + ("" if left else ", for nothing else differs"))
 

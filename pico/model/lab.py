@@ -149,7 +149,8 @@ class Part:
     they are others than its type's, such as the focal length of one of many lenses. `ends_beams`: this one is meant to
     end beams (or is not), whatever its type says. `restore`: how tunables of this one are restored, where that is
     otherwise than its type says, such as `{tip: {kind: align, trim: 12, goal: centred}}`. `measured`: of parameters and
-    calibrations of its own when and how well they were measured: `{focal_length: {at: 2026-11-20, sigma: 0.2 mm}}`."""
+    calibrations of its own when and how well they were measured: `{focal_length: {at: 2026-11-20, sigma: 0.2 mm}}`.
+    `sample`: which one it holds (`WSe2-041`): no plan to a state moves it unless it is named."""
 
     type: str
     marker: int | None = None
@@ -165,6 +166,7 @@ class Part:
     ends_beams: bool | None = None
     restore: Mapping[str, Restore] | None = None
     measured: Mapping[str, Known] | None = None
+    sample: str | None = None
 
     def __post_init__(self) -> None:
         if (self.home is None) == (self.pose is None):

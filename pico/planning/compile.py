@@ -22,7 +22,7 @@ from pico.planning.checks.target import Source, check_target, no_source
 from pico.planning.checks.tethers import check_tethers
 from pico.planning.light import light_last, told_of, withheld
 from pico.planning.parts.movers import Place
-from pico.planning.parts.selection import done_by, selection, told
+from pico.planning.parts.selection import done_by, samples_kept, selection, told
 from pico.planning.parts.setdown import after_set_downs, parked_first, set_downs
 from pico.planning.parts.situation import Situation, read_situation
 from pico.planning.request import Preference, Request
@@ -63,7 +63,7 @@ def plan(
     leave these as they are. Raises nothing for an impossible state: the plan is then `errored`, holds no operation, and
     its diagnostics say what is in the way. Raises PicoError for a target that the lab does not have.
     """
-    only = selection(setup, targets, exclude)
+    only = selection(setup, targets, exclude, samples=target.cause in ("undo", "recover"))
     request = Request(setup, seen, wanted, motion, source or no_source, exact, prefer=prefer, only=only)
     return compiled_plan(request, backend=backend, fidelity=fidelity, base=base, target=target)
 
@@ -101,7 +101,11 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     changes = situation.changes
     if not request.only.everything and operations:
         diagnostics = (*diagnostics, *told(request.only, changes, operations))
-    if not request.only.everything:
+    staying = tuple(samples_kept(request.only, changes))
+    if staying:
+        without = {*(target.exclude or ()), *(f"{one.address}.pose" for one in staying)}
+        target, diagnostics = replace(target, exclude=tuple(sorted(without))), (*diagnostics, *staying)
+    if staying or not request.only.everything:
         done = done_by(operations)
         own = {(c.component, c.tunable) for c in changes if request.only.chosen(c.component, c.tunable)} | done
         changes = tuple(c for c in changes if (c.component, c.tunable) in own)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
@@ -15,10 +15,12 @@ from pico.planning.parts.phrases import listed
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """What a plan is for: the `targets` (everything where there is none), without what is `exclude`d."""
+    """What a plan is for: the `targets` (everything where there is none), without what is `exclude`d. `kept`: parts
+    with samples, by name, that stay where they are, for nobody named them."""
 
     targets: Named = field(default_factory=dict)
     exclude: Named = field(default_factory=dict)
+    kept: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def everything(self) -> bool:
@@ -30,14 +32,17 @@ class Selection:
 
     def excluded(self, name: str, tunable: str = "pose") -> bool:
         """Whether a tunable of a component is to be left as it is, whatever is in its way."""
-        return holds(self.exclude, name, tunable)
+        return holds(self.exclude, name, tunable) or (tunable == "pose" and name in self.kept)
 
 
 EVERYTHING = Selection()
 
 
-def selection(setup: Setup, targets: Collection[str], exclude: Collection[str]) -> Selection:
-    """Return a selection; `p2` is a component, `p1.angle` one tunable of it.
+def selection(
+    setup: Setup, targets: Collection[str], exclude: Collection[str], *, samples: bool = False
+) -> Selection:  # fmt: skip
+    """Return a selection; `p2` is a component, `p1.angle` one tunable of it. Parts with samples must be named to move,
+    unless `samples` may.
 
     Raises PicoError for what the lab does not have, and for what is asked for and excluded.
     """
@@ -47,7 +52,8 @@ def selection(setup: Setup, targets: Collection[str], exclude: Collection[str]) 
         raise PicoError(
             [error("usage", f"{name} is both asked for and excluded", hint="name it once") for name in both]
         )
-    return Selection(named, without)
+    held = {n: p.sample for n, p in setup.lab.inventory.items() if p.sample and not holds(named, n, "pose")}
+    return Selection(named, without, {} if samples else held)
 
 
 def _covered(without: Named, address: str) -> bool:
@@ -80,6 +86,7 @@ def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Oper
         )
     done = done_by(operations)
     rest = [c for c in changes if c.counts and (c.component, c.tunable) not in done]
+    rest = [c for c in rest if c.tunable != "pose" or c.component not in chosen.kept]  # told by itself
     left = sorted({_name(chosen, c) for c in rest if not chosen.chosen(c.component, c.tunable)})
     if left:
         names = ", ".join(left[:6]) + (f" and {len(left) - 6} more" if len(left) > 6 else "")
@@ -87,6 +94,20 @@ def told(chosen: Selection, changes: Sequence[Change], operations: Sequence[Oper
             "left", f"{names} {'differs' if len(left) == 1 else 'differ'} from the state wanted, and "
             f"{'stays' if len(left) == 1 else 'stay'} so", hint="a plan that names no component is for all of them",
         )  # fmt: skip
+
+
+def samples_kept(chosen: Selection, changes: Sequence[Change]) -> Iterator[Diagnostic]:
+    """Yield a warning for each part with a sample that stays where it is, though a state wants it elsewhere."""
+    for change in changes:
+        name = change.component
+        if (
+            change.tunable == "pose"
+            and change.counts
+            and name in chosen.kept
+            and not holds(chosen.exclude, name, "pose")
+        ):
+            text = f"{name} stays where it is: it holds the sample {chosen.kept[name]}, which nobody asked to move"
+            yield warning("sample", text, hint=f"name it to move it: `-- {name}`, `pico move {name} ...`", address=name)
 
 
 def _name(chosen: Selection, change: Change) -> str:
