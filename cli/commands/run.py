@@ -75,6 +75,11 @@ def run(
     if resume:
         log = recipes.unended()
         found = recipes.taken_up(log)
+        if dry_run:
+            ahead = recipes.ahead(found, log.about.arguments, log)
+            session.show(view, found, ahead)
+            session.report(ahead.diagnostics)
+            return int(ahead.exit_code)
         alone = _alone(session, recipes, found, log.about.arguments, unattended)
         return _carry_out(session, recipes, found, log, until, auto_approve, alone)
     assert recipe is not None

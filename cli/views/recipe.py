@@ -16,16 +16,17 @@ if TYPE_CHECKING:
     from pico.recipes.walking import Entered
 
 
-_LATER = re.compile(r"\[(?!1\])")
-"""In the path of a step: a turn of a loop that is not the first."""
+_TURN = re.compile(r"\[\d+\]")
+"""In the path of a step: which turn of a loop."""
 
 
 def text(recipe: Recipe, ahead: Foreseen) -> str:
-    """Return the steps as far as they are known, with what each takes; of loops what the first turn does."""
-    lines = [head(recipe, ahead), ""]
+    """Return the steps as far as they are known, with what each takes; of loops what one turn does."""
+    lines, shown = [head(recipe, ahead), ""], set[object]()
     for entered, takes in ahead.steps:
-        if _LATER.search(entered.path):
+        if (place := (_TURN.sub("[]", entered.path), entered.turn)) in shown:
             continue
+        shown.add(place)
         took = f"  {seconds(takes)}" if takes else ""
         lines.append(shorten(line(entered), wide() - len(took)) + paint("dim", took))
     return "\n".join(lines)

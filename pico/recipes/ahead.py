@@ -10,18 +10,20 @@ from typing import Any, cast
 from pico.bench.bench import Bench
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
-from pico.model.operation import Operation
+from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target
 from pico.model.pose import Pose
 from pico.model.state import LabState
 from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
-from pico.recipes.recipe import Act, Recipe
+from pico.recipes.recipe import Act, Recipe, Scan, Step
 from pico.recipes.registry import StepFile, step_file
 from pico.recipes.walking import Ask, Entered, Told, walk
 
 MOST = 400
 """Steps that are looked at ahead."""
+_ANY = "*"
+"""For everything on the bench."""
 
 
 @dataclass(frozen=True)
@@ -49,20 +51,36 @@ class _Later(Bench):
         return self.seen
 
 
-def foresee(bench: Bench, recipe: Recipe, arguments: Mapping[str, Any]) -> Foreseen:
-    """Return what is known of a recipe in advance on a bench as it stands."""
-    return _Ahead(bench, recipe, arguments).run()
+def foresee(
+    bench: Bench, recipe: Recipe, arguments: Mapping[str, Any], known: Mapping[str, Told] | None = None
+) -> Foreseen:
+    """Return what is known of a recipe in advance on a bench as it stands. `known`: what came of the steps that were
+    done before it was cut short, by path; they are not among those that are foreseen."""
+    return _Ahead(bench, recipe, arguments, known or {}).run()
 
 
 class _Ahead:
-    def __init__(self, bench: Bench, recipe: Recipe, arguments: Mapping[str, Any]) -> None:
-        self.later = _Later(bench)
-        self.walk = walk(recipe, arguments, self.entered, ahead=True)
+    def __init__(self, bench: Bench, recipe: Recipe, arguments: Mapping[str, Any], known: Mapping[str, Told]) -> None:
+        self.later, self.known = _Later(bench), dict(known)
+        self.walk = walk(recipe, arguments, self.entered, ahead=self.may_be)
         self.steps: list[tuple[Entered, float | None]] = []
         self.found: list[Diagnostic] = []
         self.whole, self.acts, self.code = True, 0, ExitCode.DONE
         self.made: dict[str, LabState] = {}
         self.branch = ""
+        self.open = set[str]()
+
+    def may_be(self, step: Step) -> None:
+        """Take what a step changes for unknown: only a measurement will tell whether it is done, or with what."""
+        if isinstance(step, Scan):
+            changed = set(step.over)
+        elif isinstance(step, Act) and step.kind == "set":
+            changed = set(step.given)
+        elif isinstance(step, Act) and step.kind == "move":
+            changed = {f"{name}.pose" for name in step.given}
+        else:
+            changed = {_ANY} if isinstance(step, Act) and _moves(step) else set()
+        self.whole, self.open = False, self.open | changed
 
     def entered(self, entered: Entered) -> None:
         self.steps.append((entered, None))
@@ -82,14 +100,27 @@ class _Ahead:
         return Foreseen(tuple(self.steps), seconds, tuple(self.found), self.whole and not self.found, self.code)
 
     def told(self, ask: Ask) -> Told:
+        if (before := self.known.pop(ask.path, None)) is not None:
+            if not self.known:
+                self.steps = []
+            return before
         if ask.step is None:
             parts = sorted({n.partition(".")[0] for n in ask.names})
             values, _ = values_of(self.later.setup, self.later.seen, parts)
-            return {n: values[n] for n in ask.names if n in values}
+            return {n: values[n] for n in ask.names if n in values and not self.may_differ(n)}
         self.acts += 1
         seconds = self.planned(ask, ask.step, step_file(ask.step.kind))
         self.steps[-1] = (self.steps[-1][0], seconds)
         return {}
+
+    def may_differ(self, name: str) -> bool:
+        """Return whether only a measurement will tell what a number of the bench will be by then."""
+        return any(one in (_ANY, name) or name.startswith(f"{one}.") for one in self.open)
+
+    def doubtful(self, code: ExitCode) -> bool:
+        """Return whether what speaks against a step may be otherwise by then: where parts stand, or any value."""
+        poses = any(one == _ANY or one.endswith(".pose") for one in self.open)
+        return poses or (bool(self.open) and code != ExitCode.IMPOSSIBLE)
 
     def planned(self, ask: Ask, step: Act, file: StepFile) -> float | None:
         """Plan a step from the bench as it would be by then, and let that be done; return how long it takes [s]."""
@@ -99,12 +130,23 @@ class _Ahead:
         try:
             plan = self.to_made(ask.given) or cast(Any, file).plan(Doing(self.later, step=ask.path), ask.given)
         except PicoError as exc:
+            if self.doubtful(exc.exit_code):
+                self.may_be(step)
+                return None
             raise PicoError([replace(d, source=step.source) for d in exc.diagnostics], exc.exit_code) from exc
+        if plan.exit_code and self.doubtful(plan.exit_code):
+            self.may_be(step)
+            return None
         if plan.exit_code:
             wrong = [d for d in plan.diagnostics if d.severity == "error"]
             raise PicoError([replace(d, source=step.source) for d in wrong], plan.exit_code)
         for op in plan.operations:
             self.later.seen = done(self.later.seen, op)
+            touched = {f"{one}.{tunable}" for one, tunable in touched_by(op.component, op.arguments)}
+            if op.primitive == "set" or op.kind.carries:
+                self.open -= touched
+            elif op.kind.mutating:
+                self.open |= touched
         return float(plan.makespan)
 
     def named(self, kind: str, given: Mapping[str, Any]) -> None:
@@ -124,6 +166,10 @@ class _Ahead:
             return None
         target = Target(revision=str(given["revision"]), state=state.as_json())
         return self.later.plans.to_state(self.later.seen, state, target)
+
+
+def _moves(step: Act) -> bool:
+    return step.kind != "measure" and hasattr(step_file(step.kind), "plan")
 
 
 def done(seen: Observation, op: Operation) -> Observation:

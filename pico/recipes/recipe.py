@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import time
 from typing import Any, Literal
@@ -190,7 +190,7 @@ def blocks(step: Step) -> Sequence[tuple[str, tuple[Step, ...]]]:
     return ()
 
 
-def every(steps: Sequence[Step]) -> Iterator[Step]:
+def every(steps: Iterable[Step]) -> Iterator[Step]:
     """Yield steps and those within them, in the order of the text; not those of recipes that are called."""
     for step in steps:
         yield step

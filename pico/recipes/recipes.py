@@ -96,11 +96,13 @@ class Recipes:
         nothing = Reader(Document(Source(recipe.path, ""), Map(0, True)), self.bench.setup, [])
         return given_values(recipe.parameters, given, nothing)
 
-    def ahead(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Foreseen:
-        """Return what is known of a recipe in advance; nothing moves."""
+    def ahead(self, recipe: Recipe, arguments: Mapping[str, Any], log: Log | None = None) -> Foreseen:
+        """Return what is known of a recipe in advance, of one that was cut short what is left of it (`log`); nothing
+        moves."""
         from pico.recipes.ahead import foresee
 
-        return foresee(self.bench, recipe, arguments)
+        known = {path: step.told for path, step in (log.steps if log else {}).items() if step.told is not None}
+        return foresee(self.bench, recipe, arguments, known)
 
     def require_unattended(self, recipe: Recipe, arguments: Mapping[str, Any]) -> None:
         """Raise PicoError (exit code DENIED) where a recipe must not begin now with nobody there."""

@@ -8,13 +8,27 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, SourceRange, error
 from pico.expressions import ExpressionError, UnknownValue
-from pico.recipes.recipe import MOST_ITEMS, MOST_TURNS, Act, Assert, Call, Choice, Each, Let, Recipe, Scan, Step, While
+from pico.recipes.recipe import (
+    MOST_ITEMS,
+    MOST_TURNS,
+    Act,
+    Assert,
+    Call,
+    Choice,
+    Each,
+    Let,
+    Recipe,
+    Scan,
+    Step,
+    While,
+    every,
+)
 from pico.recipes.scanning import apart, column, columns, row
 from pico.recipes.terms import Term
 
@@ -54,11 +68,13 @@ class Entered:
 
 def walk(
     recipe: Recipe, arguments: Mapping[str, Any], enter: Callable[[Entered], None] = lambda _: None, *,
-    ahead: bool = False,
+    ahead: Callable[[Step], None] | None = None,
 ) -> Walk:  # fmt: skip
     """Walk a recipe with all its parameters given; return what it `returns`.
 
-    `ahead`: nothing is done yet, and what is measured is not known: what depends on it is left out.
+    `ahead`: nothing is done yet, and what is measured is not known: what depends on it is left out, what that would
+    change is not known from there on, and `ahead` hears of each act and scan of which nobody knows whether it is done,
+    or with what.
 
     Throw PicoError in where an act failed: the steps of `finally` are then asked for, and it comes out again. Raises
     PicoError for an assertion that does not hold (exit code EXPECTATION), for a loop beyond its bound, and for an
@@ -85,7 +101,7 @@ class _Names:
 
 
 class _Walker:
-    def __init__(self, enter: Callable[[Entered], None], ahead: bool = False) -> None:
+    def __init__(self, enter: Callable[[Entered], None], ahead: Callable[[Step], None] | None = None) -> None:
         self.enter, self.ahead, self.turns = enter, ahead, 0
         self.measured: dict[str, float] = {}
 
@@ -123,6 +139,7 @@ class _Walker:
             elif isinstance(step, Choice):
                 holds = yield from self.holds(step, step.that, names, path)
                 if holds is None:
+                    self.left_out((*step.then, *step.otherwise), names)
                     continue
                 self.enter(Entered(path, step, depth, {"holds": holds}))
                 inner, branch = (step.then, f"{path}.") if holds else (step.otherwise, f"{path}.else.")
@@ -140,6 +157,7 @@ class _Walker:
     def act(self, step: Act, names: _Names, path: str, depth: int) -> Walk:
         given = yield from self.filled(step.given, names, path, step.source)
         if _unknown(given):
+            self.left_out([step], names)
             return {}
         self.enter(Entered(path, step, depth, given))
         told = yield Ask(path, step, given)
@@ -163,7 +181,10 @@ class _Walker:
         lists = []
         for address, term in step.over.items():
             lists.append((yield from self.value(term, names, f"{path}.{address}", step.source)))
-        turns = [] if _unknown(lists) else self.combined(step, lists)
+        if _unknown(lists):
+            self.left_out([step], names)
+            return {}
+        turns = self.combined(step, lists)
         rows: list[dict[str, float]] = []
         point, taken, part = dict[str, Any](), 0, 0.0
         for n, values in enumerate(turns):
@@ -199,7 +220,10 @@ class _Walker:
         lists = []
         for name, term in step.over.items():
             lists.append((yield from self.value(term, names, f"{path}.{name}", step.source)))
-        turns = [] if _unknown(lists) else self.combined(step, lists)
+        if _unknown(lists):
+            self.left_out(step.steps, names)
+            return {}
+        turns = self.combined(step, lists)
         for n, values in enumerate(turns):
             self.count(step)
             own = dict(zip(step.over, values, strict=True))
@@ -209,7 +233,10 @@ class _Walker:
 
     def again(self, step: While, names: _Names, path: str, depth: int) -> Walk:
         for n in range(step.most + 1):
-            if not (yield from self.holds(step, step.that, names, f"{path}[{n + 1}]")):
+            holds = yield from self.holds(step, step.that, names, f"{path}[{n + 1}]")
+            if holds is None:
+                self.left_out(step.steps, names)
+            if not holds:
                 return {}
             if n == step.most:
                 break
@@ -244,6 +271,17 @@ class _Walker:
         assert step.that is not None
         text = said or f"`{step.that.text}` does not hold"
         raise PicoError(_wrong("assert", text, step.source, f"step {path}"), ExitCode.EXPECTATION)
+
+    def left_out(self, steps: Iterable[Step], names: _Names) -> None:
+        """Take what steps change for unknown, of which only a measurement will tell whether they are done."""
+        assert self.ahead is not None  # all is known where it is done
+        for step in every(steps):
+            for name in _given(step):
+                names.give(name, UNKNOWN)
+            if isinstance(step, Act | Scan):
+                self.ahead(step)
+            elif isinstance(step, Call) and step.recipe is not None:
+                self.left_out((*step.recipe.steps, *step.recipe.finally_), _Names({}))
 
     # values
 
@@ -294,6 +332,17 @@ class _Walker:
         if self.turns > MOST_TURNS:
             text = f"the loops of this recipe have gone round {MOST_TURNS} times in all"
             raise PicoError(_wrong("bound", text, step.source, "it is taken for one that runs away"))
+
+
+def _given(step: Step) -> Iterable[str]:
+    """Return the names to which a step gives values."""
+    if isinstance(step, Let):
+        return step.values
+    if isinstance(step, Call) and step.recipe is not None and step.binds:
+        return [f"{step.binds}.{name}" for name in step.recipe.returns]
+    if isinstance(step, Act | Scan) and step.binds:
+        return [f"{step.binds}.{name}" if name else step.binds for name in step.names]
+    return ()
 
 
 def _unknown(given: Any) -> bool:

@@ -62,6 +62,15 @@ def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     assert pico("runs", "show", "--json").data["document"]["cause"]["kind"] == "recipe"
 
 
+def test_what_is_left_of_one_that_was_cut_short_is_shown_and_nothing_moves(turning: Path, pico: Pico) -> None:
+    assert pico("run", "turning", "--until", "1[2].1", "--yes").code == 0
+    answer = pico("run", "--resume", "--dry-run", "--yes")
+    assert answer.code == 0 and "2 steps foreseen" in answer.out
+    assert "1[2].1 set p1.angle" in answer.out and "1[1].1" not in answer.out
+    assert pico("get", "p1.angle").out.split()[1] == "10"
+    assert pico("run", "--resume", "--yes").code == 0 and pico("get", "p1.angle").out.split()[1] == "20"
+
+
 def test_as_json_each_step_has_a_line_and_the_end_one(turning: Path, pico: Pico) -> None:
     answer = pico("run", "turning", "--json", "--yes")
     lines = [json.loads(line) for line in answer.out.splitlines()]

@@ -158,6 +158,27 @@ def test_a_recipe_whose_file_a_checkout_took_away_goes_on_as_it_was(lab: Path) -
     assert resume(lab).outcome == "done"
 
 
+@pytest.mark.parametrize(
+    "steps",
+    [
+        "- let: {at: 1e4}\n- if: light >= 0\n  then: [{let: {at: '520'}}]\n- move: {p2: {x: at, y: 420, yaw: 0}}\n",
+        "- if: light >= 0\n  then: [{set: {p1.angle: 30}}]\n- assert: p1.angle == 30\n",
+        "- set: {p1.angle: 'light >= 0 ? 30 : 20'}\n- assert: p1.angle == 30\n",
+        "- if: light >= 0\n  then: [{move: {p1: home}}]\n- move: {p2: {x: 290, y: 420, yaw: 0}}\n",
+    ],
+)
+def test_what_depends_on_a_measurement_is_not_refused_in_advance(lab: Path, steps: str) -> None:
+    text = TEXT.partition("parameters")[0] + "steps:\n- {measure: laser.monitor, as: light}\n"
+    first = "- move: {p1: {x: 290, y: 420, yaw: 0}}\n" if "home" in steps else ""
+    (lab.parent / "scan.yaml").write_text(text + first + steps)
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        ahead = recipes.ahead(recipe, {})
+        assert not ahead.diagnostics and not ahead.whole
+    assert begin(lab).outcome == "done"
+
+
 def test_it_stops_before_a_step_and_goes_on(lab: Path) -> None:
     with Bench.open(lab) as bench:
         recipes = Recipes(bench)

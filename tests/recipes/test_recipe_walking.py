@@ -134,7 +134,7 @@ def test_ahead_of_time_what_depends_on_measurements_is_left_out() -> None:
         "steps:\n- measure: cam.power\n- let: {p: cam.power}\n- if: p > 3\n  then: [{set: {p1.angle: 1}}]\n"
         "- set: {p1.angle: p}\n- set: {p1.angle: 2}\n"
     )
-    steps, paths = walk(recipe, {}, ahead=True), []
+    steps, paths = walk(recipe, {}, ahead=lambda _: None), []
     try:
         ask = next(steps)
         while True:
@@ -143,6 +143,24 @@ def test_ahead_of_time_what_depends_on_measurements_is_left_out() -> None:
     except StopIteration:
         pass
     assert paths == ["1", "5"]
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        "- if: p > 3\n  then: [{let: {l: 'l + [p]'}}]\n",
+        "- foreach: {t: [1, 2]}\n  steps: [{if: p > 3, then: [{let: {l: 'l + [p]'}}]}]\n",
+        "- foreach: {t: 'range(0, p, 1)'}\n  steps: [{let: {l: 'l + [t]'}}]\n",
+        "- while: p > 3 && size(l) < 1\n  most: 9\n  steps: [{let: {l: 'l + [p]'}}]\n",
+    ],
+)
+def test_ahead_of_time_nobody_knows_what_a_block_gives_that_depends_on_a_measurement(block: str) -> None:
+    text = f"steps:\n- let: {{l: '[]'}}\n- measure: cam.power\n- let: {{p: cam.power}}\n{block}- assert: size(l) == 1\n"
+    steps = walk(right(text), {}, ahead=lambda _: None)
+    with pytest.raises(StopIteration):
+        next(steps)
+        while True:
+            steps.send({})
 
 
 @given(st.lists(st.floats(-50, 50), max_size=12), st.data())
