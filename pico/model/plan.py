@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Any
+from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change
@@ -90,6 +90,23 @@ class Staging:
     proven: bool = False
 
 
+BlockingKind = Literal["bodies", "fingers", "storage", "stays", "reach", "path"]
+
+
+@record
+class Blocking:
+    """A constraint that keeps a plan from being: of what is `kind`, on component `of`, because of `by`.
+
+    `bodies`: `of` and `by` can't stand where they would meet; `fingers`: those around `of` would touch `by`; `storage`:
+    `of` must be in a place for storage while it is on its way; `stays`: what stays, keep-outs and edges are where `of`
+    or the fingers around it would be; `reach`: no arm picks or places `of` there; `path`: arms have no free path.
+    """
+
+    kind: BlockingKind
+    of: str
+    by: str = ""
+
+
 @record
 class Spoiled:
     """A goal that is aligned, and will not be after a plan: `why`; when it was met (`at`, by the wall); the `seconds`
@@ -107,7 +124,8 @@ class Plan:
 
     `operations` is sorted by start; arms take theirs in this order. `makespan` [s]; `bound`: before that no order of
     these operations ends [s], where the arms tell how long they take. `spoils`: goals that it leaves unaligned, in the
-    order along the beam in which they are to be redone. `errored` where the diagnostics hold an error:
+    order along the beam in which they are to be redone. `blocking`: of a plan that is impossible for its order of
+    moves, constraints that no order keeps, as few as are enough. `errored` where the diagnostics hold an error:
     then the plan must not be applied.
     """
 
@@ -126,6 +144,7 @@ class Plan:
     bound: float | None = None
     policy: tuple[Mapping[str, Any], ...] = ()
     spoils: tuple[Spoiled, ...] | None = None
+    blocking: tuple[Blocking, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property

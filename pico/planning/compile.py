@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.diagnostics import Diagnostic, error, warning
 from pico.model.observation import Observation, left_standing
 from pico.model.operation import Operation, Reason
-from pico.model.plan import Base, LabRef, Plan, Staging, Target
+from pico.model.plan import Base, Blocking, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.state import LabState, references_of
@@ -48,6 +48,7 @@ class Compiled:
     staging: Staging = field(default_factory=lambda: Staging(proven=True))
     diagnostics: tuple[Diagnostic, ...] = field(default=())
     bound: float | None = None
+    blocking: tuple[Blocking, ...] | None = None
 
 
 def plan(
@@ -116,7 +117,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
         target=target, changes=changes, operations=operations,
         staging=Staging() if _errored(diagnostics) else moves.staging,
         makespan=makespan(operations), bound=least_makespan(operations, moves.bound),
-        policy=policy_rules(setup, request.seen, operations),
+        policy=policy_rules(setup, request.seen, operations), blocking=moves.blocking,
         diagnostics=diagnostics,
     ).sealed()  # fmt: skip
 
@@ -127,7 +128,7 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
-    from pico.planning.explaining.refusal import explain, storage_note
+    from pico.planning.explaining.refusal import explain, proof, storage_note
     from pico.planning.ordering.solve import OrderedMoves, OrderingProblem, solve
 
     movers, obstacles, put_off = actors(request, situation)
@@ -145,7 +146,8 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
         fastest=request.prefer == "shortest-time",
     ))  # fmt: skip
     if not isinstance(answer, OrderedMoves):
-        return Compiled(diagnostics=(*put_off, *explain(answer, request.source)))
+        why = proof(answer)
+        return Compiled(diagnostics=(*put_off, *explain(answer, request.source, why)), blocking=why.blocking)
     operations, notes = _operations(request, answer)
     count, least = answer.staged, min(answer.staged, answer.least)
     staging = Staging(count=count, lower_bound=least, proven=count == least)

@@ -2,32 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from pico.diagnostics import Diagnostic, error
-from pico.geometry import finger_height, finger_zones, fits, separation
+from pico.geometry import fits
+from pico.model.plan import Blocking
 from pico.motion.types import Blocked
 from pico.planning.checks.target import Source, located
+from pico.planning.explaining.certificate import Certificate, certified, stored_would_do
 from pico.planning.explaining.reasons import body_overlap
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
 from pico.planning.ordering.solve import OrderedMoves, Refusal
-from pico.planning.parts.movers import Hold, Mover
+from pico.planning.parts.movers import Mover
 from pico.planning.parts.phrases import listed
 from pico.staging.feedback.digraph import some_cycle
 
 
-def explain(refused: Refusal, source: Source) -> list[Diagnostic]:
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """What is enough to make a refused problem impossible where what is right stays (`own`), and where most of it may
+    be moved aside (`widest`)."""
+
+    own: Certificate | None
+    widest: Certificate | None
+
+    @property
+    def blocking(self) -> tuple[Blocking, ...] | None:
+        """The constraints that no order keeps."""
+        found = self.widest or self.own
+        return found.blocking if found else None
+
+
+def proof(refused: Refusal) -> Proof:
+    """Return what proves a refusal, as far as that is proven within the limit of the search."""
+    own, widest = (
+        certified(one.table, one.core) if one is not None and one.proven else None for one in (refused, refused.widest)
+    )
+    return Proof(own, widest)
+
+
+def explain(refused: Refusal, source: Source, proven: Proof | None = None) -> list[Diagnostic]:
     """Return the errors that say why the movers of a refused problem can't all reach their goals."""
-    table = refused.table
     if len(refused.core) == 1:
         return [_alone(refused, refused.core[0], source)]
-    stuck = list(refused.core) or [
-        i for i, m in enumerate(table.movers) if refused.closest[i] not in m.finished
-    ]  # fmt: skip
     if refused.blocked and not refused.core:
-        return [_no_path(table, refused.blocked[-1], source)]
-    return [_ring(table, stuck, refused, source)]
+        return [_no_path(refused.table, refused.blocked[-1], source)]
+    movers = refused.table.movers
+    stuck = list(refused.core) or [i for i, m in enumerate(movers) if refused.closest[i] not in m.finished]
+    own = proven.own.blocking if proven and proven.own else None
+    if own is not None:
+        stuck = [i for i, m in enumerate(movers) if m.name in _named(own)]
+    found = _ring(refused.table, stuck, refused, source, own)
+    aside = sorted(_named(proven.widest.blocking) - {m.name for m in movers}) if proven and proven.widest else []
+    if aside:
+        found = replace(found, detail=f"{found.detail}\nto move {listed(aside, 'or')} aside would not help")
+    return [found]
+
+
+def _named(blocking: Sequence[Blocking]) -> set[str]:
+    return {name for c in blocking for name in (c.of, c.by)} - {""}
 
 
 def storage_note(answer: OrderedMoves) -> list[Diagnostic]:
@@ -70,7 +105,7 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     stands = verb == "picked up"
     standing = source(f"slots.{place.slot}") if place.slot else None  # where it stands now is in no state
     address, blame = f"{mover.name}.pose", standing if stands else located(source, mover)
-    hits = [(h, hit) for p in places for h in mover.holds for hit in finger_hits(table, i, p, h)]
+    hits = [(h, hit) for p in places for h in mover.holds for hit in table.finger_hits(i, p, h)]
     reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
     free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
     if reach and (free or not hits):
@@ -89,20 +124,6 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
         "blocked", f"{where}: a finger of the gripper would touch {listed(names)} {touch}, every grasp yaw tried",
         hint=f"move {listed(names, 'or')} away first, or leave more room there", address=address, source=blame,
     )  # fmt: skip
-
-
-def finger_hits(table: Conflicts, i: int, place: int, hold: Hold) -> Iterator[tuple[str, float]]:
-    """Yield the things that stay which the fingers come too near to, and how near [mm], negative where they overlap."""
-    mover, lab = table.movers[i], table.setup.lab
-    grasp = mover.geometry.grasp
-    if grasp is None or hold.robot is None:
-        return
-    gripper = lab.robots[hold.robot].gripper
-    lowest = finger_height(grasp, gripper)
-    for zone in finger_zones(grasp, gripper, hold.yaw, mover.places[place].pose):
-        for name in table.static.conflicts(zone, lab.margins.fingers):
-            if table.obstacles[name].height > lowest:
-                yield name, separation(zone, table.obstacles[name].shape)
 
 
 def _struck(blocked: Blocked) -> str:
@@ -132,29 +153,58 @@ def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
     )  # fmt: skip
 
 
-def _ring(table: Conflicts, stuck: Sequence[int], refused: Refusal, source: Source) -> Diagnostic:
+def _ring(
+    table: Conflicts, stuck: Sequence[int], refused: Refusal, source: Source, blocking: Sequence[Blocking] | None
+) -> Diagnostic:
     arcs = {(a, b): text for a in stuck for b in stuck if a != b and (text := before(table, a, b))}
     ring = some_cycle({a: [b for b in stuck if (a, b) in arcs] for a in stuck}) or []
+    stored = {c.of for c in blocking or () if c.kind == "storage"}
+    ring = ring if blocking is None or {table.movers[i].name for i in ring} == stored else []
     names = [table.movers[i].name for i in (ring or stuck)]
-    lines = [arcs[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)] or sorted(arcs.values())
-    lines += [_storage_line(table, i) for i in (ring or stuck)]
+    lines = [arcs[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)]
+    lines = lines or [line for c in blocking or () for line in _lines(table, c, arcs)] or sorted(arcs.values())
+    lines += [_storage_line(table, i) for i in (ring or stuck) if blocking is None or table.movers[i].name in stored]
     if ring:
         summary = f"{listed(names)} block one another in a ring that no storage slot breaks"
+    elif blocking is not None and not stored:
+        summary = f"{listed(names)} are in one another's way in any order, and storage would not help"
     elif refused.proven:
         summary = f"{listed(names)} can't all reach their places in any order"
     else:
         summary = f"found no order in which {listed(names)} reach their places, within the limit of the search"
-    inventory = table.setup.lab.inventory
-    allowed = [name for name in names if inventory[name].stage == "never"]
-    enough = f"{refused.slots} slots within reach that take them" if refused.slots > 1 else "one slot within reach"
-    hint = f"free {enough}, or leave more room between them"
-    if allowed and len(allowed) < 6:
-        hint = f"free {enough}, or allow staging of {listed(allowed, 'or')}"
     first = names[0] if names else ""
     return error(
-        "impossible", summary, detail="\n".join(lines), hint=hint, address=f"{first}.pose",
-        source=located(source, table.movers[stuck[0]]) if stuck else None,
+        "impossible", summary, detail="\n".join(lines), hint=_room(table, names, refused.slots, blocking),
+        address=f"{first}.pose", source=located(source, table.movers[stuck[0]]) if stuck else None,
     )  # fmt: skip
+
+
+def _room(table: Conflicts, names: Sequence[str], slots: int, blocking: Sequence[Blocking] | None) -> str:
+    """Return what would help: more storage only where that is what lacks."""
+    stored = {c.of for c in blocking or () if c.kind == "storage"}
+    if blocking is not None and not (stored and stored_would_do(table, stored)):
+        fingers = any(c.kind == "fingers" for c in blocking)
+        return "leave more room between them" + (" for the fingers, or give their types other grasp yaws" * fingers)
+    inventory = table.setup.lab.inventory
+    allowed = [name for name in names if inventory[name].stage == "never"]
+    enough = f"{slots} slots within reach that take them" if slots > 1 else "one slot within reach"
+    if allowed and len(allowed) < 6:
+        return f"free {enough}, or allow staging of {listed(allowed, 'or')}"
+    return f"free {enough}, or leave more room between them"
+
+
+def _lines(table: Conflicts, c: Blocking, arcs: Mapping[tuple[int, int], str]) -> list[str]:
+    """Return a constraint in words; what lacks in storage is told by itself."""
+    known = [text for pair, text in sorted(arcs.items()) if {table.movers[i].name for i in pair} == {c.of, c.by}]
+    if c.kind == "bodies":
+        return known or [f"{c.of} and {c.by} have no room to pass one another"]
+    told = {
+        "fingers": f"the fingers around {c.of} would touch {c.by}",
+        "stays": f"what stays is where {c.of}, or the fingers around it, would be",
+        "reach": f"no arm reaches {c.of} in every hold",
+        "path": f"arms have no free path for {c.of}",
+    }
+    return [told[c.kind]] if c.kind in told else []
 
 
 def before(table: Conflicts, a: int, b: int) -> str:

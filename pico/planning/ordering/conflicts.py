@@ -6,7 +6,7 @@ where its mask meets none of them. Masks are computed when they are first asked 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from pico.geometry import (
@@ -20,6 +20,7 @@ from pico.geometry import (
     overhang,
     placed,
     reaches,
+    separation,
 )
 from pico.model.catalog import Footprint
 from pico.model.pose import Pose
@@ -75,7 +76,8 @@ class Conflicts:
         self._arrive: dict[Spot, int | None] = {}
         self._grip: dict[tuple[int, int, Hold], int | None] = {}
         self._ways: dict[tuple[int, int, int], tuple[Way, ...]] = {}
-        self._paths: dict[tuple[int, int, int, Hold], int | None] = {}
+        self.blocked_holds: set[tuple[int, Hold]] = set()
+        self.blocked_paths: dict[tuple[int, int, int, Hold], int | None] = {}
 
     def _stored(self, movers: Sequence[Mover]) -> tuple[Mover, ...]:
         """Give movers the storage slots that nothing which stays keeps from being free."""
@@ -151,28 +153,53 @@ class Conflicts:
         return self._grip[key]
 
     def _fingers(self, i: int, place: int, hold: Hold) -> int | None:
-        mover, lab = self.movers[i], self.setup.lab
-        grasp, pose = mover.geometry.grasp, mover.places[place].pose
+        mask, keep_out = 0, self.setup.lab.keep_out.values()
+        lowest, zones = self._zones(i, place, hold)
+        for zone in zones:
+            if any(
+                self.obstacles[o].height > lowest for o in self.static.conflicts(zone, self.setup.lab.margins.fingers)
+            ):
+                return None
+            if any(reaches(k, lowest, float("inf")) and conflict(zone, outline(k)) for k in keep_out):
+                return None
+            mask |= self._meeting(i, zone, self.setup.lab.margins.fingers, above=lowest)
+        return None if self.unreachable(i, place, hold) else mask
+
+    def _zones(self, i: int, place: int, hold: Hold) -> tuple[float, tuple[Shape, ...]]:
+        """Return how low the fingers come around a mover at a place, and where they need room."""
+        mover = self.movers[i]
+        grasp = mover.geometry.grasp
         if hold.robot is None or grasp is None:
-            return 0
-        gripper = lab.robots[hold.robot].gripper
-        lowest, mask = finger_height(grasp, gripper), 0
-        for zone in finger_zones(grasp, gripper, hold.yaw, pose):
-            if any(self.obstacles[o].height > lowest for o in self.static.conflicts(zone, lab.margins.fingers)):
-                return None
-            if any(reaches(k, lowest, float("inf")) and conflict(zone, outline(k)) for k in lab.keep_out.values()):
-                return None
-            mask |= self._meeting(i, zone, lab.margins.fingers, above=lowest)
-        if self.unreachable(i, place, hold):
-            return None
-        return mask
+            return 0.0, ()
+        gripper = self.setup.lab.robots[hold.robot].gripper
+        return finger_height(grasp, gripper), finger_zones(grasp, gripper, hold.yaw, mover.places[place].pose)
+
+    def finger_hits(self, i: int, place: int, hold: Hold) -> Iterator[tuple[str, float]]:
+        """Yield the things that stay which the fingers come too near to, and how near [mm], negative where they
+        overlap."""
+        lowest, zones = self._zones(i, place, hold)
+        for zone in zones:
+            for name in self.static.conflicts(zone, self.setup.lab.margins.fingers):
+                if self.obstacles[name].height > lowest:
+                    yield name, separation(zone, self.obstacles[name].shape)
+
+    def fingers_kept_out(self, i: int, place: int, hold: Hold) -> bool:
+        """Whether the fingers would reach into a keep-out."""
+        lowest, zones = self._zones(i, place, hold)
+        keep_out = self.setup.lab.keep_out.values()
+        return any(reaches(k, lowest, float("inf")) and conflict(z, outline(k)) for z in zones for k in keep_out)
+
+    def near_fingers(self, i: int, place: int, hold: Hold) -> int:
+        """Return the spots of others that are where the fingers need room."""
+        lowest, zones = self._zones(i, place, hold)
+        return sum_of(self._meeting(i, zone, self.setup.lab.margins.fingers, above=lowest) for zone in zones)
 
     def hindrances(self, i: int) -> int:
         """Return the spots that exclude the direct move of mover `i` in one hold or another."""
         mover = self.movers[i]
         masks = [self.arrive(i, g) for g in mover.goals]
         masks += [self.grip(i, p, h) for p in (0, *mover.goals) for h in mover.holds]
-        masks += [self._paths.get((i, 0, g, h)) for g in mover.goals for h in mover.holds]
+        masks += [self.blocked_paths.get((i, 0, g, h)) for g in mover.goals for h in mover.holds]
         return sum_of(m for m in masks if m)
 
     def unreachable(self, i: int, place: int, hold: Hold) -> Blocked | None:
@@ -200,7 +227,7 @@ class Conflicts:
 
     def held(self, i: int, start: int, goal: int, hold: Hold) -> int | None:
         """Return the spots that exclude a move of mover `i` in one hold; None where what stays excludes it."""
-        path = self._paths.get((i, start, goal, hold), 0)
+        path = self.blocked_paths.get((i, start, goal, hold), 0)
         parts = (self.arrive(i, goal), self.grip(i, start, hold), self.grip(i, goal, hold), path)
         return None if any(p is None for p in parts) else sum_of(p for p in parts if p)
 
@@ -211,12 +238,18 @@ class Conflicts:
     def forbid(self, i: int, start: int, goal: int, hold: Hold, spot: Spot | None) -> None:
         """Exclude a hold for a move: while `spot` is taken, or for good (None), because its path is blocked."""
         key = (i, start, goal, hold)
-        known = self._paths.get(key, 0)
-        self._paths[key] = None if spot is None or known is None else known | self._bits[spot]
+        known = self.blocked_paths.get(key, 0)
+        self.blocked_paths[key] = None if spot is None or known is None else known | self._bits[spot]
         self._ways.pop((i, start, goal), None)
 
+    def forbid_hold(self, i: int, hold: Hold) -> None:
+        """Exclude a hold wherever a mover stands: the mover itself is in the way of it."""
+        self._grip |= {(i, p, hold): None for p in range(len(self.movers[i].places))}
+        self._ways = {key: ways for key, ways in self._ways.items() if key[0] != i}
+        self.blocked_holds.add((i, hold))
 
-def sum_of(masks: Iterator[int]) -> int:
+
+def sum_of(masks: Iterable[int]) -> int:
     """Return the union of masks."""
     union = 0
     for mask in masks:

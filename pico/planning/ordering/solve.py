@@ -47,7 +47,7 @@ class OrderedMoves:
 class Refusal:
     """Why there is no order: movers that can't all reach their goals whatever the others do (`core`, proven), or none
     known; the configuration that came closest; the paths that were blocked on the way. `slots`: how many free slots
-    would do, if that is all that lacks."""
+    would do, if that is all that lacks. `widest`: why there is none either where most of what is right may be moved."""
 
     table: Conflicts
     core: tuple[int, ...]
@@ -55,6 +55,7 @@ class Refusal:
     proven: bool
     blocked: tuple[NoPath, ...] = ()
     slots: int = 0
+    widest: Refusal | None = None
 
 
 @dataclass(slots=True)
@@ -90,11 +91,13 @@ def solve(problem: OrderingProblem) -> OrderedMoves | Refusal:
         second = attempt(problem)
         if isinstance(second, OrderedMoves):
             return second
+    widest: Refusal | None = None
     for names in _asides(problem, first):
         answer = attempt(problem.widened(names))
         if isinstance(answer, OrderedMoves):
             return answer
-    return first
+        widest = answer
+    return replace(first, widest=widest)
 
 
 def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
@@ -117,7 +120,16 @@ def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
         blocked.append(paths)
         if len(blocked) > PATH_ROUNDS:
             return Refusal(table, (), found.closest or start, False, tuple(blocked))
-        table.forbid(paths.step.mover, paths.step.start, paths.step.goal, paths.step.hold, paths.spot)
+        if _by_itself(table, paths):
+            table.forbid_hold(paths.step.mover, paths.step.hold)
+        else:
+            table.forbid(paths.step.mover, paths.step.start, paths.step.goal, paths.step.hold, paths.spot)
+
+
+def _by_itself(table: Conflicts, no: NoPath) -> bool:
+    """Whether a part is in the way of the fingers that should hold it, which it is wherever it stands."""
+    own = no.blocked.obstacle == table.movers[no.step.mover].name
+    return own and no.blocked.segment not in ("approach", "transit", "park")
 
 
 def _asides(problem: OrderingProblem, refused: Refusal) -> Iterator[frozenset[str]]:

@@ -25,7 +25,7 @@ from pico.planning.checks.bolted import check_bolted
 from pico.planning.checks.contacts import Contact, ends_of, spot_of, starts_of
 from pico.planning.explaining.blocking import blocks_of
 from pico.planning.explaining.explain import why_after
-from pico.planning.explaining.refusal import before, explain, finger_hits
+from pico.planning.explaining.refusal import before, explain
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
 from pico.planning.ordering.search import OrderedMove
@@ -136,9 +136,9 @@ def test_fingers_that_would_come_near_are_told_apart_from_fingers_that_would_tou
             "every grasp yaw tried"
         )
         assert found.hint == "move wall away first, or leave more room there" and found.code == "blocked"
-        ((name, apart),) = {*finger_hits(made, 0, 0, made.movers[0].holds[0])}
+        ((name, apart),) = {*made.finger_hits(0, 0, made.movers[0].holds[0])}
         assert (name, apart) == ("wall", pytest.approx(gap - 39.0))
-    assert not [*finger_hits(made, 0, 0, Hold(None))]
+    assert not [*made.finger_hits(0, 0, Hold(None))]
 
 
 def test_two_walls_are_both_named_and_a_low_one_is_not() -> None:
@@ -150,7 +150,7 @@ def test_two_walls_are_both_named_and_a_low_one_is_not() -> None:
     assert "would touch east and west by 5 mm" in found.summary
     assert found.hint == "move east or west away first, or leave more room there"
     parts["east"] = parts["west"] = part("low", seating="bolted")
-    assert not [*finger_hits(table(parts, {"a": (300, 300), **walls}, {"a": (500, 100), **walls}), 0, 0, Hold("arm1"))]
+    assert not [*table(parts, {"a": (300, 300), **walls}, {"a": (500, 100), **walls}).finger_hits(0, 0, Hold("arm1"))]
 
 
 def test_out_of_reach_comes_before_fingers_where_another_grasp_would_have_room() -> None:

@@ -1,0 +1,211 @@
+"""Why there is no order of moves, as few constraints as are enough: without any one of them the rest can be kept.
+
+The constraints are those of the tables that the search looks at, told apart by who is concerned. Each is dropped in
+turn, storage first, and stays dropped where it is proven that there is no order without it either.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from pico.geometry import capture_disc
+from pico.model.plan import Blocking
+from pico.model.plan import BlockingKind as Kind
+from pico.planning.ordering.conflicts import Conflicts, Way, sum_of
+from pico.planning.ordering.fewest_stagings import BOUND
+from pico.planning.ordering.relaxed import relaxation
+from pico.planning.ordering.search import Expansions, SearchEffort, search
+from pico.planning.parts.movers import Hold, Mover, Place
+from pico.staging.feedback import solve as fewest_staged
+
+WORK = 60_000
+"""Configurations looked at in all for one certificate."""
+EACH = 6000
+"""Configurations looked at for one constraint."""
+QUICK = SearchEffort(weight=2.0, limit=200, commit=True, slots=3)
+THOROUGH = SearchEffort(weight=2.0, limit=EACH, everyone=True)
+
+Verdict = Literal["possible", "impossible", "unknown"]
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """Constraints that no order keeps. `minimal`: it is proven that without any one of them there is an order that
+    keeps the rest."""
+
+    blocking: tuple[Blocking, ...]
+    minimal: bool
+
+
+def certified(table: Conflicts, core: Sequence[int]) -> Certificate | None:
+    """Return which constraints keep the movers of `core` (all of them where it is empty) from getting home, with
+    nobody else on the table but what stays; None where that is not proven within the limit of the search."""
+    who = tuple(core) or tuple(range(len(table.movers)))
+    work = Expansions(WORK)
+    kept = list(_constraints(table, who))
+    if judged(table, who, kept, work) != "impossible":
+        return None
+    minimal = True
+    for one in tuple(kept):
+        less = [c for c in kept if c != one]
+        verdict = judged(table, who, less, work)
+        if verdict == "impossible":
+            kept = less
+        minimal = minimal and verdict != "unknown"
+    return Certificate(tuple(sorted(kept, key=lambda c: (c.kind, c.of, c.by))), minimal)
+
+
+def stored_would_do(table: Conflicts, names: Iterable[str]) -> bool:
+    """Whether everybody might get home if only these had room in storage."""
+    who, had = range(len(table.movers)), set(names)
+    kept = [c for c in _constraints(table, tuple(who)) if c.kind != "storage" or c.of not in had]
+    return judged(table, tuple(who), kept, Expansions(EACH)) != "impossible"
+
+
+def judged(table: Conflicts, who: Sequence[int], kept: Iterable[Blocking], work: Expansions) -> Verdict:
+    """Return whether the movers `who` can get home by themselves where only the constraints `kept` count."""
+    eased = Eased(table, who, kept)
+    relaxed = fewest_staged(relaxation(eased), BOUND)
+    if relaxed.options is None and relaxed.proven:
+        return "impossible"
+    if search(eased, QUICK).steps is not None:
+        return "possible"
+    share = Expansions(min(EACH, work.left))
+    before = share.left
+    found = search(eased, THOROUGH, work=share)
+    work.left -= before - share.left
+    return "possible" if found.steps is not None else "impossible" if found.exhausted else "unknown"
+
+
+def _constraints(table: Conflicts, who: Sequence[int]) -> Iterator[Blocking]:
+    """Yield every constraint on these movers, those first that are to be dropped first."""
+    names = [table.movers[i].name for i in who]
+    yield from (Blocking(kind="storage", of=name) for name in names)
+    yield from (Blocking(kind="path", of=name) for name in names if table.blocked_paths or table.blocked_holds)
+    for i in who:
+        others = dict.fromkeys(name for hold, place in _ends(table, i) for name in _near_fingers(table, i, place, hold))
+        yield from (Blocking(kind="fingers", of=table.movers[i].name, by=name) for name in others)
+    yield from (Blocking(kind="fingers", of=a, by=b) for a in names for b in names if a != b)
+    yield from (Blocking(kind="bodies", of=a, by=b) for n, a in enumerate(names) for b in names[n + 1 :])
+    yield from (Blocking(kind="stays", of=name) for name in names)
+    yield from (Blocking(kind="reach", of=name) for name in names)
+
+
+def _ends(table: Conflicts, i: int) -> Iterator[tuple[Hold, int]]:
+    mover = table.movers[i]
+    yield from ((hold, place) for place in (0, *mover.goals) for hold in mover.holds)
+
+
+def _near_fingers(table: Conflicts, i: int, place: int, hold: Hold) -> Iterator[str]:
+    return (name for name, _ in table.finger_hits(i, place, hold))
+
+
+class Eased(Conflicts):
+    """The tables of a problem in which only `who` move, and only the constraints `kept` count. Who needs no storage may
+    stand in the air meanwhile: its last place is in nobody's way."""
+
+    def __init__(self, table: Conflicts, who: Sequence[int], kept: Iterable[Blocking]) -> None:
+        self.__dict__.update(copy.copy(table).__dict__)
+        self._full, self._who = table, tuple(who)
+        self._kept = frozenset(kept)
+        names = [table.movers[i].name for i in who]
+        self._numbers = {name: n for n, name in enumerate(names)}
+        self.more_slots = False
+        self.movers = tuple(self._floating(table.movers[i]) for i in who)
+        self.spots = [(n, p) for n, m in enumerate(self.movers) for p in range(len(m.places))]
+        self._bits = {spot: 1 << k for k, spot in enumerate(self.spots)}
+        self.ends = sum_of(self._bits[n, p] for n, m in enumerate(self.movers) for p in {0, *m.goals})
+        self._arrive, self._grip, self._ways = {}, {}, {}
+
+    def _has(self, kind: Kind, of: str, by: str = "") -> bool:
+        return Blocking(kind=kind, of=of, by=by) in self._kept
+
+    def _floating(self, mover: Mover) -> Mover:
+        if self._has("storage", mover.name):
+            return mover
+        air = len(mover.places)
+        places = (*mover.places, Place(mover.start.pose, "in the air"))
+        return replace(mover, places=places, staging=(*mover.staging, air), stages=True)
+
+    def _in_the_air(self, i: int, place: int) -> bool:
+        return place >= len(self._full.movers[self._who[i]].places)
+
+    def _only(self, mask: int, i: int, kind: Kind) -> int:
+        """Translate a mask of the full table, but for what is not kept."""
+        name, found = self.movers[i].name, 0
+        for j, place in self._full.at(mask):
+            other = self._full.movers[j].name
+            n = self._numbers.get(other)
+            if n is not None and self._counts(kind, name, other):
+                found |= self._bits[n, place]
+        return found
+
+    def _counts(self, kind: Kind, of: str, by: str) -> bool:
+        if kind == "bodies":
+            return self._has(kind, of, by) or self._has(kind, by, of)
+        return self._has(kind, of, "" if kind == "path" else by)
+
+    def arrive(self, i: int, place: int) -> int | None:
+        """See `Conflicts.arrive`."""
+        if self._in_the_air(i, place):
+            return 0
+        if (i, place) not in self._arrive:
+            self._arrive[i, place] = self._eased_body(i, place)
+        return self._arrive[i, place]
+
+    def _eased_body(self, i: int, place: int) -> int | None:
+        j, mover = self._who[i], self.movers[i]
+        mask = self._full.arrive(j, place)
+        if mask is None and (place in mover.staging or self._has("stays", mover.name)):
+            return None
+        if mask is None:
+            mask = self._full._meeting(j, self._full.shape(j, place), self.setup.lab.margins.body)
+            if slot := mover.places[place].slot:
+                mask |= self._full._meeting(j, capture_disc(self.setup.lab.slots[slot]), 0.0)
+        return self._only(mask, i, "bodies")
+
+    def grip(self, i: int, place: int, hold: Hold) -> int | None:
+        """See `Conflicts.grip`."""
+        if self._in_the_air(i, place):
+            return 0
+        key = (i, place, hold)
+        if key not in self._grip:
+            self._grip[key] = self._eased_fingers(i, place, hold)
+        return self._grip[key]
+
+    def _eased_fingers(self, i: int, place: int, hold: Hold) -> int | None:
+        j, mover = self._who[i], self.movers[i]
+        mask = self._full.grip(j, place, hold)
+        if mask is None and place in mover.staging:
+            return None
+        if mask is None:
+            if any(self._has("fingers", mover.name, o) for o in _near_fingers(self._full, j, place, hold)):
+                return None
+            if self._has("stays", mover.name) and self._full.fingers_kept_out(j, place, hold):
+                return None
+            if self._has("reach", mover.name) and self._full.unreachable(j, place, hold):
+                return None
+            if self._has("path", mover.name) and (j, hold) in self._full.blocked_holds:
+                return None
+            mask = self._full.near_fingers(j, place, hold)
+        return self._only(mask, i, "fingers")
+
+    def held(self, i: int, start: int, goal: int, hold: Hold) -> int | None:
+        """See `Conflicts.held`."""
+        own = (self.arrive(i, goal), self.grip(i, start, hold), self.grip(i, goal, hold))
+        if any(p is None for p in own):
+            return None
+        path: int | None = 0
+        if self._has("path", self.movers[i].name) and not any(self._in_the_air(i, p) for p in (start, goal)):
+            path = self._full.blocked_paths.get((self._who[i], start, goal, hold), 0)
+        return None if path is None else sum_of(p for p in own if p) | self._only(path, i, "path")
+
+    def ways(self, i: int, start: int, goal: int) -> tuple[Way, ...]:
+        """See `Conflicts.ways`."""
+        key = (i, start, goal)
+        if key not in self._ways:
+            self._ways[key] = tuple(self._find_ways(i, start, goal))
+        return self._ways[key]
