@@ -120,7 +120,7 @@ def _optimize(
     if terminal:
         write(sys.stdout, "", end="", over=True)
     dark = bench.measurements.dark() if found.measurements and not found.last else ""
-    session.show(view, found, chosen, bench.setup, run=report.run, advice=dark)
+    session.show(view, found, chosen, bench.setup, report, advice=dark)
     session.tell(report.diagnostics)
     if found.points:
         session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, path))

@@ -12,9 +12,10 @@ from .style import columns, count, paint, seconds, wrap
 if TYPE_CHECKING:
     from pico.bench.goals import Chosen, Optimized
     from pico.model.setup import Setup
+    from pico.model.trace.report import RunReport
 
 
-def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: str = "") -> str:
+def text(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, advice: str = "") -> str:
     """Return the outcome in a line, a table of before and after, and how to go back; `advice`: what to do about it."""
     spent = f"{count(found.measurements, 'measurement')}, {seconds(found.seconds)} on the bench"
     said = paint("green", "met") if found.met else paint("yellow", "not met")
@@ -29,7 +30,7 @@ def text(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: st
         lines += wrap(f"It was left at {said}.", "  ")
     back = "; `pico undo` goes back" if found.measurements else ""
     lines += wrap(f"= help: {advice}", "  ") if advice else []
-    return "\n".join([*lines, f"  `pico runs show {run}`{back}"])
+    return "\n".join([*lines, f"  `pico runs show {report.run}`{back}"])
 
 
 def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
@@ -50,9 +51,9 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
     return [f"  {row}" for row in columns(rows)]
 
 
-def data(found: Optimized, chosen: Chosen, setup: Setup, *, run: str, advice: str = "") -> dict[str, Any]:
+def data(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, advice: str = "") -> dict[str, Any]:
     """Return schema `pico.optimization/v1`: `goal`, `algorithm`, `met`, `why`, `measurements`, `seconds`, `first`,
     `last`, `points` (an array in the content store, its `columns`), `run`; `stages`: the same of the goals that were
-    sought first, `measurements` counted from the first on."""
+    sought first, `measurements` counted from the first on; `diagnostics`: what else came up."""
     return {"schema": "pico.optimization/v1", **as_json(found), "goal": chosen.name, "algorithm": chosen.algorithm,
-            "chosen": chosen.why, "run": run}  # fmt: skip
+            "chosen": chosen.why, "run": report.run, "diagnostics": as_json(report.diagnostics)}  # fmt: skip

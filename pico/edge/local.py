@@ -387,17 +387,18 @@ class LocalEdge:
 
     # moving
 
-    async def execute(self, operation: Operation, key: str, lease: Lease) -> OperationResult:
+    async def execute(self, operation: Operation, key: str, lease: Lease, *, tidies: bool = False) -> OperationResult:
         """Execute one operation, once for each key; cancelling the wait does not cancel the motion.
 
         Raises PicoError: exit code LOCKED without the current lease, INTERRUPTED on a halted bench, ERROR for a known
         key with other content or a journal that can't be written.
+        `tidies`: it sets back what was set only to measure, which a bench does that is halted safely, too.
         """
         attempts = self._attempts
         if attempts is None or self._lease is None or lease.token != self._lease.token:
             text = f"the lease {lease.token} of {lease.holder} is not the current one"
             raise PicoError(error("lease", text), ExitCode.LOCKED)
-        if self._halted:
+        if self._halted and not (tidies and self._stopping == "safely"):
             raise PicoError(HALTED, ExitCode.INTERRUPTED)
         if key not in self._under_way:
             known = attempts.known(operation, key)
@@ -539,6 +540,8 @@ class LocalEdge:
         from pico.execution.walk import Walk
 
         async def execute(operation: Operation, key: str) -> OperationResult:
+            if walk.sets_back(operation):
+                return await self.execute(operation, key, lease, tidies=True)
             return await self.execute(operation, key, lease)
 
         began, around = time.monotonic(), self._open

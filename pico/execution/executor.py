@@ -53,33 +53,43 @@ class Executor:
     graph: Graph = field(init=False)
     interrupted: bool = field(default=False, init=False)
     broken: bool = field(default=False, init=False)
+    _refused: set[str] = field(default_factory=set, init=False)
 
     def __post_init__(self) -> None:
         self.graph = Graph(self.operations)
 
     def due(self) -> list[Dispatch]:
-        """Return what is to be started now, which then counts as under way; nothing once it is interrupted."""
-        if self.interrupted or self.broken:
+        """Return what is to be started now, which then counts as under way; once it is interrupted only what sets back
+        what was set to measure."""
+        if self.broken:
             return []
-        found = [Dispatch(op.id, op, 1, self.run) for op in self.graph.ready()]
+        ready = self.graph.tidying() if self.interrupted else self.graph.ready()
+        found = [Dispatch(op.id, op, 1, self.run) for op in ready if op.id not in self._refused]
         for dispatch in found:
             self.graph.start(dispatch.operation)
         return found
 
     def interrupt(self) -> None:
-        """Start nothing more; what is under way goes on to its safe end."""
+        """Start nothing more but to set back; what is under way goes on to its safe end."""
         self.interrupted = True
+
+    def give_up(self) -> None:
+        """Start nothing more at all: nothing can be done in order."""
+        self.interrupted = True
+        self._refused.update(self.graph.status)
 
     def refused(self, dispatch: Dispatch) -> None:
         """Take note that the bench would not begin this: it is halted."""
         self.interrupted = True
+        self._refused.add(dispatch.id)
         self.graph.put_back(dispatch.operation)
 
     def over(self, dispatch: Dispatch, result: OperationResult) -> After:
         """Take note of the end of an attempt, and return what follows from it."""
         if result.error is not None and result.error.code in ENDING:
             self.interrupted = True
-        if not self.interrupted and (again := None if self.broken else retried(dispatch, result)):
+        goes_on = not self.interrupted or dispatch.id in self.graph.backs
+        if goes_on and (again := None if self.broken else retried(dispatch, result)):
             return After(again=again)
         if result.outcome != "done" and self.stop_on_error:
             self.broken = True

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.operation import Operation, Outcome
 
+MEASURES = frozenset({"measure", "optimize", "survey", "verify"})
 Status = Literal["waiting", "running", "done", "failed", "unknown", "skipped"]
 
 
@@ -16,11 +17,13 @@ class Graph:
     the plan that needs one of its resources is over: each resource takes its operations in the plan's order.
 
     A robot parks and a shutter closes when what comes before is over, done or not: neither does an arm stay in the beam
-    nor the beam open because something failed."""
+    nor the beam open because something failed. What was set only to measure is set back likewise, once it was set, and
+    when nothing else is begun any more."""
 
     def __init__(self, operations: Sequence[Operation]) -> None:
         """Raises PicoError where an operation comes after itself or after one that the plan does not have."""
         self.operations = ordered(operations)
+        self.backs = set_back(self.operations)
         self.status: dict[str, Status] = {op.id: "waiting" for op in self.operations}
 
     def ready(self) -> list[Operation]:
@@ -37,8 +40,22 @@ class Graph:
             taken.update(op.resources)
         return found
 
+    def tidying(self) -> list[Operation]:
+        """Return what may be set back now, where nothing else is begun any more: it was set only to measure."""
+        under_way = [op for op in self.operations if self.status[op.id] == "running"]
+        taken = {resource for op in under_way for resource in op.resources}
+        return [
+            op for op in self.operations
+            if self.status[op.id] == "waiting" and self._owed(op) and taken.isdisjoint(op.resources)
+            and all(self.status[a] != "running" for a in op.after)
+        ]  # fmt: skip
+
+    def _owed(self, op: Operation) -> bool:
+        """Whether an operation sets back what was set."""
+        return any(self.status[a] == "done" for a in self.backs.get(op.id, ()))
+
     def _may_follow(self, op: Operation) -> bool:
-        if op.makes_safe:
+        if op.makes_safe or self._owed(op):
             return all(self.status[a] not in ("waiting", "running") for a in op.after)
         return all(self.status[a] == "done" for a in op.after)
 
@@ -57,7 +74,7 @@ class Graph:
             return []
         lost, skipped = {op.id}, []
         for other in self.operations:
-            waits = self.status[other.id] == "waiting" and not other.makes_safe
+            waits = self.status[other.id] == "waiting" and not (other.makes_safe or self._owed(other))
             if waits and not lost.isdisjoint(other.after):
                 lost.add(other.id)
                 skipped.append(other)
@@ -67,6 +84,25 @@ class Graph:
     def waiting(self) -> list[Operation]:
         """Return what has not started, in the plan's order."""
         return [op for op in self.operations if self.status[op.id] == "waiting"]
+
+
+def set_back(operations: Sequence[Operation]) -> Mapping[str, tuple[str, ...]]:
+    """Return the operations that set back what others set only to measure, by id, each with the ids of those others. A
+    shutter that opens is none of them: nobody is to be surprised by a beam."""
+    found: dict[str, tuple[str, ...]] = {}
+    sets: dict[str, list[Operation]] = {}
+    measures = {op.id for op in operations if op.primitive in MEASURES}
+    for op in operations:
+        if op.primitive != "set" or op.reason.kind != "interlock":
+            continue
+        before = sets.setdefault(op.address, [])
+        back = bool(before) and before[0].arguments.get("from") == op.arguments["to"]
+        if back and not measures.isdisjoint(op.after) and (op.makes_safe or op.arguments["tunable"] != "shutter"):
+            found[op.id] = tuple(one.id for one in before)
+            before.clear()
+        else:
+            before.append(op)
+    return found
 
 
 def ordered(operations: Sequence[Operation]) -> tuple[Operation, ...]:

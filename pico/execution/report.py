@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from pico.backends.device import Capabilities
-from pico.diagnostics import Diagnostic
-from pico.model.diff import Change, diff_observed
+from pico.diagnostics import Diagnostic, warning
+from pico.execution.graph import set_back
+from pico.model.diff import Change, diff_observed, show_value
 from pico.model.drift import drift_of, uncertain
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Aligned, Observation, ObservedComponent
@@ -53,7 +54,7 @@ def run_report(
         goals=tuple(goal for goal, _ in goals) or None,
         aligning=_aligning(plan, events),
         read=tuple(_read(plan, events)) or None,
-        diagnostics=tuple(_diagnostics(events)),
+        diagnostics=(*_diagnostics(events), *_left_set(setup, plan, events, seen)),
     )
 
 
@@ -155,6 +156,23 @@ def _expectations(setup: Setup, plan: Plan, seen: Observation, able: Capabilitie
     from pico.policy.expectations import check_expectations
 
     return check_expectations(setup, seen, plan.target.expect, able.measurables)
+
+
+def _left_set(setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation) -> Iterator[Diagnostic]:
+    """Yield what was set only to measure, and was not set back."""
+    done = {event.operation for event in events if event.kind == "operation_done"}
+    left = []
+    for back, sets in set_back(plan.operations).items():
+        op = next(op for op in plan.operations if op.id == back)
+        if back in done or done.isdisjoint(sets):
+            continue
+        component, tunable = op.component, str(op.arguments["tunable"])
+        live, unit = seen.known_values.get(component, {}).get(tunable), setup.type_of(component).tunables[tunable].unit
+        now, was = (f"{show_value(value)} {unit}".rstrip() for value in (live, op.arguments["to"]))
+        left.append(f"{op.address} at {now} (was {was})")
+    if left:
+        text, hint = f"left as it was set to measure: {', '.join(left)}", "`pico undo` sets it back"
+        yield warning("left-set", text, hint=f"{hint}, with all else that this run set")
 
 
 def _diagnostics(events: Sequence[Event]) -> Iterator[Diagnostic]:

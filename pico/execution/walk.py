@@ -16,7 +16,7 @@ from pico.model.trace.event import Event, EventKind
 from pico.model.trace.run import RunOutcome, tally
 
 Execute = Callable[[Operation, str], Awaitable[OperationResult]]
-"""Has an operation executed under a key; raises PicoError, with exit code INTERRUPTED where nothing more is begun."""
+"""Has an operation executed under a key; raises PicoError, with exit code INTERRUPTED where it is not begun any more."""
 
 
 class Walk:
@@ -38,8 +38,12 @@ class Walk:
         self._seq = 0
 
     def interrupt(self) -> None:
-        """Start nothing more; what is under way goes on to its safe end."""
+        """Start nothing more but to set back; what is under way goes on to its safe end."""
         self._executor.interrupt()
+
+    def sets_back(self, operation: Operation) -> bool:
+        """Whether an operation sets back what was set only to measure."""
+        return operation.id in self._executor.graph.backs
 
     def heard(self, event: Event) -> None:
         """Pass on what the device says of the operations of this run."""
@@ -83,7 +87,7 @@ class Walk:
             if exc.exit_code == ExitCode.INTERRUPTED:  # the bench was halted before this began
                 self._executor.refused(dispatch)
                 return None
-            self._executor.interrupt()  # a journal or a lease that is gone: nothing more can be done in order
+            self._executor.give_up()  # a journal or a lease that is gone: nothing more can be done in order
             result = OperationResult(key=dispatch.key, outcome="unknown", error=exc.diagnostics[0], ended=self._now)
         self._now = max(self._now, result.ended)
         after = self._executor.over(dispatch, result)

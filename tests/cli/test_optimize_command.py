@@ -165,6 +165,47 @@ def test_ctrl_c_ends_at_the_best_point(placed: Path, pico: Pico) -> None:
     assert "did all that it was to do" in pico("resume", "--yes").err
 
 
+DURING = "description: the spot in the middle of the camera"
+WANTS = f"{DURING}\n    during: {{cam.exposure: 0.5, p2.angle: 80}}"
+
+
+def _stands(pico: Pico) -> tuple[float, float]:
+    values = (
+        pico("get", name, "--json").data["values"][name.partition(".")[2]] for name in ("cam.exposure", "p2.angle")
+    )
+    first, second = (value["value"] for value in values)
+    return first, second
+
+
+def test_ctrl_c_sets_back_what_a_goal_wanted_while_it_was_sought(placed: Path, pico: Pico) -> None:
+    edit(placed / "lab.yaml", DURING, WANTS)
+    assert pico("bench", "update", "--yes").code == 0
+    before = _stands(pico)
+    process = _started(placed, "centred", "--algorithm", "nelder_mead")
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert process.returncode == 130 and json.loads(out.splitlines()[-1])["why"] == "it was stopped"
+    assert before == _stands(pico) != (0.5, 80)
+    again = pico("resume", "--yes")
+    assert again.code == 0 and "begins at the best point" in " ".join((again.err + again.out).split())
+    assert before == _stands(pico)
+
+
+def test_what_a_second_ctrl_c_leaves_set_is_told_with_what_sets_it_back(placed: Path, pico: Pico) -> None:
+    edit(placed / "lab.yaml", DURING, WANTS)
+    assert pico("bench", "update", "--yes").code == 0
+    before = _stands(pico)
+    process = _started(placed, "centred", "--algorithm", "nelder_mead")
+    process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGQUIT)
+    out, _ = process.communicate(timeout=60)
+    (told,) = [d for d in json.loads(out.splitlines()[-1])["diagnostics"] if d["code"] == "left-set"]
+    assert process.returncode == 130 and _stands(pico)[1] == 80
+    assert "cam.exposure at" in told["summary"] and "(was 10 ms), p2.angle at 80 deg (was 90 deg)" in told["summary"]
+    assert "`pico undo`" in told["hint"]
+    assert pico("undo", "--yes").code == 0 and before == _stands(pico)
+
+
 def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:
     process = _started(placed, "centre", "ly_150", "cam", "--algorithm", "nelder_mead")
     process.kill()

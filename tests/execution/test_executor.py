@@ -87,6 +87,73 @@ def test_interrupted_nothing_is_begun_nor_tried_again_and_what_was_refused_count
     assert [o.id for o in executor.graph.waiting()] == ["b"]
 
 
+def setting(id: str, before: Any, after: Any, *waits: str, tunable: str = "exposure") -> Operation:
+    return Operation(
+        id=id, primitive="set", component="cam", after=waits, resources=("cam",), reason=Reason(kind="interlock"),
+        arguments={"tunable": tunable, "from": before, "to": after},
+    )  # fmt: skip
+
+
+TWO_GOALS = [
+    setting("bright", 10, 0.5), op("first", "bright", primitive="optimize"), setting("dim", 0.5, 2.0, "first"),
+    op("second", "first", "dim", primitive="optimize"), setting("back", 2.0, 10, "dim", "first", "second"),
+]  # fmt: skip
+
+
+def walked(operations: list[Operation], outcomes: dict[str, Any], interrupted_in: str = "") -> list[str]:
+    """Return what is begun, in order, where operations end so, and it is interrupted while one is under way."""
+    executor, begun = Executor(operations, "r"), list[str]()
+    while due := executor.due():
+        for dispatch in due:
+            begun.append(dispatch.id)
+            if dispatch.id == interrupted_in:
+                executor.interrupt()
+            executor.over(dispatch, end(outcomes.get(dispatch.id, "done"), "range" if dispatch.id in outcomes else ""))
+    return begun
+
+
+@pytest.mark.parametrize(
+    ("interrupted_in", "outcomes", "begun"),
+    [
+        ("", {}, ["bright", "first", "dim", "second", "back"]),
+        ("first", {}, ["bright", "first", "back"]),
+        ("second", {}, ["bright", "first", "dim", "second", "back"]),
+        ("bright", {}, ["bright", "back"]),
+        ("bright", {"bright": "failed"}, ["bright"]),
+        ("", {"bright": "failed"}, ["bright"]),
+        ("", {"first": "failed"}, ["bright", "first", "back"]),
+        ("", {"dim": "failed"}, ["bright", "first", "dim", "back"]),
+    ],
+)
+def test_what_was_set_to_measure_is_set_back_whatever_becomes_of_the_rest(
+    interrupted_in: str, outcomes: dict[str, Any], begun: list[str]
+) -> None:
+    assert walked(TWO_GOALS, outcomes, interrupted_in) == begun
+
+
+def test_interrupted_no_shutter_opens_and_what_the_bench_refuses_is_not_asked_again() -> None:
+    dark = [
+        setting("close", "open", "closed", tunable="shutter"), op("read", "close", primitive="measure"),
+        setting("open", "closed", "open", "read", tunable="shutter"),
+    ]  # fmt: skip
+    assert walked(dark, {}, "read") == ["close", "read"] and walked(dark, {}) == ["close", "read", "open"]
+    executor = Executor(TWO_GOALS, "r")
+    (bright,) = executor.due()
+    executor.interrupt()
+    executor.over(bright, end("done"))
+    (back,) = executor.due()
+    executor.refused(back)
+    assert executor.due() == [] and "back" in [o.id for o in executor.graph.waiting()]
+
+
+def test_where_nothing_can_be_done_in_order_nothing_is_set_back() -> None:
+    executor = Executor(TWO_GOALS, "r")
+    (bright,) = executor.due()
+    executor.give_up()
+    executor.over(bright, end("done"))
+    assert executor.due() == []
+
+
 def test_a_resumed_plan_has_ids_of_its_own_and_the_same_order() -> None:
     plan = Plan(
         lab=LabRef(name="l", digest=""), backend="sim", fidelity="kinematic", base=Base(), target=Target(),

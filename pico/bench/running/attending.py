@@ -13,7 +13,7 @@ from pico.bench.running.execution import Execution
 from pico.model.trace.event import Event
 
 SAFELY = "Stopping: what is in a hand goes to its goal or back, whichever is sooner (press again to stop at once)"
-UNMOVED = "Stopping: what has begun comes to its end, and nothing else begins (press again to stop at once)"
+UNMOVED = "Stopping: what has begun comes to its end, what was set for it is set back (press again to stop at once)"
 AT_ONCE = "Stopping at once: arms brake, shutters close, grippers hold what they hold"
 DEADLINE = 10.0
 """Seconds after SIGTERM or SIGHUP in which a run may come to its safe end."""
