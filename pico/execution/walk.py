@@ -16,7 +16,7 @@ from pico.model.trace.event import Event, EventKind
 from pico.model.trace.run import RunOutcome, tally
 
 Execute = Callable[[Operation, str], Awaitable[OperationResult]]
-"""Has an operation executed under a key; raises PicoError, with exit code INTERRUPTED where it is not begun any more."""
+"""Has an operation executed under a key; raises PicoError, with exit code INTERRUPTED where nothing more is begun."""
 
 
 class Walk:

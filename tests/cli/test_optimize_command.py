@@ -127,6 +127,13 @@ def test_what_makes_no_sense_is_refused_before_anything_is_asked(
         ("reach: {", "maximize: cam.power\n    reach: {", "exactly one of"),
         ("valid_for: 12 h", "valid_for: 12 mm", "is a length"),
         ("measurements: 20", "measurements: 0", "the budget is for nothing"),
+        (
+            "reach: {cam.centroid.x: 0, cam.centroid.y: 0}",
+            "minimize: cam.power / 0",
+            "is infinite, whatever is measured",
+        ),
+        ("reach: {cam.centroid.x: 0, cam.centroid.y: 0}", "minimize: cam.power / (2 - 2) + 1", "must not be 0"),
+        ("reach: {cam.centroid.x: 0, cam.centroid.y: 0}", "minimize: cam.power * (0 / 0)", "is no number"),
     ],
 )
 def test_a_goal_that_makes_no_sense_is_told_at_its_line(
@@ -136,6 +143,26 @@ def test_a_goal_that_makes_no_sense_is_told_at_its_line(
     answer = pico("validate")
     told = " ".join(answer.err.split())
     assert answer.code == 1 and said in told and "lab.yaml:" in told
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "at"),
+    [
+        ("0", ("tolerance: ", 0)),
+        ("-5", ("tolerance: ", 0)),
+        ("{cam.centroid.x: 5, cam.centroid.y: 0}", ("cam.centroid.y: ", 1)),
+        ("{cam.centroid.x: 5}", ("tolerance: ", 0)),
+    ],
+)
+def test_what_is_wrong_with_a_tolerance_is_told_where_it_stands(
+    placed: Path, pico: Pico, tolerance: str, at: tuple[str, int]
+) -> None:
+    edit(placed / "lab.yaml", "    tolerance: 5\n", f"    tolerance: {tolerance}\n")
+    lines = (placed / "lab.yaml").read_text().splitlines()
+    number = next(n for n, line in enumerate(lines) if line == f"    tolerance: {tolerance}")
+    column = lines[number].index(at[0]) + len(at[0]) + 1
+    answer = pico("validate")
+    assert answer.code == 1 and f"lab.yaml:{number + 1}:{column}" in answer.err, answer.err
 
 
 def _started(folder: Path, *words: str) -> subprocess.Popen[str]:

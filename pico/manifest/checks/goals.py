@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
-from pico.expressions import ExpressionError, Language
+from pico.expressions import Expression, ExpressionError, Language
 from pico.manifest.checks.own_parameters import lasting
 from pico.model.goal import Goal, Looks
 from pico.model.quantities import Value
@@ -135,11 +135,14 @@ def _outputs(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagno
     keyed += [(("signal",), goal.signal)] if goal.signal else []
     for key, text in keyed:
         try:
-            language.compile(text, "number")
+            endless = _endless(language, language.compile(text, "number"))
         except ExpressionError as exc:
             yield key, error("expression", f"`{text[:60]}` can't be measured: {exc}", hint=_SPEAK)
             continue
-        if goal.looks and goal.seen_in(""):
+        if endless:
+            wrong = f"`{text[:60]}` is {endless}, whatever is measured"
+            yield key, error("expression", wrong, hint="what it divides by must not be 0")
+        elif goal.looks and goal.seen_in(""):
             text = f"in which look is {goal.seen_in('')[0]} measured?"
             yield key, error("goal", text, hint=f"`{next(iter(goal.looks))}.{goal.seen_in('')[0]}`")
         elif not measured_in(setup, [goal.plain(text)]):
@@ -147,7 +150,28 @@ def _outputs(setup: Setup, goal: Goal) -> Iterator[tuple[tuple[str, ...], Diagno
     for output in goal.reach or ():
         if goal.near(output) <= 0:
             hint = "`tolerance: 5`, or one for each: `tolerance: {cam.centroid.x: 5}`"
-            yield ("reach", output), error("goal", f"how near is near enough to {output}?", hint=hint)
+            yield _toleranced(goal, output), error("goal", f"how near is near enough to {output}?", hint=hint)
+
+
+def _toleranced(goal: Goal, output: str) -> tuple[str, ...]:
+    """Return where the tolerance of an output stands, or what it is missing of."""
+    if isinstance(goal.tolerance, Mapping):
+        return ("tolerance", output) if output in goal.tolerance else ("tolerance",)
+    return ("reach", output) if goal.tolerance is None else ("tolerance",)
+
+
+def _endless(language: Language, expression: Expression) -> str:
+    """Return what an expression is that is a number for no readings: infinite, or none at all; empty for any other."""
+    found = []
+    for n, scale in enumerate((1.0, 0.01, 300.0)):
+        numbers = sorted(name for name, kind in language.names.items() if kind == "number")
+        try:
+            found.append(expression.evaluate({name: scale * (1 + (n + k) % 7 / 5) for k, name in enumerate(numbers)}))
+        except ExpressionError:  # it speaks of more than numbers, or has no result just there
+            return ""
+    if any(map(math.isfinite, found)):
+        return ""
+    return "no number" if any(map(math.isnan, found)) else "infinite"
 
 
 def _language(setup: Setup, goal: Goal) -> Language:
