@@ -22,7 +22,7 @@ _TURN = re.compile(r"\[\d+\]")
 
 def text(recipe: Recipe, ahead: Foreseen) -> str:
     """Return the steps as far as they are known, with what each takes; of loops what one turn does."""
-    lines, shown = [head(recipe, ahead), ""], set[object]()
+    lines, shown = [head(recipe, ahead), *_alone(recipe), ""], set[object]()
     for entered, takes in ahead.steps:
         if (place := (_TURN.sub("[]", entered.path), entered.turn)) in shown:
             continue
@@ -30,6 +30,17 @@ def text(recipe: Recipe, ahead: Foreseen) -> str:
         took = f"  {seconds(takes)}" if takes else ""
         lines.append(shorten(line(entered), wide() - len(took)) + paint("dim", took))
     return "\n".join(lines)
+
+
+def _alone(recipe: Recipe) -> list[str]:
+    """Return what a recipe states of runs where nobody is there, in a line; none where it states nothing."""
+    if (stated := recipe.unattended) is None:
+        return []
+    stops = "; ".join(stop.text for stop in stated.stops) or "nothing"
+    hours = f"{stated.begins:%H:%M} to {stated.ends:%H:%M}"
+    ends = ", ".join(stated.end) or "as it is"
+    text = f"Unattended: {hours}, lasers up to class {stated.laser_class}; stops for: {stops}; leaves the bench {ends}"
+    return wrap(text, "")
 
 
 def line(entered: Entered) -> str:

@@ -72,7 +72,8 @@ class Guard:
         if stated.covers(now.time()):
             return []
         hours = f"{stated.begins:%H:%M} to {stated.ends:%H:%M}"
-        return [_stop(f"it is {now:%H:%M}, and the recipe states that it runs unattended from {hours}")]
+        found = _stop(f"it is {now:%H:%M}, and the recipe states that it runs unattended from {hours}")
+        return [replace(found, hint="with somebody there, at a terminal and without --unattended, it runs at any time")]
 
     def _lasers(self) -> list[Diagnostic]:
         rows = self.bench.lasers.rows()

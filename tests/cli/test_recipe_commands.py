@@ -42,6 +42,10 @@ def test_where_nobody_is_there_it_is_held_to_what_it_states(turning: Path, pico:
     assert refused.code == 7 and "does not state how it runs unattended" in refused.err
     always = "unattended: {laser_class: 3R, hours: {from: 0:00, to: 23:59}, stop: [], end: [shut, parked]}\n"
     edit(turning / "recipes" / "turning.yaml", "steps:\n  - foreach", f"{always}steps:\n  - foreach")
+    told = " ".join(pico("recipe", "check", "turning").out.split())
+    assert (
+        "Unattended: 00:00 to 23:59, lasers up to class 3R; stops for: nothing; leaves the bench shut, parked" in told
+    )
     answer = pico("run", "turning", "--yes")  # no terminal is there
     assert answer.code == 0 and "The bench is left shut, parked." in answer.out
     assert pico("get", "laser.shutter").out.split()[1] == "closed"
