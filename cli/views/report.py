@@ -7,7 +7,7 @@ from typing import Any
 
 from pico.model.record import as_json
 from pico.model.trace.expectation import Expected
-from pico.model.trace.report import GoalEnd, RunReport
+from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
 
 from .by_light import stays, unfound
 from .diff import brief
@@ -87,10 +87,19 @@ def _bench(report: RunReport, undoing: bool) -> list[str]:
     if away:
         lines.append(f"Not seen where it should stand: {listed(away)}.")
     lines += [_in_hand(robot, part) for robot, part in report.held.items()]
+    return [*lines, *_goes_on(report, bool(away), undoing)]
+
+
+def _goes_on(report: RunReport, away: bool, undoing: bool) -> list[str]:
+    """Return how to go on after a run that left something to do."""
     if report.outcome == "interrupted":
-        return [*lines, "Continue with `pico resume`; go back with `pico undo`."]
-    again = "Continue with the same command: it plans from what is observed now. `pico undo` goes back."
-    return [*lines, "Continue with `pico resume`: another `pico undo` would take back this one." if undoing else again]
+        return ["Continue with `pico resume`; go back with `pico undo`."]
+    if undoing:
+        return ["Continue with `pico resume`: another `pico undo` would take back this one."]
+    found = {d.address for d in report.diagnostics if d.code == BEYOND_TRIM}
+    if report.remaining and not away and {f"{c.component}.{c.tunable}" for c in report.remaining} <= found:
+        return []  # the same command would take it back, and light would find it again
+    return ["Continue with the same command: it plans from what is observed now. `pico undo` goes back."]
 
 
 def _in_hand(robot: str, part: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from pico.backends.device import Capabilities
@@ -18,7 +18,7 @@ from pico.model.setup import Setup
 from pico.model.state import goals_of, place_of, state_from_json
 from pico.model.trace.event import Event
 from pico.model.trace.expectation import Expected, GoalRead, goal_read
-from pico.model.trace.report import GoalEnd, RunReport
+from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
 
 
 def run_report(
@@ -35,6 +35,7 @@ def run_report(
         right |= dict.fromkeys(tuned if goal.met else (), Aligned(goal=goal.goal))
     seen = replace(seen, aligned=right)
     whole = not asked and not plan.target.scope
+    remaining = _remaining(setup, plan, seen, whole)
     return RunReport(
         run=events[-1].run,
         **events[-1].data,
@@ -46,7 +47,7 @@ def run_report(
         held={name: robot.holding for name, robot in sorted(seen.robots.items()) if robot.holding},
         scope=plan.target.scope,
         left=_left(setup, plan, seen) if plan.target.scope else (),
-        remaining=_remaining(setup, plan, seen, whole),
+        remaining=remaining,
         absent=_absent(setup, plan, seen) if whole else (),
         expectations=_expectations(setup, plan, seen, able) if whole else (),
         measurements=seen.measurements,
@@ -54,7 +55,11 @@ def run_report(
         goals=tuple(goal for goal, _ in goals) or None,
         aligning=_aligning(plan, events),
         read=tuple(_read(plan, events)) or None,
-        diagnostics=(*_diagnostics(events), *_left_set(setup, plan, events, seen)),
+        diagnostics=(
+            *_diagnostics(events),
+            *_left_set(setup, plan, events, seen),
+            *_beyond_trim(setup, remaining, right),
+        ),
     )
 
 
@@ -113,6 +118,25 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
         if (change.counts or (plan.asked and not change.tolerated))
         and (whole or (change.component, change.tunable) in asked)
     )
+
+
+def _beyond_trim(
+    setup: Setup, remaining: Sequence[Change], right: Mapping[str, Aligned | None]
+) -> Iterator[Diagnostic]:
+    """Yield what light found so far off that another apply would take it back, and then find it again."""
+    for change in remaining:
+        address = f"{change.component}.{change.tunable}"
+        if (found := right.get(address)) is None:
+            continue
+        kind = setup.type_of(change.component).tunables[change.tunable]
+        trim = "no trim" if kind.restore.trim is None else f"a trim of {kind.restore.trim:g} {kind.unit}".rstrip()
+        text = (
+            f"{found.goal} was met with {address} at {change.before} {kind.unit}; around {change.after} it has {trim}"
+        )
+        yield warning(
+            BEYOND_TRIM, text, address=address,
+            hint=f"`pico capture {address}` takes over what light found; or put {change.component} down anew",
+        )  # fmt: skip
 
 
 def _by_light(plan: Plan, events: Sequence[Event]) -> tuple[str, ...]:

@@ -67,6 +67,17 @@ def test_a_goal_that_is_not_met_is_6_and_the_rest_is_done(bench: Path, pico: Pic
     assert pico("get", "p1.angle", "--json").data["values"]["angle"]["value"] == pytest.approx(90)
 
 
+def test_what_light_found_beyond_a_trim_is_to_be_captured_and_not_sought_for_ever(shel: Path, pico: Pico) -> None:
+    assert pico("checkout", "e3", "--yes").code == 0
+    assert pico("sim", "upset", "ly_200", "up=0.9").code == 0
+    answer = pico("apply", "--align", "--yes")
+    assert answer.code == 1 and "1 of 1 goal met" in answer.out and "the same command" not in answer.out
+    assert "`pico capture ly_200.stage_z` takes over what light found" in answer.err
+    assert pico("capture", "ly_200.stage_z").code == 0
+    again = pico("apply", "--align", "--yes")
+    assert again.code == 0, again.out
+
+
 def test_a_saved_plan_is_applied_as_it_is_and_needs_no_word(bench: Path, pico: Pico) -> None:
     assert pico("plan", "E2-2", "--align", "--out", "my.plan").code == 0
     wrong = pico("apply", "./my.plan", "--align", "--yes")

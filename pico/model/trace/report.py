@@ -17,6 +17,9 @@ from pico.model.shown.html import table
 from pico.model.state import LabState, place_of
 from pico.model.trace.expectation import Expected, GoalRead
 
+BEYOND_TRIM = "beyond-trim"
+"""Code of a tunable that light found beyond its trim."""
+
 
 @record
 class GoalEnd:
