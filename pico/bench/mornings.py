@@ -117,6 +117,9 @@ class Mornings:
             hint = "; ".join(what.lacks) or "no detector stands in a beam"
             raise PicoError(error("morning", "nothing of this bench tells how its light is", hint=hint))
         found, lacks = self._ahead(seen, quantities), what.lacks
+        if found[0].exit_code and (wrong := self._refused(seen, quantities)):
+            quantities = tuple(q for q in quantities if q.name not in wrong)
+            found, lacks = self._ahead(seen, quantities), (*lacks, *wrong.values())
         while sum(op.seconds for op in found[0].operations) > LONGEST:
             longest = next((q for q in reversed(quantities) if q.tunable), None)
             if longest is None:
@@ -126,6 +129,19 @@ class Mornings:
             found = self._ahead(seen, quantities)
         plan, shots, dark = found
         return Survey(plan, nominal, replace(what, lacks=lacks), quantities, shots, dark, reference, why)
+
+    def _refused(self, seen: Observation, quantities: Sequence[Quantity]) -> dict[str, str]:
+        """Return the scans that a plan may not make, with why: on the way to a null light may be too bright for what
+        comes next."""
+        scans: dict[tuple[str, ...], list[Quantity]] = {}
+        for one in (q for q in quantities if q.tunable):
+            scans.setdefault(tuple(shot.key for shot in one.shots), []).append(one)
+        wrong = dict[str, str]()
+        for same in scans.values():
+            if (plan := self._ahead(seen, same)[0]).exit_code:
+                why = next(d.summary for d in plan.diagnostics if d.severity == "error")
+                wrong |= {q.name: f"{q.name} would be read, were the way there safe: {why}" for q in same}
+        return wrong
 
     def _ahead(
         self, seen: Observation, quantities: Sequence[Quantity]

@@ -46,6 +46,18 @@ def test_nothing_is_read_and_nothing_set_by_a_dry_run(lit: Path, pico: Pico) -> 
     assert stands(pico) == pytest.approx(STANDING)
 
 
+def test_a_scan_on_whose_way_the_beam_would_damage_a_part_is_left_out_and_the_rest_is_read(
+    shel: Path, pico: Pico
+) -> None:
+    assert pico("apply", "e3", "--yes").code == 0  # the 100 mm lens narrows the beam on p2, which p1 dims now
+    answer = pico("morning", "--yes")
+    assert answer.code == 0, answer.err
+    assert "would be read, were the way there safe: the beam of laser (class 3R) is not safe" in " ".join(
+        (answer.out + answer.err).split()
+    )
+    assert pico("get", "p1.angle").out.split()[1] == "1"
+
+
 def test_a_bench_in_the_dark_is_no_reference(shel: Path, pico: Pico) -> None:
     answer = pico("morning", "--yes")
     assert answer.code == 0 and "It is no reference" in answer.out and "no light comes to a detector" in answer.out
