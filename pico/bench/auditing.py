@@ -72,9 +72,7 @@ def known_or_found(root: Path, setup: Setup, lit: Lit, *, find: bool) -> Audit |
 
 
 def _key(setup: Setup, lit: Lit) -> str:
-    lab = setup.lab
-    bench = {"table": lab.table, "inventory": lab.inventory, "catalog": setup.catalog}
-    return digest([VERSION, bench, lit.poses, lit.values, lit.lasers])
+    return digest([VERSION, setup.digest(), lit.poses, lit.values, lit.lasers])
 
 
 def _read(path: Path) -> Mapping[str, Any]:
@@ -90,6 +88,6 @@ def _write(path: Path, content: Mapping[str, Any]) -> None:
 
     try:
         path.parent.mkdir(exist_ok=True)
-        write_whole(path, json.dumps(content).encode())
+        write_whole(path, json.dumps(content).encode(), durable=False)  # it may be lost at any time
     except (OSError, PicoError):
         pass  # a folder that can't be written keeps nothing
