@@ -22,10 +22,12 @@ check: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python -m pico.manifest.schema --check
+	$(BIN)/python -m pico.recipes.schema --check
 	$(BIN)/python .ci/wheel.py
 
 schemas: $(STAMP)
 	$(BIN)/python -m pico.manifest.schema
+	$(BIN)/python -m pico.recipes.schema
 
 $(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else f"PICO needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]}. Name another one: make PYTHON=python3.12")'

@@ -125,24 +125,23 @@ def computed(process: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def begin(folder: Path, how: How, kill_after: float = 0.0) -> int | None:
-    """Run the recipe in a new lab; return its exit code, None where it was killed."""
+def begin(folder: Path, how: How, *until: str) -> int | None:
+    """Run the recipe in a new lab; return its exit code."""
     from pico.history.examples.example import make_example
 
     make_example("shel", folder)
-    return command(folder, "run", "recipes/shel.yaml", "--seed", "1", "-y", *how.few, *how.until, kill_after=kill_after)
+    return command(folder, "run", "recipes/shel.yaml", "--seed", "1", "-y", *how.few, *(until or how.until))
 
 
 def kill(folder: Path, how: How, draw: random.Random, most: int, whole: Ended) -> Counter[str]:
-    """Kill one run of the recipe up to `most` times, and compare what it came to."""
-    count, code = Counter[str](), begin(folder, how, draw.uniform(2.0, 2 * LONGEST))
+    """Kill one run of the recipe up to `most` times, from its first step on, and compare what it came to."""
+    count, words = Counter[str](), ("run", "--resume", "-y", *how.until)
+    if (code := begin(folder, how, "--until", "1")) == 0:
+        code = None
     while code is None:
-        count["kills"] += 1
-        again = count["kills"] < most
-        words = ("run", "--resume", "-y", *how.until)
-        code = command(folder, *words, kill_after=draw.uniform(0.1, LONGEST) if again else 0.0)
-        if code not in (None, 0) and "was cut short" in (folder / "out.txt").read_text():
-            code = begin_again(folder, how)  # it was killed before it had begun
+        after = draw.uniform(0.1, LONGEST) if count["kills"] < most else 0.0
+        code = command(folder, *words, kill_after=after)
+        count["kills"] += code is None
     said = (
         [*wrong(ended(folder), whole)]
         if code == 0
@@ -151,11 +150,6 @@ def kill(folder: Path, how: How, draw: random.Random, most: int, whole: Ended) -
     for line in said:
         print(f"after {count['kills']} kills: {line}", flush=True)
     return count + Counter(ends=1, wrong=bool(said))
-
-
-def begin_again(folder: Path, how: How) -> int | None:
-    """Run the recipe where a kill came before its first line was written."""
-    return command(folder, "run", "recipes/shel.yaml", "--seed", "1", "-y", *how.few, *how.until)
 
 
 def main() -> int:

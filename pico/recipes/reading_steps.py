@@ -17,10 +17,11 @@ from pico.recipes.terms import Term, literal
 
 BESIDE = ("as", "name", "retries")
 """Keys that may stand beside any step."""
-_OF: Mapping[str, tuple[str, ...]] = {
+OF: Mapping[str, tuple[str, ...]] = {
     "foreach": ("steps",), "if": ("then", "else"), "while": ("most", "steps"), "call": ("with",), "let": (),
     "assert": ("message",), "scan": ("read",),
 }  # fmt: skip
+"""Keys that stand beside the steps of the language itself."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def _step(reading: Reading, scope: Scope, node: Node, at: str) -> Step | None:
             reader.wrong(first, "step", f"there is no step `{word[:40]}`", hint)
         return None
     kind = kinds[0]
-    allowed = (kind, *BESIDE, *(_OF[kind] if kind in CONTROL else step_file(kind).KIND.keys))
+    allowed = (kind, *BESIDE, *(OF[kind] if kind in CONTROL else step_file(kind).KIND.keys))
     reader.keys(node, allowed, f"the step `{kind}`")
     beside = {k: v for k, (_, v) in node.entries.items() if k != kind}
     common = {"at": at, "title": _title(beside.get("name"), kind, node), "source": reader.at(node.entries[kind][0])}

@@ -17,8 +17,16 @@ from pico.recipes.scope import Scope
 
 FOLDER = "pico.recipes.steps"
 GROUP = "pico.recipe_steps"
-CONTROL = ("foreach", "if", "while", "call", "let", "assert", "scan")
-"""Steps that are the language itself."""
+CONTROL: Mapping[str, str] = {
+    "scan": "tunables are set to each value, measurables `read` there: scan: {p1.angle: {from: 1, to: 5, count: 9}}",
+    "foreach": "steps for each value of a list, or each combination: foreach: {tilt: [0, 15, 30]}",
+    "if": "steps where something holds, `else` others: if: cam.power > 200",
+    "while": "steps while something holds, at most `most` times: while: cam.power < 200",
+    "let": "names get values: let: {half: (a.y - b.y) / 2}",
+    "assert": "what must hold, with a `message`: assert: spot.x < 5",
+    "call": "another recipe, told `with` what, known `as` what: call: null_scan",
+}
+"""Steps that are the language itself: what they do, and an example after `: `."""
 
 
 @dataclass(frozen=True)
@@ -59,10 +67,15 @@ class StepFile(Protocol):
 
 
 @cache
+def own() -> tuple[str, ...]:
+    """Return the names of the steps that PICO brings but those of the language itself; imports none."""
+    return tuple(sorted(found.name.rstrip("_") for found in iter_modules(import_module(FOLDER).__path__)))
+
+
+@cache
 def known() -> tuple[str, ...]:
     """Return the names of all steps but those of the language itself; imports none."""
-    own = sorted(found.name.rstrip("_") for found in iter_modules(import_module(FOLDER).__path__))
-    return (*own, *sorted(_plugged_in().keys() - set(own)))
+    return (*own(), *sorted(_plugged_in().keys() - set(own())))
 
 
 @cache
