@@ -116,9 +116,11 @@ class Lights:
     def compared(self, revision: str | None, now: Mapping[str, Measurement]) -> tuple[Compared, ...]:
         """Return the light that a revision recorded (see `recorded`) against what was measured `now`, by address, of
         the bench as it stands; raises PicoError. Only parts that were put down since may stand otherwise of
-        themselves."""
+        themselves: as cameras saw them both times, as long as nothing was aligned otherwise on the way of the light,
+        which made up for that."""
         from pico.bench.aligned import standing
         from pico.optics.axis import beams
+        from pico.optics.nominal.restood import again, realigned
         from pico.optics.nominal.spread import spread
         from pico.planning.goal_light import kept_back, standing_poses
         from pico.runs.light_compared import light_compared
@@ -130,10 +132,13 @@ class Lights:
         poses, detectors = standing_poses(seen), {one.component for one in before.measured.values()}
         ways = [(axis, d) for axis in beams(setup, poses, seen.known_values) for d in detectors if axis.ways(d)]
         lasers = {d: axis.source for axis, d in ways}
-        on_the_way = ((d, {axis.source, *(m.component for way in axis.ways(d) for m in way)}) for axis, d in ways)
+        on_the_way = [(d, {axis.source, *(m.component for way in axis.ways(d) for m in way)}) for axis, d in ways]
         dark = {d: why for d, parts in on_the_way if (why := kept_back(setup, seen, parts, {}))}
+        met = {part for _, parts in on_the_way for part in parts}
+        then = {} if realigned(setup, met, before.seen, seen.components) else before.seen
         since = put_down_since(self.opened.edge.memory, min(one.at for one in before.measured.values()))
-        placed = [name for name in sorted(poses) if setup.movable(name) and (since is None or name in since)]
+        moved = [name for name in sorted(poses) if setup.movable(name) and (since is None or name in since)]
+        placed = {name: again(setup, name, then.get(name), seen.components[name]) for name in moved}
         open_to = spread(setup, poses, seen.known_values, placed, sorted(lasers))
         aligned = {one.goal for one in standing(self.opened, seen) if one.status == "aligned"} & before.goals.keys()
         held = {name: goal for name, goal in (setup.lab.goals or {}).items() if name in aligned}

@@ -53,14 +53,14 @@ def compared(numbers: Sequence[Numbers]) -> Iterator[Compared]:
 def _quantity(one: Numbers, numbers: Sequence[Numbers]) -> Compared | None:
     component, _, name = one.address.partition(".")
     kind = name.rpartition(".")[2]
-    if one.why or one.before is None or one.now is None:
+    if one.why or one.wanted is None or one.now is None:
         return None
     if kind in _PLACES and one.unit == "um":
         wanted = Quantity(one.address, (Shot(f"{component}.centroid"),), kind, "as it is", "um")
-        return Compared(wanted, Got(one.before, 0.0), Got(one.now, one.sigma))
+        return Compared(wanted, Got(one.wanted, 0.0), Got(one.now, one.sigma))
     if kind in POWERS:
         now = one.now / _against(one, numbers)
-        return _share(one.address, Shot(f"{component}.{kind}"), kind, one.before, now, one.sigma)
+        return _share(one.address, Shot(f"{component}.{kind}"), kind, one.wanted, now, one.sigma)
     if kind == _AXES[0] and (other := _minor(one, numbers)) is not None:
         before, now = (math.sqrt(max(0.0, a * b)) for a, b in (other[0], other[1]))
         return _share(one.address, Shot(f"{component}.width"), "size", before, now, one.sigma)

@@ -173,11 +173,29 @@ SURE = 3.0
 
 
 @record
+class Restood:
+    """A part that was put down again, where cameras saw it both times: how far it stands from where it stood, `ahead`
+    and to its `left` [mm] and `turned` counterclockwise [deg]; one standard deviation of each by `position` and `yaw`;
+    and what that makes of a number, `by` so much in its unit."""
+
+    component: str
+    ahead: float
+    left: float
+    turned: float
+    position: float
+    yaw: float
+    by: float = 0.0
+
+
+@record
 class Compared:
     """A number by address (`cam.fit.x`) `before` and `now`, in `unit`; None where there is none. `sigma`: one standard
     deviation of their difference, with what the placement of parts makes of it. A power is compared as a share of what
     the `reference` of its laser told both times; `now` is then what it would be at the laser's power of before. `why`:
-    why the two must not be compared; empty where they may be."""
+    why the two must not be compared; empty where they may be.
+
+    `expected`: what it is to be now, by how parts that were put down again (`restood`) are seen to stand; None where
+    that is as before. `sigma` is then of what it is beside that."""
 
     address: str
     before: float | None = None
@@ -186,12 +204,19 @@ class Compared:
     sigma: float = 0.0
     reference: str = ""
     why: str = ""
+    expected: float | None = None
+    restood: tuple[Restood, ...] | None = None
+
+    @property
+    def wanted(self) -> float | None:
+        """What it is to be now."""
+        return self.before if self.expected is None else self.expected
 
     @property
     def differs(self) -> bool:
-        """Whether it is another now, by more than can be chance."""
-        known = self.before is not None and self.now is not None and not self.why
-        return known and abs((self.now or 0.0) - (self.before or 0.0)) > SURE * self.sigma
+        """Whether it is another now than it is to be, by more than can be chance."""
+        known = self.wanted is not None and self.now is not None and not self.why
+        return known and abs((self.now or 0.0) - (self.wanted or 0.0)) > SURE * self.sigma
 
     @property
     def share(self) -> float | None:

@@ -1,5 +1,5 @@
 """The light that was recorded against the light now: like with like, powers by the laser's own monitor, and places by
-what the goals hold and the placement of parts leaves open."""
+what the goals hold, how parts are seen to stand now against then, and what that leaves open."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ POWERS = ("power", "light", "voltage")
 """Numbers that follow the power of the laser."""
 MONITOR = "monitor"
 """The measurable of a laser that tells its power before anything on the table does something to it."""
-_PLACES = {"x": "left", "y": "up"}
+_PLACES = {"x": ("left", 1), "y": ("up", 2)}
+"""Coordinates of a middle: their standard deviation in a `Spread`, and which of its three numbers they are."""
 _SHARE = {"power": 0.01, "other": 0.05, "reference": 0.05}
 """What two measurements of the same light may differ by, of themselves: of kernels, sensors, dust. One standard
 deviation, as a share of the number: of a power, of other numbers, of a power without a reference."""
@@ -32,8 +33,8 @@ def light_compared(
     setup: Setup, before: Mapping[str, Measurement], now: Mapping[str, Measurement], spreads: Mapping[str, Spread],
     met: Mapping[str, Goal], sources: Mapping[str, str], dark: Mapping[str, str],
 ) -> tuple[Compared, ...]:  # fmt: skip
-    """Return the numbers of measurements, by address, before and now, in order. `spreads`: by detector, of one
-    placement of what was put down; `met`: goals that are met both times; `sources`: the laser whose light a detector
+    """Return the numbers of measurements, by address, before and now, in order. `spreads`: by detector, as parts
+    stand that were put down again; `met`: goals that are met both times; `sources`: the laser whose light a detector
     takes; `dark`: what keeps it back now."""
     found = list[Compared]()
     for address in sorted(before):
@@ -73,13 +74,30 @@ def _numbers(
         if kind in POWERS or one.measurable == MONITOR:
             yield _power(made, spread, monitor if one.measurable != MONITOR else None)
         elif kind in _PLACES and unit == "um":
-            open_to = 1e3 * getattr(spread, _PLACES[kind]) * math.sqrt(2)
             held = [goal.near(address) for goal in met.values() if address in (goal.reach or {})]
-            yield replace(made, sigma=math.hypot(noise, _LEAST, min(held) if held else open_to))
+            yield _place(made, spread, min(held) if held else None)
         elif unit == "deg":
             yield _angle(made)
         elif f"{one.measurable}.{kind}" in numbers_of(setup, one.component):
             yield replace(made, sigma=math.hypot(noise, _SHARE["other"] * abs(before)))
+
+
+def _place(made: Compared, spread: Spread, held: float | None) -> Compared:
+    """Return a place that a goal holds so exactly, or that stands as parts do."""
+    if held is not None:
+        return replace(made, sigma=math.hypot(made.sigma, _LEAST, held))
+    way, k = _PLACES[made.address.rpartition(".")[2]]
+    open_to = 1e3 * getattr(spread, way)
+    return _as_seen(replace(made, sigma=math.hypot(made.sigma, _LEAST, open_to)), spread, k, 1e3)
+
+
+def _as_seen(made: Compared, spread: Spread, k: int, scale: float) -> Compared:
+    """Return a number with what it is to be as parts are seen to stand; it follows the `k`-th number of a spread's
+    light, `scale` times as much."""
+    if not spread.restood:
+        return made
+    restood = tuple(replace(part, by=scale * moved[k]) for part, moved in spread.restood)
+    return replace(made, expected=(made.before or 0.0) + scale * spread.moved[k], restood=restood)
 
 
 def _angle(made: Compared) -> Compared:
@@ -98,7 +116,8 @@ def _units(setup: Setup, found: Measurement) -> dict[str, str]:
 
 def _power(made: Compared, spread: Spread, monitor: tuple[Measurement, Measurement] | None) -> Compared:
     before, now = made.before or 0.0, made.now or 0.0
-    open_to = math.hypot(_SHARE["power"], spread.power * math.sqrt(2))
+    open_to = math.hypot(_SHARE["power"], spread.power)
+    made = _as_seen(made, spread, 0, before)
     if monitor is None:
         return replace(made, sigma=math.hypot(made.sigma, before * math.hypot(open_to, _SHARE["reference"])))
     first, last = (float(m.value) if isinstance(m.value, int | float) else 0.0 for m in monitor)

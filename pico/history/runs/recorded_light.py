@@ -1,4 +1,5 @@
-"""What a commit recorded of its light: what was measured in its runs when the bench stood as it says."""
+"""What a commit recorded of its light: what was measured in its runs when the bench stood as it says, and how its parts
+were then seen to stand."""
 
 from __future__ import annotations
 
@@ -10,8 +11,10 @@ from typing import Any
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.loading import runs_in
 from pico.model.measurement import Measurement, measurement_from_json
+from pico.model.observation import ObservedComponent
 from pico.model.primitive import primitive
 from pico.model.trace.run import TraceEvent
+from pico.runs.journal import observed_from_json
 from pico.runs.trace import measurement_in
 
 _ALONG = ("interlock", "parked")
@@ -20,11 +23,13 @@ _ALONG = ("interlock", "parked")
 
 @dataclass(frozen=True)
 class RecordedLight:
-    """What a commit recorded: measurements by address, all of which was assured; and the goals that were met, or
-    aligned when it was made, by name with what was measured then."""
+    """What a commit recorded: measurements by address, all of which was assured; the goals that were met, or aligned
+    when it was made, by name with what was measured then; and components as they were `seen` when its runs were over.
+    """
 
     measured: Mapping[str, Measurement] = field(default_factory=dict)
     goals: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    seen: Mapping[str, ObservedComponent] = field(default_factory=dict)
 
 
 def recorded_light(folder: LabFolder, commit: str) -> RecordedLight:
@@ -32,12 +37,25 @@ def recorded_light(folder: LabFolder, commit: str) -> RecordedLight:
     bench was changed after counts no more."""
     measured: dict[str, Measurement] = {}
     goals: dict[str, Mapping[str, float]] = {}
+    seen: dict[str, ObservedComponent] = {}
     for run in runs_in(folder, commit):
         _follow(run.trace, measured, goals)
         stood = (run.document.goals or {}).items()
+        seen |= _seen(run.measurements)
         goals = {**goals, **{name: one.last for name, one in stood if one.status == "aligned" and one.last}}
     sure = {address: one for address, one in measured.items() if not one.not_assured and not one.unknown}
-    return RecordedLight(sure, goals)
+    return RecordedLight(sure, goals, seen)
+
+
+def _seen(measurements: Iterable[TraceEvent]) -> dict[str, ObservedComponent]:
+    """Return the components that were observed after runs, each as it was last."""
+    found = {}
+    for event in measurements:
+        if event.kind == "observation" and event.component:
+            with suppress(KeyError, TypeError, ValueError):
+                if part := observed_from_json(event.data):
+                    found[event.component] = part
+    return found
 
 
 def _follow(
