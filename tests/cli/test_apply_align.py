@@ -130,6 +130,33 @@ def test_what_a_commit_recorded_of_its_light_is_measured_again_and_compared(benc
     assert "%  laser: power, -3" in pico("apply", "one", "--align", "--yes").out
 
 
+def test_where_a_lens_without_a_stage_stands_tells_where_its_spot_is_to_be(bench: Path, pico: Pico) -> None:
+    subprocess.run(["git", "checkout", "-q", "-b", "one", "E1-1"], cwd=bench, check=True)
+    edit(bench / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n  errors: {seat: 1}\n")
+    assert pico("apply", "--yes").code == 0
+    for address, value in (("p1.angle", "90"), ("hwp.angle", "2"), ("cam.exposure", "0.02")):
+        pico("set", address, value, "-y")
+    assert pico("measure", "cam.fit").code == 0
+    assert pico("commit", "-m", "bright", "--capture").code == 0
+    then = pico("get", "lx_125", "--json").data["values"]["pose"]["value"]
+    assert pico("apply", "E2-1", "--yes").code == 0
+    answer = pico("apply", "one", "--align", "--yes", "--json")
+    x = next(n for n in json.loads(answer.out.splitlines()[-1])["numbers"] if n["address"] == "cam.fit.x")
+    now = pico("get", "lx_125", "--json").data["values"]["pose"]["value"]
+    left = now["y"] - then["y"]
+    (lens,) = [part for part in x["restood"] if part["component"] == "lx_125"]
+    assert lens["left"] == pytest.approx(left, abs=1e-3) and abs(left) > 0.1
+    assert x["expected"] == pytest.approx(x["before"] + 5318 * left, rel=0.02), "um per mm, by a lens of 125 mm"
+    assert abs(x["expected"] - x["before"]) > 3 * x["sigma"] and not x["differs"]
+    told = " ".join(pico("verify", "one", "--measure").out.split())
+    side = "left" if left > 0 else "right"
+    assert f"From where it stood, lx_125 stands {abs(left):.3f} mm to its {side}" in told
+    assert f"that makes {lens['by']:+.4g} um of cam.fit.x" in told, told
+    pico("sim", "upset", "laser", "pitch=0.2")
+    told = pico("verify", "one", "--measure")
+    assert told.code == 6 and "✗  cam.fit.y" in told.out and "✓  cam.fit.x" in told.out, "no part stands higher"
+
+
 def test_a_null_and_the_lens_behind_it_are_both_aligned_afterwards(bench: Path, pico: Pico) -> None:
     subprocess.run(["git", "checkout", "-q", "E1-3"], cwd=bench, check=True)
     table = bench / "state" / "table.yaml"

@@ -21,6 +21,8 @@ WALK = 6e-4
 """How far the beam of a laser walks each way from one day to the next, one standard deviation [deg]."""
 Three = tuple[float, float, float]
 _STILL: Three = (0.0, 0.0, 0.0)
+_SOME = 1e-9
+"""What light of a part that is not in it changes by at most: a share, mm."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +65,8 @@ def spread(
     found = {}
     for name, of in squares.items():
         power, left, up = (math.sqrt(s) for s in of)
-        told = tuple((one, there[name]) for one, there in alone if name in there and name in together)
-        found[name] = Spread(power, left, up, together.get(name, _STILL), told)
+        told = ((one, there[name]) for one, there in alone if name in there and name in together)
+        found[name] = Spread(power, left, up, together.get(name, _STILL), tuple(t for t in told if max(map(abs, t[1])) > _SOME))
     return found
 
 
