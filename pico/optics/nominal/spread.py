@@ -66,7 +66,9 @@ def spread(
     for name, of in squares.items():
         power, left, up = (math.sqrt(s) for s in of)
         told = ((one, there[name]) for one, there in alone if name in there and name in together)
-        found[name] = Spread(power, left, up, together.get(name, _STILL), tuple(t for t in told if max(map(abs, t[1])) > _SOME))
+        found[name] = Spread(
+            power, left, up, together.get(name, _STILL), tuple(t for t in told if max(map(abs, t[1])) > _SOME)
+        )
     return found
 
 
