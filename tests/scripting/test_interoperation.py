@@ -132,13 +132,14 @@ def test_what_was_measured_is_plotted_for_people_and_as_a_picture(bench: Bench, 
 @pytest.mark.parametrize("points", [[(1, 1)], [(1, 2), (1, 2)], [(-1e-9, 0), (1e-9, 1e12)], [(0, -5), (3, -5)]])
 def test_a_plot_has_room_for_any_points(points: list[tuple[float, float]]) -> None:
     from pico.drawing.plots import scatter
+    from pico.drawing.plots.axes import ticks
 
     found = scatter.Points(*zip(*points, strict=True), (None,) * len(points), "x", "y")  # type: ignore[arg-type]
     assert scatter.picture("t", found).shape == (480, 800, 3)
     lines = scatter.text("t", found).splitlines()
     assert all(len(line) <= scatter.WIDTH for line in lines)
     (low, high), _ = found.limits()
-    assert all(low <= tick <= high for tick in scatter.ticks(low, high))
+    assert all(low <= tick <= high for tick in ticks(low, high))
 
 
 @pytest.mark.slow

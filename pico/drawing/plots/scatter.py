@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pico.twin.lettering import write
+from pico.drawing.plots.axes import COLORS, Axes, paper, roomy
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    Color = tuple[int, int, int]
-
-_PAPER, _INK, _FAINT, _RULE = (252, 252, 253), (34, 40, 49), (126, 134, 146), (222, 226, 232)
-_POINT = (58, 138, 196)
 _LEFT, _RIGHT, _TOP, _FOOT = 96, 24, 66, 56
 WIDTH, HEIGHT = 72, 18
 """Characters of a plot in a terminal."""
@@ -48,39 +44,15 @@ class Points:
         """Return what the axes show, with room around the points and their standard deviations."""
         high = [y + (s or 0.0) for y, s in zip(self.y, self.sigma, strict=True)]
         low = [y - (s or 0.0) for y, s in zip(self.y, self.sigma, strict=True)]
-        return _roomy(min(self.x), max(self.x)), _roomy(min(low), max(high))
+        return roomy(min(self.x), max(self.x)), roomy(min(low), max(high))
 
 
 def picture(title: str, points: Points, *, width: int = 800, height: int = 480) -> NDArray[np.uint8]:
     """Return the plot (height, width, 3), sRGB; with at least one point."""
-    import cv2
-    import numpy as np
-
-    image = np.full((height, width, 3), _PAPER, np.uint8)
-    write(image, title, (16, 27), 17, _INK, weight=600)
-    (x0, x1), (y0, y1) = points.limits()
-    right, foot = width - _RIGHT, height - _FOOT
-    image[_TOP:foot, _LEFT] = _RULE
-    image[foot, _LEFT:right] = _RULE
-
-    def column(x: float) -> int:
-        return round(_LEFT + (right - _LEFT) * (x - x0) / (x1 - x0))
-
-    def row(y: float) -> int:
-        return round(foot - (foot - _TOP) * (y - y0) / (y1 - y0))
-
-    for x in ticks(x0, x1):
-        image[foot : foot + 5, column(x)] = _RULE
-        write(image, f"{x:.6g}", (column(x), foot + 19), 12, _FAINT, align="center", weight=500)
-    for y in ticks(y0, y1):
-        image[row(y), _LEFT - 5 : right : 3] = _RULE
-        write(image, f"{y:.6g}", (_LEFT - 9, row(y) + 4), 12, _FAINT, align="right", weight=500)
-    write(image, points.x_label, (right, height - 12), 13, _INK, align="right", weight=500)
-    write(image, points.y_label, (_LEFT - 80, _TOP - 14), 13, _INK, weight=500)
-    for x, y, sigma in zip(points.x, points.y, points.sigma, strict=True):
-        if sigma:
-            cv2.line(image, (column(x), row(y - sigma)), (column(x), row(y + sigma)), _POINT, 1, cv2.LINE_AA)
-        cv2.circle(image, (column(x), row(y)), 4, _POINT, -1, cv2.LINE_AA)
+    image = paper(title, width, height)
+    axes = Axes(image, _LEFT, width - _RIGHT, _TOP, height - _FOOT, *points.limits())
+    axes.frame(points.x_label, points.y_label)
+    axes.points(points.x, points.y, points.sigma, COLORS[0])
     return image
 
 
@@ -101,19 +73,6 @@ def text(title: str, points: Points, *, width: int = WIDTH, height: int = HEIGHT
     first, last = f"{x0:.5g}", f"{x1:.5g}"
     lines.append(f"{'':>11}{first}{points.x_label:^{max(0, wide - len(first) - len(last))}}{last}")
     return "\n".join(lines)
-
-
-def ticks(low: float, high: float) -> Iterator[float]:
-    """Yield round numbers between two, about five."""
-    step = 10.0 ** math.floor(math.log10((high - low) / 5))
-    step *= next(m for m in (1, 2, 5, 10) if (high - low) / (step * m) <= 6)
-    first = math.ceil(low / step)
-    yield from (n * step for n in range(first, math.floor(high / step) + 1))
-
-
-def _roomy(low: float, high: float) -> tuple[float, float]:
-    room = 0.06 * (high - low) or abs(high) * 0.05 or 1.0
-    return low - room, high + room
 
 
 def of_columns(
