@@ -12,7 +12,7 @@ from pico.diagnostics import PicoError, error
 from ..arguments import Fidelity, LockTimeout, Scoped, Yes, group, scope_of
 from ..session import Session
 from ..terminal.waiting import waiting
-from ..views import compared, exported, plotted, published, replayed
+from ..views import compared, exported, figured, plotted, published, replayed
 from ..views import recorded as view
 from ..views import runs as table
 
@@ -177,16 +177,26 @@ def plot(
         str | None, typer.Option("--y", metavar="COLUMN", help="Without it the first number that was measured.")
     ] = None,
     picture: Annotated[Path | None, typer.Option("--picture", metavar="PNG", help="Write it as a picture.")] = None,
+    recipe: Annotated[bool, typer.Option("--recipe", help="Of a recipe: RUN is its id or the recipe's name.")] = False,
+    pictures: Annotated[
+        Path | None, typer.Option("--pictures", metavar="DIR", help="Write commits, trace and figures of a recipe.")
+    ] = None,
 ) -> None:
     """Plot what a run measured, against what it changed.
 
     Columns are those of `pico runs export --as csv`: `t`, `p1.angle`, `cam.centroid.x`. Bars are one standard
-    deviation.
+    deviation. `--recipe` plots the figures that a recipe declares of what it returned.
 
     Examples:
       pico runs plot
       pico runs plot 20260101 --x p1.angle --y cam.centroid.x --picture scan.png
+      pico runs plot --recipe shel --pictures figures
     """
+    if recipe or pictures:
+        if x or y or picture:
+            raise PicoError(error("usage", "--recipe plots what the recipe declares", hint="with --pictures DIR"))
+        _plot_recipe(Session.of(context), run, pictures)
+        return
     from pico.bench.picturing.plots import points_of
     from pico.drawing.picture import write_png
     from pico.drawing.plots import scatter
@@ -198,6 +208,26 @@ def plot(
     title = f"{found.document.goal}, {found.document.id}"
     session.show(plotted, title, points)
     session.draw(picture, points.y_name, lambda path: write_png(scatter.picture(title, points), path))
+
+
+def _plot_recipe(session: Session, word: str | None, folder: Path | None) -> None:
+    """Plot the figures of a run of a recipe."""
+    from pico.drawing.picture import write_png
+    from pico.recipes.plotting import curves_of
+    from pico.recipes.plotting import pictures as drawn
+    from pico.recipes.recipes import Recipes
+    from pico.recipes.retold import require_returned, retold
+
+    bench = session.bench()
+    recipe, log = Recipes(bench).ran(word)
+    found, about = retold(recipe, log), log.about
+    if folder is not None:
+        for name, draw in drawn(bench, recipe, about, found):
+            (session.folder / folder).mkdir(parents=True, exist_ok=True)
+            session.draw(folder / f"{name}.png", name, lambda path, d=draw: write_png(d(), path))  # type: ignore[misc]
+    returns = require_returned(found, recipe.name, about.id) if recipe.figures else {}
+    figures = [(figure, curves_of(figure, returns, about.id)) for figure in recipe.figures.values()]
+    session.show(figured, recipe, about, figures)
 
 
 @app.command()

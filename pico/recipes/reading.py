@@ -10,6 +10,7 @@ from pico.manifest.text.kinds import API
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Map, Node, Scalar, parse
 from pico.model.setup import Setup
+from pico.recipes.figures import read_figures, read_notes
 from pico.recipes.parameters import read_parameters
 from pico.recipes.reader import Able, Reader
 from pico.recipes.reading_steps import Reading, read_steps
@@ -18,7 +19,8 @@ from pico.recipes.scope import Scope, bench_names
 from pico.recipes.terms import Term
 from pico.recipes.unattended import read_unattended
 
-KEYS = ("apiVersion", "kind", "metadata", "parameters", "steps", "finally", "returns", "unattended")
+KEYS = ("apiVersion", "kind", "metadata", "parameters", "steps", "finally", "returns", "unattended", "figures",
+        "notes")  # fmt: skip
 METADATA = ("name", "title", "description", "lab")
 DEEPEST = 8
 """How deep recipes may call one another."""
@@ -60,6 +62,7 @@ def read_recipe(
     digest = hashlib.sha256("\0".join([source.content, *(r.digest for r in called)]).encode()).hexdigest()
     recipe = Recipe(
         **about, parameters=parameters, steps=steps, finally_=finally_, returns=returns, returned=returned,
+        figures=read_figures(reader, returned, root.get("figures")), notes=read_notes(reader, root.get("notes")),
         digest=f"sha256:{digest}", path=source.path, unattended=alone,
     )  # fmt: skip
     return recipe, found

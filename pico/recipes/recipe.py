@@ -163,9 +163,33 @@ class Unattended:
 
 
 @dataclass(frozen=True)
+class Series:
+    """What a figure draws, by the names of what its recipe returns: numbers, or lists as long as one another. `sigma`
+    and `theory` are empty where there is none."""
+
+    label: str
+    x: str
+    y: str
+    sigma: str = ""
+    theory: str = ""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure of what a recipe returns: its series, and what its axes are called, `tilt of p2 [deg]`."""
+
+    name: str
+    title: str
+    x: str
+    y: str
+    series: tuple[Series, ...] = ()
+
+
+@dataclass(frozen=True)
 class Recipe:
     """An experiment. `digest`: of its text and of those that it calls; `returns`: values that a call has by
-    name, `returned` what they are; `unattended`: what it states of runs where nobody is there."""
+    name, `returned` what they are; `unattended`: what it states of runs where nobody is there. `figures` of what it
+    returns by name; `notes` stand on each."""
 
     name: str
     title: str = ""
@@ -176,6 +200,8 @@ class Recipe:
     finally_: tuple[Step, ...] = ()
     returns: Mapping[str, Term] = field(default_factory=dict)
     returned: Mapping[str, Name] = field(default_factory=dict)
+    figures: Mapping[str, Figure] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
     digest: str = ""
     path: str = ""
     unattended: Unattended | None = None

@@ -42,10 +42,12 @@ class Listed:
 class Recipes:
     """Recipes on one bench."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: Bench, past: Mapping[str, str] | None = None) -> None:
+        """`past`: texts of recipes by path, as they were once, instead of those in the files."""
         self.bench = bench
         self.texts: dict[str, bytes] = {}
-        self.kept: Mapping[str, str] = {}
+        self.kept: Mapping[str, str] = past or {}
+        self.past = past is not None
 
     def names(self) -> tuple[str, ...]:
         """Return the recipes of the lab by name: files of its folder `recipes`, without their ending."""
@@ -140,6 +142,16 @@ class Recipes:
             error("nothing-to-resume", f"no run of a recipe{f' called {run}' if run else ''} was cut short")
         )
 
+    def ran(self, word: str | None = None) -> tuple[Recipe, Log]:
+        """Return the last run of a recipe, or the last of a recipe of that name, or the one whose id begins so; with
+        the recipe as it was then. Raises PicoError where there is none."""
+        for path in logs(self.bench.root):
+            log = Log.read(path)
+            if word in (None, log.about.name) or log.about.id.startswith(str(word)):
+                return Recipes(self.bench, log.about.texts).read(log.about.path), log
+        text = f"no recipe {'was run here' if word is None else f'or run of one is called `{word[:40]}`'}"
+        raise PicoError(error("run", text, hint="`pico run RECIPE`"))
+
     def taken_up(self, log: Log) -> Recipe:
         """Return the recipe of a run that was cut short; raises PicoError where it was edited since. Where its file is
         gone, with the commit that it checked out, it is taken as it was."""
@@ -166,7 +178,7 @@ class Recipes:
 
     def _text(self, path: Path) -> bytes:
         name = str(path.resolve())
-        if not path.exists() and name in self.kept:
+        if name in self.kept and (self.past or not path.exists()):
             self.texts[name] = self.kept[name].encode()
         else:
             self.texts[name] = _read(path)

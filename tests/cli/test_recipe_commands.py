@@ -218,3 +218,21 @@ def test_every_step_that_recipes_may_have_is_listed(turning: Path, pico: Pico) -
 
     listed = [line.split()[0] for line in pico("recipe", "steps").out.splitlines() if line.strip()]
     assert set(listed) >= {*CONTROL, *known()}
+
+
+def test_its_figures_are_plotted(turning: Path, pico: Pico) -> None:
+    """As numbers, as JSON and as pictures; without a run, or with options of another plot, it says so."""
+    file = turning / "recipes" / "turning.yaml"
+    figure = (
+        "figures: {turned: {x: angle, y: angle, series: {last: {x: last, y: last}}}}\nnotes: [all of it inferred]\n"
+    )
+    file.write_text(file.read_text() + figure)
+    assert pico("runs", "plot", "--recipe").code == 1
+    assert pico("run", "turning", "--yes").code == 0
+    plotted = pico("runs", "plot", "--recipe", "turning", "--pictures", "figures")
+    assert plotted.code == 0, plotted.err
+    assert "20.00" in plotted.out and "all of it inferred" in plotted.out
+    assert {p.name for p in (turning / "figures").iterdir()} == {"trace.png", "turned.png"}
+    found = pico("runs", "plot", "--recipe", "--json").data
+    assert found["schema"] == "pico.figures/v1" and found["figures"][0]["series"][0]["x"] == [20.0]
+    assert pico("runs", "plot", "--recipe", "--x", "t").code == 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from pico.twin.lettering import extent, write
@@ -65,7 +66,7 @@ class Axes:
         for a, b, s in zip(x, y, sigma, strict=True):
             if s:
                 ends = [(self.column(a), self.row(b + way * s)) for way in (-1, 1)]
-                cv2.line(self.image, *ends, color, 1, cv2.LINE_AA)
+                cv2.line(self.image, ends[0], ends[1], color, 1, cv2.LINE_AA)
                 for u, v in ends:
                     self.image[min(len(self.image) - 1, max(0, v)), u - 3 : u + 4] = color
             cv2.circle(self.image, (self.column(a), self.row(b)), 4, color, -1, cv2.LINE_AA)
@@ -78,7 +79,7 @@ class Axes:
         if len(ends) == 1:
             (u, v), = ends  # fmt: skip
             ends = [(u - 9, v), (u + 9, v)]
-        for a, b in zip(ends, ends[1:], strict=False):
+        for a, b in pairwise(ends):
             cv2.line(self.image, a, b, color, 1, cv2.LINE_AA)
 
 

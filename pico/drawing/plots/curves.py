@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -43,9 +42,9 @@ class Curve:
         """Its label, and how well it agrees with theory: chi-squared over the number of points."""
         if not (self.sigma and self.theory and all(self.sigma)):
             return self.label
-        squares = [(d / s) ** 2 for d, s in zip(self.off, self.sigma, strict=True)]
-        near = sum(q <= 4 for q in squares)
-        return f"{self.label}: {near} of {len(squares)} within 2 sigma, chi2/n {math.fsum(squares) / len(squares):.2f}"
+        sigmas = [d / s for d, s in zip(self.off, self.sigma, strict=True)]
+        near, mean = sum(abs(n) <= 2 for n in sigmas), sum(n * n for n in sigmas) / len(sigmas)
+        return f"{self.label}: {near} of {len(sigmas)} within 2 sigma, chi2/n {mean:.2f}"
 
 
 def picture(
@@ -70,7 +69,9 @@ def picture(
             main.line(curve.x, curve.theory, color)
         main.points(curve.x, curve.y, curve.bars, color)
     if compared:
-        below = Axes(image, _LEFT, width - _RIGHT, main.foot + 44, main.foot + 44 + _BELOW, x, _range(compared, off=True))
+        below = Axes(
+            image, _LEFT, width - _RIGHT, main.foot + 44, main.foot + 44 + _BELOW, x, _range(compared, off=True)
+        )
         below.frame(x_label, "less theory")
         below.line(x, (0.0, 0.0), INK)
         for n, curve in enumerate(curves):
