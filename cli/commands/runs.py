@@ -213,10 +213,10 @@ def plot(
 def _plot_recipe(session: Session, word: str | None, folder: Path | None) -> None:
     """Plot the figures of a run of a recipe."""
     from pico.drawing.picture import write_png
-    from pico.recipes.plotting import curves_of
-    from pico.recipes.plotting import pictures as drawn
+    from pico.recipes.figures.pictures import curves_of
+    from pico.recipes.figures.pictures import pictures as drawn
+    from pico.recipes.figures.retold import require_returned, retold
     from pico.recipes.recipes import Recipes
-    from pico.recipes.retold import require_returned, retold
 
     bench = session.bench()
     recipe, log = Recipes(bench).ran(word)

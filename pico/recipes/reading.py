@@ -10,9 +10,9 @@ from pico.manifest.text.kinds import API
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Map, Node, Scalar, parse
 from pico.model.setup import Setup
-from pico.recipes.figures import read_figures, read_notes
 from pico.recipes.parameters import read_parameters
 from pico.recipes.reader import Able, Reader
+from pico.recipes.reading_figures import read_figures, read_notes
 from pico.recipes.reading_steps import Reading, read_steps
 from pico.recipes.recipe import Name, Recipe
 from pico.recipes.scope import Scope, bench_names

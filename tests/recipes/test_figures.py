@@ -9,10 +9,10 @@ from asking import read
 
 from pico.bench.bench import Bench, new_lab
 from pico.diagnostics import PicoError
+from pico.recipes.figures.pictures import curves_of, pictures
+from pico.recipes.figures.retold import retold
 from pico.recipes.log import Log, logs
-from pico.recipes.plotting import curves_of, pictures
 from pico.recipes.recipes import Recipes
-from pico.recipes.retold import retold
 
 TEXT = """apiVersion: pico/v1
 kind: Recipe

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from pico.diagnostics import PicoError, error
 from pico.drawing.plots import curves, lineage, timeline
 from pico.model.primitive import primitive
+from pico.recipes.figures.retold import Retold, require_returned
 from pico.recipes.log import About
 from pico.recipes.recipe import Figure, Recipe
-from pico.recipes.retold import Retold, require_returned
 from pico.runs.document import recorded
 from pico.runs.operations import operations
 
