@@ -83,6 +83,14 @@ def test_as_json_each_step_has_a_line_and_the_end_one(turning: Path, pico: Pico)
     assert pico("run", "turning", "--json").code == 1  # nobody is asked with --json
 
 
+def test_a_recipe_that_is_no_yaml_keeps_nobody_from_the_bench(turning: Path, pico: Pico) -> None:
+    edit(turning / "recipes" / "turning.yaml", "set: {p1.angle: angle}", "set: {p1.angle: angle")
+    assert pico("plan").code in (0, 2) and pico("runs", "list").code == 0
+    found = pico("validate")
+    assert found.code == 0 and "recipes/turning.yaml:9" in found.out + found.err, found
+    assert pico("run", "turning", "--yes").code == 1
+
+
 def test_mistakes_are_told_with_their_lines_and_nothing_is_done(turning: Path, pico: Pico) -> None:
     edit(turning / "recipes" / "turning.yaml", "p1.angle: angle", "p1.angel: angle")
     for words in (("run", "turning", "--yes"), ("recipe", "check", "turning")):
