@@ -93,15 +93,18 @@ def outcome(found: Outcome, recipe: Recipe) -> str:
         lines.append(f"The bench is left {', '.join(found.left)}.")
     if found.outcome == "interrupted":
         lines.append("Go on with `pico run --resume`.")
-    lines.append(f"Run {found.id}: `pico runs` lists what it did on the bench, `pico commit` keeps it.")
+    if found.runs:
+        more = f", the last of {len(found.runs)} runs on the bench" if len(found.runs) > 1 else ""
+        lines.append(f"`pico runs show {found.runs[-1]}` has what it did{more}.")
     return "\n".join(lines)
 
 
 def outcome_data(found: Outcome, recipe: Recipe) -> dict[str, Any]:
-    """Return schema `pico.recipe_run/v1`: `run`, `recipe`, `outcome`, `at`, `returns`, `acted`, `before`, `left` (how
-    the bench is left where nobody was there), `diagnostics`."""
+    """Return schema `pico.recipe_run/v1`: `run`, `recipe`, `outcome`, `at`, `returns`, `acted`, `before`, `runs` (on
+    the bench), `left` (how the bench is left where nobody was there), `diagnostics`."""
     return {
         "schema": "pico.recipe_run/v1", "run": found.id, "recipe": recipe.name, "digest": recipe.digest,
         "outcome": found.outcome, "at": found.at, "returns": dict(found.returns), "acted": found.acted,
-        "before": found.before, "left": list(found.left), "diagnostics": as_json(found.diagnostics),
+        "before": found.before, "runs": list(found.runs), "left": list(found.left),
+        "diagnostics": as_json(found.diagnostics),
     }  # fmt: skip

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 class Outcome:
     """How a run of a recipe ended: `done`, `failed` or `interrupted`; what it `returns`; how many steps acted, and how
     many of them had been done before it was taken up; what went wrong at which step (`at`: `3[2].1`), and the exit
-    code. `left`: how it left the bench, of what it states of that, where nobody was there."""
+    code. `runs`: those on the bench, in order. `left`: how it left the bench, of what it states of that, where nobody
+    was there."""
 
     id: str
     outcome: str
@@ -35,6 +36,7 @@ class Outcome:
     before: int = 0
     diagnostics: tuple[Diagnostic, ...] = ()
     exit_code: ExitCode = ExitCode.DONE
+    runs: tuple[str, ...] = ()
     left: tuple[str, ...] = ()
 
 
@@ -117,7 +119,8 @@ class _Run:
         return self._outcome("done", returns=returns)
 
     def _outcome(self, how: str, **what: Any) -> Outcome:
-        return Outcome(self.log.about.id, how, acted=self.acted, before=self.before, **what)
+        runs = dict.fromkeys(run for step in self.log.steps.values() for run in step.runs)
+        return Outcome(self.log.about.id, how, acted=self.acted, before=self.before, runs=tuple(runs), **what)
 
     def _entered(self, entered: Entered) -> None:
         self.at = entered.path

@@ -64,6 +64,8 @@ def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     answer = pico("run", "turning", "-p", "angles=3 deg", "--yes")
     assert answer.code == 0 and "✓   1[1].1 set p1.angle: angle" in answer.out and "last = 3" in answer.out
     assert pico("runs", "show", "--json").data["document"]["cause"]["kind"] == "recipe"
+    run = answer.out.partition("`pico runs show ")[2].partition("`")[0]
+    assert pico("runs", "show", run).code == 0
 
 
 def test_what_is_left_of_one_that_was_cut_short_is_shown_and_nothing_moves(turning: Path, pico: Pico) -> None:
