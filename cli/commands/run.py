@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -30,6 +32,7 @@ Given = Annotated[
 ]
 Until = Annotated[str, typer.Option("--until", metavar="STEP", help="Stop before this step: `3`, `3[2].1`.")]
 Resume = Annotated[bool, typer.Option("--resume", help="Go on with the run that was cut short last.")]
+JUnit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write JUnit XML to FILE.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the steps as far as they are known; move nothing.")]
 Unattended = Annotated[
     bool, typer.Option("--unattended", help="Nobody will be there: hold it to what it states of that.")
@@ -46,6 +49,7 @@ def run(
     unattended: Unattended = False,
     seed: Seed = None,
     fidelity: Fidelity = None,
+    junit: JUnit = None,
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
@@ -81,7 +85,7 @@ def run(
             session.report(ahead.diagnostics)
             return int(ahead.exit_code)
         alone = _alone(session, recipes, found, log.about.arguments, unattended)
-        return _carry_out(session, recipes, found, log, until, auto_approve, alone)
+        return _carry_out(session, recipes, found, log, until, auto_approve, alone, junit)
     assert recipe is not None
     found = recipes.read(recipe)
     arguments = recipes.arguments(found, _pairs(given or []))
@@ -97,7 +101,7 @@ def run(
         return int(ExitCode.ERROR)
     if seed is not None:
         bench.sim.reset(seed)
-    return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True, alone)
+    return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True, alone, junit)
 
 
 def _alone(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mapping[str, Any], said: bool) -> bool:
@@ -122,9 +126,14 @@ def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: boo
 
 
 def _carry_out(
-    session: Session, recipes: Recipes, recipe: Recipe, log: Log, until: str, agreed: bool, alone: bool
+    session: Session, recipes: Recipes, recipe: Recipe, log: Log, until: str, agreed: bool, alone: bool,
+    junit: Path | None,
 ) -> int:  # fmt: skip
+    from pico.disk import write_whole
+    from pico.recipes.rehearsing import Rehearsed
     from pico.recipes.running import Watching
+
+    from ..views.rehearsed import junit as in_junit
 
     if not agreed and not session.confirm(f"Go on with {recipe.name}, run {log.about.id}?", agreed):
         session.say("Nothing was done.")
@@ -151,7 +160,11 @@ def _carry_out(
 
         how["ask"] = lambda question: session.confirm(question, False)
         how["steer"] = lambda jog: steer(session, recipes.bench, jog, None, None)
+    began = time.monotonic()
     outcome = recipes.run(recipe, log, watching, **how)
+    if junit:
+        tried = Rehearsed.of(recipe.name, outcome, time.monotonic() - began)
+        write_whole(session.folder / junit, in_junit([tried], recipes.bench.setup.lab.name).encode())
     if session.json:
         session.document(view.outcome_data(outcome, recipe))
     else:

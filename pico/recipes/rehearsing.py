@@ -10,11 +10,14 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Self
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.git.command import run as git
 from pico.history.repository.repository import Repository
+
+if TYPE_CHECKING:
+    from pico.recipes.running import Outcome
 
 ASIDE = (".git", ".pico", "runs")
 """What of a lab's folder does not go along as a file."""
@@ -30,6 +33,11 @@ class Rehearsed:
     seconds: float = 0.0
     returns: Mapping[str, Any] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
+
+    @classmethod
+    def of(cls, name: str, out: Outcome, seconds: float) -> Self:
+        """Return how a run of a recipe went."""
+        return cls(name, out.outcome, out.at, seconds, dict(out.returns), out.diagnostics)
 
     @property
     def passed(self) -> bool:
@@ -75,7 +83,7 @@ def rehearse(root: str, name: str, fidelity: str) -> Rehearsed:
                 out = recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
         except PicoError as exc:
             return Rehearsed(name, "failed", "", time.monotonic() - began, diagnostics=tuple(exc.diagnostics))
-        return Rehearsed(name, out.outcome, out.at, time.monotonic() - began, dict(out.returns), out.diagnostics)
+        return Rehearsed.of(name, out, time.monotonic() - began)
 
 
 def clone(root: Path, to: Path) -> Path:

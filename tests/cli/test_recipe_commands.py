@@ -61,7 +61,8 @@ def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     assert answer.code == 0 and "6 steps foreseen" in answer.out and "angle = 7  (3/3)" in answer.out
     answer = pico("run", "turning", "--dry-run")
     assert answer.code == 0 and pico("get", "p1.angle").out.split()[1] == "0"
-    answer = pico("run", "turning", "-p", "angles=3 deg", "--yes")
+    answer = pico("run", "turning", "-p", "angles=3 deg", "--yes", "--junit", "run.xml")
+    assert ElementTree.parse("run.xml").getroot().get("tests") == "1"
     assert answer.code == 0 and "✓   1[1].1 set p1.angle: angle" in answer.out and "last = 3" in answer.out
     assert pico("runs", "show", "--json").data["document"]["cause"]["kind"] == "recipe"
     run = answer.out.partition("`pico runs show ")[2].partition("`")[0]
