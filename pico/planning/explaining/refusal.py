@@ -46,7 +46,11 @@ def proof(refused: Refusal) -> Proof:
 def explain(refused: Refusal, source: Source, proven: Proof | None = None) -> list[Diagnostic]:
     """Return the errors that say why the movers of a refused problem can't all reach their goals."""
     if len(refused.core) == 1:
-        return [_alone(refused, refused.core[0], source)]
+        alone = [_alone(refused, refused.core[0], source)]
+        wide = refused.widest
+        if wide and len(wide.core) == 1 and not wide.table.movers[wide.core[0]].right:
+            alone.append(_alone(wide, wide.core[0], source))  # even where what stands in the way may be moved
+        return [one for n, one in enumerate(alone) if one.address not in {a.address for a in alone[:n]}]
     if refused.blocked and not refused.core:
         return [_no_path(refused.table, refused.blocked[-1], source)]
     movers = refused.table.movers
@@ -90,7 +94,7 @@ def _alone(refused: Refusal, i: int, source: Source) -> Diagnostic:
     for verb, places in (("picked up", (0,)), ("put down", mover.goals)):
         if all(table.grip(i, p, h) is None for p in places for h in mover.holds):
             return _no_grip(table, i, verb, places, source)
-    storage = "stage: never" if not mover.staging else "no storage slot where it could be put down in between"
+    storage = "stage: never" if not mover.stages else "no storage slot where it could be put down in between"
     return error(
         "blocked", f"{mover.name} can't go from {mover.start} to {mover.goal}: no one grasp is free at both ends",
         detail=f"{mover.name}: {storage}", hint="free a storage slot, or leave more room on one side of it",
@@ -234,13 +238,26 @@ def _storage_line(table: Conflicts, i: int) -> str:
         return f"{mover.name}: no slot takes it"
     free = [p for p in mover.staging if table.arrive(i, p) is not None]
     if not free:
-        return f"{mover.name}: every slot that takes it is occupied"
+        return f"{mover.name}: {_no_room(table, i)}"
     held = [p for p in free if any(table.grip(i, p, h) is not None for h in mover.holds)]
     slots = sorted({mover.places[p].slot or "" for p in held or free})
     if not held:
         why = _first_reach(table, i, free, mover)
         return f"{mover.name}: the free slots {listed(slots)} are {why}"
     return f"{mover.name}: {listed(slots)} would take it, but others need {'it' if len(slots) == 1 else 'them'} too"
+
+
+def _no_room(table: Conflicts, i: int) -> str:
+    """Return why a component can stand in none of the slots that take it."""
+    mover, margin = table.movers[i], table.setup.lab.margins.body
+    slots = sorted({mover.places[p].slot or "" for p in mover.staging})
+    if not slots:
+        return "every slot that takes it is occupied"
+    near = sorted({name for p in mover.staging for name in table.static.conflicts(table.shape(i, p), margin)})
+    why = (
+        f"it would come too near to {listed(near, 'or')}" if near else "it would reach over the edge or into a keep-out"
+    )
+    return f"in {listed(slots, 'or')} {why}"
 
 
 def _first_reach(table: Conflicts, i: int, places: Sequence[int], mover: Mover) -> str:

@@ -38,6 +38,8 @@ class Eased:
     def counted(self, mask: int, i: int, taken: int, kind: str, p: int) -> bool:
         """Whether something that is there keeps `i` from `p` by a constraint that counts."""
         stored = p and p not in self.lab.goals[i]
+        if mask == -1:  # no arm gets there
+            return bool(stored) or self.has("reach", i)
         hit = mask & (taken | self.there)
         while hit:
             low = hit & -hit
@@ -97,9 +99,9 @@ class Eased:
         return sum(p not in self.lab.goals[i] for i, p in zip(self.who, state, strict=True))
 
 
-def faults(case: Case, blocking: Collection[Blocking]) -> list[str]:
+def faults(of: Case | Lab, blocking: Collection[Blocking]) -> list[str]:
     """Return what is wrong with a certificate: nothing where it holds for what is right moved aside, or kept."""
-    lab = Lab(case)
+    lab = of if isinstance(of, Lab) else Lab(of)
     found: list[str] = []
     for asides in (True, False):
         still = tuple(i for i in range(len(lab.names)) if lab.right(i) and not (asides and _may_make_room(lab, i)))

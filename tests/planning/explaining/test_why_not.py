@@ -197,7 +197,7 @@ def test_why_storage_breaks_no_ring() -> None:
     assert ring("block", slots=tight)[2] == "a: no slot takes it"
     assert ring("block", kept="s1")[2] == "a: every slot that takes it is occupied"
     assert ring("block", Reach({60.0: Blocked("reach", "no")}))[2] == "a: the free slots s1 are out of reach"
-    assert ring("block", kept=(119, 60))[2] == "a: every slot that takes it is occupied", "its body would overlap"
+    assert ring("block", kept=(119, 60))[2] == "a: in s1 it would come too near to kept"
     beside = {"w": (124, 60), "n": (60, 124)}
     assert ring("block", **beside)[2] == "a: the free slots s1 are without room for the fingers"
     assert ring(part(seating="bolted"))[2] == "a: only a person can move it"
