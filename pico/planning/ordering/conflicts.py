@@ -70,6 +70,8 @@ class Conflicts:
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
         self.ends = sum_of(self._bits[i, p] for i, m in enumerate(movers) for p in {0, *m.goals})
         """Where movers stand at first and where they may end."""
+        self.starts = sum_of(self._bits[i, 0] for i in range(len(movers)))
+        """Where movers stand at first."""
         self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
         self._alike = self._group()
         self._mobile: Grid[Look] = Grid.of({look: placed(look[0], look[2]) for look in self._alike})

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.setup import Setup
-from pico.planning.ordering.conflicts import Conflicts
+from pico.planning.ordering.conflicts import Conflicts, Spot, sum_of
 from pico.planning.ordering.search import OrderedMove
 
 Closure = tuple[frozenset[int], ...]
@@ -22,17 +23,28 @@ def precedence(table: Conflicts, steps: Sequence[OrderedMove], extra: Mapping[in
     order has skipped, or run ahead by, a move that the pair is ordered for. `extra`: bits that the path of a step
     needs besides its mask.
     """
-    needs = [s.mask | extra.get(k, 0) for k, s in enumerate(steps)]
-    leaves = [table.bit(s.mover, s.start) for s in steps]
-    takes = [table.bit(s.mover, s.goal) for s in steps]
-    closure: list[frozenset[int]] = []
+    touched = sum_of(table.bit(s.mover, place) for s in steps for place in (s.start, s.goal))
+    left, needed, own = defaultdict[Spot, int](int), defaultdict[Spot, int](int), defaultdict[int, int](int)
+    masks: list[int] = []
     for k, step in enumerate(steps):
-        before: set[int] = set()
-        for e in range(k):
-            if steps[e].mover == step.mover or needs[k] & leaves[e] or needs[e] & takes[k]:
-                before |= {e} | closure[e]
-        closure.append(frozenset(before))
-    return tuple(closure)
+        needs = tuple(table.at((step.mask | extra.get(k, 0)) & touched))
+        direct = own[step.mover] | needed[step.mover, step.goal] | sum_of(left[spot] for spot in needs)
+        masks.append(_closed(direct, masks))
+        own[step.mover] |= 1 << k
+        left[step.mover, step.start] |= 1 << k
+        for spot in needs:
+            needed[spot] |= 1 << k
+    return tuple(frozenset(e for e in range(k) if mask >> e & 1) for k, mask in enumerate(masks))
+
+
+def _closed(direct: int, earlier: Sequence[int]) -> int:
+    """Return a set of steps with all that must come before them, as bits; the latest say most, so they come first."""
+    found = 0
+    while direct:
+        last = direct.bit_length() - 1
+        found |= 1 << last | earlier[last]
+        direct &= ~found
+    return found
 
 
 def reduced(closure: Closure) -> tuple[tuple[int, ...], ...]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from pico.model.observation import Observation
 from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
 from pico.motion.zones import MARGIN, enters, shared_zones, within
 from pico.planning.ordering.conflicts import Conflicts, Spot
-from pico.planning.ordering.order import Closure, precedence
+from pico.planning.ordering.order import precedence
 from pico.planning.ordering.search import OrderedMove
 
 
@@ -51,14 +51,14 @@ def find_paths(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation
     that it holds in each of them; where only another order would be in the way, the order is fixed by `extra`. An arm
     that stands where another must come in parks first, and so do arms that were left standing where arms meet.
     """
-    extra: dict[int, int] = {}
+    worlds = Worlds(table, steps)
     moves: list[MovePath | None] = [None] * len(steps)
     arms = Arms(table, steps, seen, motion)
     for k, step in enumerate(steps):
         robot = step.hold.robot
         if robot is None:
             continue
-        path = _path(table, steps, k, extra, arms.joints.get(robot), motion)
+        path = _path(worlds, k, arms.joints.get(robot), motion)
         if isinstance(path, NoPath):
             return path
         arms.make_way(k, path)
@@ -67,7 +67,49 @@ def find_paths(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation
     arms.park_all()
     if arms.stuck is not None:
         return arms.stuck
-    return Paths(tuple(moves), tuple(arms.parks), extra)
+    return Paths(tuple(moves), tuple(arms.parks), worlds.extra)
+
+
+class Worlds:
+    """What may stand on the table while each of the steps runs. `extra`: bits that the path of a step needs empty
+    besides its mask."""
+
+    def __init__(self, table: Conflicts, steps: Sequence[OrderedMove]) -> None:
+        self.table, self.steps = table, steps
+        self.extra: dict[int, int] = {}
+        self.staying = {name: o.standing for name, o in table.obstacles.items()}
+        self._standing: dict[Spot, StandingObject] = {}
+        self._closure = precedence(table, steps, self.extra)
+        self._chains: list[list[int]] = [[] for _ in table.movers]
+        for e, step in enumerate(steps):
+            self._chains[step.mover].append(e)
+
+    def keep_empty(self, k: int, spot: Spot) -> None:
+        """Have a spot empty while step `k` runs."""
+        self.extra[k] = self.extra.get(k, 0) | self.table.bit(*spot)
+        self._closure = precedence(self.table, self.steps, self.extra)
+
+    def possible(self, k: int) -> Iterator[Spot]:
+        """Yield the spots of other movers that may be taken while step `k` runs, in some order that keeps what must
+        come before what."""
+        for j, chain in enumerate(self._chains):
+            if j == self.steps[k].mover:
+                continue
+            place = 0
+            for e in chain:
+                if e not in self._closure[k]:
+                    yield j, place
+                if k in self._closure[e]:
+                    break
+                place = self.steps[e].goal
+            else:
+                yield j, place
+
+    def standing(self, spot: Spot) -> StandingObject:
+        """Return the component of a spot, standing there."""
+        if spot not in self._standing:
+            self._standing[spot] = _standing(self.table, spot)
+        return self._standing[spot]
 
 
 class Arms:
@@ -126,26 +168,21 @@ class Arms:
         return NoPath(step, blocked, spots[0] if spots else None)
 
 
-def _path(
-    table: Conflicts, steps: Sequence[OrderedMove], k: int, extra: dict[int, int], joints: Joints | None, motion: Motion
-) -> MovePath | NoPath:
-    step = steps[k]
+def _path(worlds: Worlds, k: int, joints: Joints | None, motion: Motion) -> MovePath | NoPath:
+    table, step = worlds.table, worlds.steps[k]
     mover = table.movers[step.mover]
-    now = places_before(table, steps, k)
+    now = places_before(table, worlds.steps, k)
+    start, goal = mover.places[step.start].pose, mover.places[step.goal].pose
     while True:
-        closure = precedence(table, steps, extra)
-        ghosts = {_name(table, spot, now): spot for spot in possible(table, steps, closure, k)}
-        standing = {name: o.standing for name, o in table.obstacles.items()} | {
-            name: _standing(table, spot) for name, spot in ghosts.items()
-        }
-        start, goal = mover.places[step.start].pose, mover.places[step.goal].pose
+        ghosts = {_name(table, spot, now): spot for spot in worlds.possible(k)}
+        standing = worlds.staying | {name: worlds.standing(spot) for name, spot in ghosts.items()}
         found = motion.move(step.hold.robot or "", mover.name, start, goal, step.hold.yaw, standing, joints)
         if isinstance(found, MovePath):
             return found
         spot = ghosts.get(found.obstacle or "")
         if spot is None or now[spot[0]] == spot[1]:
             return NoPath(step, found, spot)
-        extra[k] = extra.get(k, 0) | table.bit(*spot)
+        worlds.keep_empty(k, spot)
 
 
 def places_before(table: Conflicts, steps: Sequence[OrderedMove], k: int) -> list[int]:
@@ -154,23 +191,6 @@ def places_before(table: Conflicts, steps: Sequence[OrderedMove], k: int) -> lis
     for step in steps[:k]:
         places[step.mover] = step.goal
     return places
-
-
-def possible(table: Conflicts, steps: Sequence[OrderedMove], closure: Closure, k: int) -> list[Spot]:
-    """Return the spots of other movers that may be taken while step `k` runs, in some order that keeps `closure`."""
-    spots: list[Spot] = []
-    for j in range(len(table.movers)):
-        if j == steps[k].mover:
-            continue
-        chain = [e for e, s in enumerate(steps) if s.mover == j]
-        stops = [(None, 0), *((e, steps[e].goal) for e in chain)]
-        for n, (arrival, place) in enumerate(stops):
-            leaving = chain[n] if n < len(chain) else None
-            gone = leaving is not None and leaving in closure[k]
-            later = arrival is not None and k in closure[arrival]
-            if not gone and not later:
-                spots.append((j, place))
-    return spots
 
 
 def _name(table: Conflicts, spot: Spot, now: Sequence[int]) -> str:

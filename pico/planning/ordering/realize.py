@@ -163,29 +163,32 @@ class _Replay:
 
     def run(self) -> bool:
         """Make the moves; False where no slots for them are found."""
-        places = [0] * len(self.table.movers)
+        places, taken = [0] * len(self.table.movers), self.table.starts
         trail: list[Iterator[OrderedMove]] = []
         while len(self.steps) < len(self.order):
             if len(trail) == len(self.steps):
-                trail.append(self._ways(self.order[len(trail)], places))
+                trail.append(self._ways(self.order[len(trail)], places, taken))
             step = next(trail[-1], None) if self.tries > 0 else None
             if step is not None:
                 self.tries -= 1
                 self.steps.append(step)
                 places[step.mover] = step.goal
+                taken ^= self._moved(step)
                 continue
             trail.pop()
             if not self.steps or self.tries <= 0:
                 return False
             undone = self.steps.pop()
             places[undone.mover] = undone.start
+            taken ^= self._moved(undone)
         return True
 
-    def _ways(self, act: Act, places: list[int]) -> Iterator[OrderedMove]:
+    def _moved(self, step: OrderedMove) -> int:
+        """Return the bits of the spots that a move leaves and takes."""
+        return self.table.bit(step.mover, step.start) ^ self.table.bit(step.mover, step.goal)
+
+    def _ways(self, act: Act, places: list[int], taken: int) -> Iterator[OrderedMove]:
         i, what = act
-        taken = 0
-        for j, place in enumerate(places):
-            taken |= self.table.bit(j, place)
         for goal in self._between(i) if what == "leaves" else self._ends(i, places[i]):
             way = self.table.way(i, places[i], goal, taken)
             if way:

@@ -40,15 +40,13 @@ def _shorter(table: Conflicts, steps: tuple[OrderedMove, ...]) -> Iterator[tuple
 
 def valid(table: Conflicts, steps: Sequence[OrderedMove]) -> tuple[OrderedMove, ...] | None:
     """Return the steps with holds and masks that are possible one after the other, or None where one is not."""
-    places = [0] * len(table.movers)
+    taken = table.starts
     out = []
     for step in steps:
-        taken = 0
-        for j, place in enumerate(places):
-            taken |= table.bit(j, place)
-        way = table.way(step.mover, places[step.mover], step.goal, taken)
-        if way is None or places[step.mover] != step.start:
+        start = table.bit(step.mover, step.start)
+        way = table.way(step.mover, step.start, step.goal, taken) if taken & start else None
+        if way is None:
             return None
         out.append(OrderedMove(step.mover, step.start, step.goal, way.hold, way.mask))
-        places[step.mover] = step.goal
+        taken ^= start ^ table.bit(step.mover, step.goal)
     return tuple(out)
