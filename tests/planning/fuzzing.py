@@ -9,6 +9,7 @@ from exhaustive import Undecided, least_moves
 from random_labs import Case, random_case
 
 from pico.model.plan import Base, Plan, Target
+from pico.motion.types import Motion
 from pico.planning import plan
 
 SMALL = 7
@@ -32,10 +33,10 @@ class Verdict:
     wrong: tuple[str, ...]
 
 
-def plan_case(case: Case) -> Plan:
-    """Return the plan of a case, without motion."""
+def plan_case(case: Case, motion: Motion | None = None) -> Plan:
+    """Return the plan of a case, without motion where none is given."""
     return plan(
-        case.setup, case.seen, case.wanted, motion=None, backend="sim", fidelity="kinematic", base=Base(),
+        case.setup, case.seen, case.wanted, motion=motion, backend="sim", fidelity="kinematic", base=Base(),
         target=Target(),
     )  # fmt: skip
 

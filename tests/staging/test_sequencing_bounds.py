@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 from sequencing_cases import cheapest, instance, keeps
 
+from pico.staging.sequencing import program
 from pico.staging.sequencing.assignment import assign, duals
 from pico.staging.sequencing.cuts import cut_bound, violated
 from pico.staging.sequencing.exchange import exchangeable
 from pico.staging.sequencing.flow import Network
 from pico.staging.sequencing.nearest import nearest_order
+from pico.staging.sequencing.problem import Effort
+from pico.staging.sequencing.program import CutProgram
 from pico.staging.sequencing.stretches import rearranged, stretch
 
 
@@ -60,11 +63,55 @@ def test_cuts_raise_the_assignment_bound_but_never_above_the_best_order() -> Non
     raised = 0
     for seed in range(40):
         case = instance(7, 0.15, seed)
-        floor = assign(case.tour).bound
-        bound = cut_bound(case.tour, floor, 10)
-        assert floor <= bound <= cheapest(case) + 1e-6
-        raised += bound > floor + 0.5
+        floor = assign(case.tour)
+        bound = cut_bound(case.tour, nearest_order(case.tour), floor, Effort(rounds=10))
+        assert floor.bound <= bound <= cheapest(case) + 1e-6
+        raised += bound > floor.bound + 0.5
     assert raised > 10
+
+
+@pytest.mark.parametrize("pivots", [1, 3, 8, 20])
+def test_a_bound_that_is_stopped_halfway_is_one_all_the_same(pivots: int) -> None:
+    less = 0
+    for seed in range(20):
+        case = instance(7, 0.15, seed)
+        floor, order = assign(case.tour), nearest_order(case.tour)
+        bound = cut_bound(case.tour, order, floor, Effort(rounds=10, pivots=pivots))
+        assert floor.bound <= bound <= cheapest(case) + 1e-6
+        less += bound < cut_bound(case.tour, order, floor, Effort(rounds=10)) - 0.1
+    assert less > 10 or pivots > 8, "nothing was stopped"
+
+
+def test_linear_programs_take_no_more_steps_than_they_may() -> None:
+    case = instance(40, 0.05, 1)
+    made = CutProgram(case.tour, nearest_order(case.tour), assign(case.tour).excess, 50)
+    assert made.bound() > -float("inf")
+    assert made.pivots == 0
+    assert made.bound() == -float("inf"), "nothing is left for it"
+
+
+def test_few_arcs_bound_all_orders_as_well_as_all_arcs(monkeypatch: pytest.MonkeyPatch) -> None:
+    joined = 0
+    for seed in range(6):
+        case = instance(30, 0.1, seed)
+        floor, order = assign(case.tour), nearest_order(case.tour)
+        monkeypatch.setattr(program, "GOOD", 31)
+        everything = CutProgram(case.tour, order, floor.excess, 100_000)
+        cuts = list[tuple[int, int]]()
+        for _ in range(3):
+            every = everything.bound()
+            cuts += (new := violated(case.tour, [], everything.used(1e-7)))
+            everything.add(new)
+        every = everything.bound()
+        monkeypatch.setattr(program, "GOOD", 3)
+        monkeypatch.setattr(program, "PRICINGS", 50)
+        few = CutProgram(case.tour, order, floor.excess, 100_000)
+        at_first = len(few.used(-1.0))
+        few.add(cuts)
+        assert few.bound() == pytest.approx(every, abs=1e-4)
+        joined += len(few.used(-1.0)) - at_first
+        assert len(few.used(-1.0)) < len(everything.used(-1.0)) / 2
+    assert joined > 0, "no arc was ever missing"
 
 
 def test_a_cut_is_found_exactly_where_too_little_can_flow() -> None:

@@ -10,16 +10,21 @@ from pico.motion.types import Motion
 from pico.planning.ordering.arm_times import least, timed
 from pico.planning.ordering.clock import Clock
 from pico.planning.ordering.conflicts import Conflicts
-from pico.planning.ordering.order import arranged, precedence
+from pico.planning.ordering.order import Closure, arranged, precedence
 from pico.planning.ordering.search import OrderedMove
 from pico.planning.ordering.several_arms import handed, shared_out, work_of
 from pico.planning.ordering.shorten import valid
-from pico.staging.sequencing import Effort, best_order
+from pico.staging.sequencing import Effort, best_order, tightened
 
 CLOSE = 8
 """How many other places to stage a component are weighed."""
-MANY = Effort(moves=150_000, steps=20_000_000, rounds=3)
-"""How hard to look for an order of more moves than are solved exactly at once."""
+MANY = Effort(moves=150_000, steps=20_000_000, rounds=3, pivots=10_000)
+"""How hard to look for an order of more moves than are solved exactly at once, and for a bound."""
+ORDER = replace(MANY, rounds=0)
+"""The same for an order alone: of several only one needs a bound."""
+
+Tables = tuple[list[float], list[list[float]], list[float], Closure]
+"""What the ways to the first move, between moves and to the park take [s], and what must come before each move."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +53,28 @@ def toured(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, mo
         order = arranged(table.setup, table, steps, precedence(table, steps, {}))
         loaded = {r: sum(clock.loaded(s) for s in order if s.hold.robot == r) for r in robots}
         return ArmTour(order, sum(loaded.values()), max(loaded.values(), default=0.0) if clock.told else None)
-    first = _sequenced(clock, steps)
-    moved = nearer(clock, first.steps)
-    best = _sequenced(clock, moved) if moved != first.steps else first
-    return replace(best, bound=_least(clock, best.steps)) if several else best
+    return _one_arm(clock, steps, several)
 
 
-def _sequenced(clock: Clock, steps: Sequence[OrderedMove]) -> ArmTour:
+def _one_arm(clock: Clock, steps: Sequence[OrderedMove], several: bool) -> ArmTour:
+    """Return the steps of one arm in order. The bound is that of the order taken; `several`: of all arms that could."""
+    asked = _tables(clock, steps)
+    best = best_order(*asked, limit=ORDER)
+    order = tuple(steps[k] for k in best.order)
+    if (moved := nearer(clock, order)) != order:
+        asked = _tables(clock, moved)
+        best = best_order(*asked, limit=ORDER)
+        order = tuple(moved[k] for k in best.order)
+    loaded = sum(clock.loaded(s) for s in order)
+    if several or not clock.told:
+        return ArmTour(order, loaded + best.cost, _least(clock, order) if several else None)
+    return ArmTour(order, loaded + best.cost, loaded + tightened(*asked, best, MANY).lower_bound)
+
+
+def _tables(clock: Clock, steps: Sequence[OrderedMove]) -> Tables:
     between = [[clock.between(a, b) if a is not b else 0.0 for b in steps] for a in steps]
     start, end = [clock.start(s) for s in steps], [clock.end(s) for s in steps]
-    best = best_order(start, between, end, precedence(clock.table, steps, {}), limit=MANY)
-    loaded = sum(clock.loaded(s) for s in steps)
-    bound = loaded + best.lower_bound if clock.told else None
-    return ArmTour(tuple(steps[k] for k in best.order), loaded + best.cost, bound)
+    return start, between, end, precedence(clock.table, steps, {})
 
 
 def _least(clock: Clock, steps: Sequence[OrderedMove]) -> float:

@@ -16,43 +16,34 @@ the one operation that the cut was looked for to before(S), which costs nothing 
 from __future__ import annotations
 
 from collections import abc
-from typing import Any
 
+from pico.staging.sequencing.assignment import Assignment
 from pico.staging.sequencing.flow import Network
-from pico.staging.sequencing.problem import Masks, Tour
-
-Cut = tuple[int, int]
-"""Two sets of operations as bits, the start and the park among them as bit m: one arc at least goes from the first to
-the second."""
+from pico.staging.sequencing.problem import Effort, Masks, Tour
+from pico.staging.sequencing.program import Cut, CutProgram
 
 VIOLATED = 0.01
 """A cut is worth adding where so much is missing."""
 SUPPORT = 1e-7
 """An arc used less than this is not used."""
-SLACK = 1e-7
-"""By so much an arc may be worth more to the program than it says; all arcs of an order together are taken off."""
 
 
-def cut_bound(tour: Tour, bound: float, rounds: int) -> float:
-    """Return a cost that no order of `tour` can beat, at least `bound`, after so many rounds of cuts."""
-    arcs = [(i, j) for i in range(tour.count + 1) for j in range(tour.count + 1) if tour.follows(i, j)]
-    scale = max(abs(tour.arcs[i][j]) for i, j in arcs) or 1.0
-    program = _assignment_program(tour, arcs, scale)
+def cut_bound(tour: Tour, order: abc.Sequence[int], floor: Assignment, limit: Effort) -> float:
+    """Return a cost that no order of `tour` can beat, at least that of `floor`: after so many rounds of cuts, or as far
+    as the pivots of `limit` lead. `order`: one that keeps the precedence."""
+    program = CutProgram(tour, order, floor.excess, limit.pivots)
+    bound = floor.bound
     known: dict[Cut, None] = {}
     pairs = _direct_pairs(tour.before)
-    for turn in range(rounds):
-        program.run()
-        value = program.getInfo().objective_function_value
-        bound = max(bound, scale * (value - SLACK * (tour.count + 1)))
-        if turn + 1 == rounds:
+    for turn in range(limit.rounds):
+        bound = max(bound, program.bound())
+        if turn + 1 == limit.rounds or program.pivots <= 0:
             break
-        shares = program.getSolution().col_value
-        used = [(i, j, x) for (i, j), x in zip(arcs, shares, strict=True) if x > SUPPORT]
-        new = [c for c in violated(tour, pairs, used) if c not in known]
+        new = [c for c in violated(tour, pairs, program.used(SUPPORT)) if c not in known]
         if not new:
             break
         known |= dict.fromkeys(new)
-        _add(program, arcs, new)
+        program.add(new)
     return bound
 
 
@@ -97,37 +88,3 @@ def _union(masks: Masks, members: int) -> int:
     for k in _members(members):
         union |= masks[k]
     return union
-
-
-def _assignment_program(tour: Tour, arcs: abc.Sequence[tuple[int, int]], scale: float) -> Any:
-    """Return the program in which every operation is entered and left once; its costs are at most 1."""
-    import highspy
-    import numpy as np
-
-    program: Any = highspy.Highs()  # type: ignore[no-untyped-call]
-    for option, value in (("output_flag", False), ("threads", 1), ("random_seed", 0)):
-        program.setOptionValue(option, value)
-    for i, j in arcs:
-        program.addCol(tour.arcs[i][j] / scale, 0.0, 1.0, 0, np.empty(0, np.int32), np.empty(0))
-    ends = np.array(arcs)
-    for k in range(tour.count + 1):
-        for end in (0, 1):
-            _add_row(program, np.flatnonzero(ends[:, end] == k), 1.0)
-    return program
-
-
-def _add(program: Any, arcs: abc.Sequence[tuple[int, int]], cuts: abc.Iterable[Cut]) -> None:
-    import numpy as np
-
-    ends = np.array(arcs)
-    nodes = int(ends.max()) + 1
-    for out, into in cuts:
-        leaves, enters = (np.array([mask >> k & 1 for k in range(nodes)], bool) for mask in (out, into))
-        _add_row(program, np.flatnonzero(leaves[ends[:, 0]] & enters[ends[:, 1]]), float("inf"))
-
-
-def _add_row(program: Any, columns: Any, most: float) -> None:
-    """Add 1 <= sum of the columns <= most."""
-    import numpy as np
-
-    program.addRow(1.0, most, len(columns), columns.astype(np.int32), np.ones(len(columns)))

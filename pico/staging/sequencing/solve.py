@@ -46,7 +46,24 @@ def best_order(
         if ended:
             return _proven(tour, order)
     order = rearranged(tour, anneal(tour, order, near, limit.moves, limit.seed))
-    return _bounded(tour, order, floor.bound, limit)
+    return _bounded(tour, order, floor, limit)
+
+
+def tightened(
+    start: abc.Sequence[float],
+    between: abc.Sequence[abc.Sequence[float]],
+    end: abc.Sequence[float],
+    before: abc.Sequence[abc.Set[int]],
+    found: Sequence,
+    limit: Effort,
+) -> Sequence:
+    """Return what `best_order` found, by itself without rounds, with the bound that the rounds of `limit` lead to."""
+    if found.proven:
+        return found
+    from pico.staging.sequencing.assignment import assign
+
+    tour = read_tour(start, between, end, before)
+    return _bounded(tour, found.order, assign(tour), limit)
 
 
 def _proven(tour: Tour, order: tuple[int, ...]) -> Sequence:
@@ -54,12 +71,12 @@ def _proven(tour: Tour, order: tuple[int, ...]) -> Sequence:
     return Sequence(order, cost, cost, True)
 
 
-def _bounded(tour: Tour, order: tuple[int, ...], bound: float, limit: Effort) -> Sequence:
+def _bounded(tour: Tour, order: tuple[int, ...], floor: Assignment, limit: Effort) -> Sequence:
     from pico.staging.sequencing.cuts import cut_bound
 
-    cost = tour.cost(order)
-    if bound < cost - TOLERANCE * abs(cost):
-        bound = cut_bound(tour, bound, limit.rounds)
+    cost, bound = tour.cost(order), floor.bound
+    if limit.rounds and bound < cost - TOLERANCE * abs(cost):
+        bound = cut_bound(tour, order, floor, limit)
     bound = min(bound, cost)
     return Sequence(order, cost, bound, bound >= cost - TOLERANCE * abs(cost))
 

@@ -19,10 +19,15 @@ def rearranged(tour: Tour, order: abc.Sequence[int]) -> tuple[int, ...]:
     search for it ends; never dearer."""
     line = [tour.count, *order, tour.count]
     length = min(LENGTH, tour.count)
+    known: dict[tuple[int, ...], list[int]] = {}
     for _ in range(SWEEPS):
         before = tuple(line)
         for first in [*range(1, tour.count - length + 1, STEP), tour.count - length + 1]:
-            line[first : first + length] = _cheaper(tour, line, first, first + length)
+            at = slice(first - 1, first + length + 1)
+            if tuple(line[at]) not in known:
+                inner = _cheaper(tour, line, first, first + length)
+                known[tuple(line[at])] = known[line[first - 1], *inner, line[first + length]] = inner
+            line[first : first + length] = known[tuple(line[at])]
         if tuple(line) == before:
             break
     return tuple(line[1:-1])
