@@ -75,6 +75,7 @@ class Conflicts:
         self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
         self._alike = self._group()
         self._mobile: Grid[Look] = Grid.of({look: placed(look[0], look[2]) for look in self._alike})
+        self._inside: dict[str | None, int] = {}
         self._arrive: dict[Spot, int | None] = {}
         self._grip: dict[tuple[int, int, Hold], int | None] = {}
         self._ways: dict[tuple[int, int, int], tuple[Way, ...]] = {}
@@ -112,6 +113,14 @@ class Conflicts:
             low = mask & -mask
             yield self.spots[low.bit_length() - 1]
             mask ^= low
+
+    def inside(self, slot: str | None) -> int:
+        """Return the bits of the spots in a slot; None: of those in none."""
+        if not self._inside:
+            for (i, p), bit in self._bits.items():
+                key = self.movers[i].places[p].slot
+                self._inside[key] = self._inside.get(key, 0) | bit
+        return self._inside[slot]
 
     def shape(self, mover: int, place: int) -> Shape:
         """Return the footprint of a mover at one of its places."""

@@ -49,9 +49,7 @@ def _closed(direct: int, earlier: Sequence[int]) -> int:
 
 def reduced(closure: Closure) -> tuple[tuple[int, ...], ...]:
     """Return for each step those that come directly before it: what the others do not already say."""
-    return tuple(
-        tuple(sorted(e for e in before if not any(e in closure[other] for other in before))) for before in closure
-    )
+    return tuple(tuple(sorted(before.difference(*(closure[e] for e in before)))) for before in closure)
 
 
 def arranged(setup: Setup, table: Conflicts, steps: Sequence[OrderedMove], closure: Closure) -> tuple[OrderedMove, ...]:

@@ -25,8 +25,8 @@ def realized(table: Conflicts, problem: StagingProblem, answer: StagingAnswer) -
     assert answer.options is not None
     stays = {i for i, c in enumerate(answer.options) if c.direct is not None and _stays(problem, i, c.direct)}
     before = _before(problem, answer.options)
-    for order in (_order(before), _roomiest(before)):
-        replay = _Replay(table, [act for act in order if act[0] not in stays], TRIES)
+    for ordered in (_order, _roomiest):
+        replay = _Replay(table, [act for act in ordered(before) if act[0] not in stays], TRIES)
         if replay.run():
             return tuple(replay.steps)
     return None

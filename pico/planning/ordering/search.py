@@ -176,7 +176,7 @@ def ranked_storage(table: Conflicts, i: int, who: Sequence[int]) -> tuple[int, .
 
     def rank(place: int) -> tuple[bool, int, float]:
         spot = mover.places[place]
-        crowd = sum(table.movers[j].places[p].slot != spot.slot for j, p in table.at(table.arrive(i, place) or 0))
+        crowd = ((table.arrive(i, place) or 0) & ~table.inside(spot.slot)).bit_count()
         return spot.slot in wanted, crowd, spot.pose.distance(mover.goal.pose)
 
     return tuple(sorted((p for p in mover.staging if table.arrive(i, p) is not None), key=rank))
