@@ -70,12 +70,9 @@ class Conflicts:
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
         self.ends = sum_of(self._bits[i, p] for i, m in enumerate(movers) for p in {0, *m.goals})
         """Where movers stand at first and where they may end."""
-        self.starts = sum_of(self._bits[i, 0] for i in range(len(movers)))
-        """Where movers stand at first."""
         self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
         self._alike = self._group()
         self._mobile: Grid[Look] = Grid.of({look: placed(look[0], look[2]) for look in self._alike})
-        self._inside: dict[str | None, int] = {}
         self._arrive: dict[Spot, int | None] = {}
         self._grip: dict[tuple[int, int, Hold], int | None] = {}
         self._ways: dict[tuple[int, int, int], tuple[Way, ...]] = {}
@@ -114,13 +111,18 @@ class Conflicts:
             yield self.spots[low.bit_length() - 1]
             mask ^= low
 
-    def inside(self, slot: str | None) -> int:
-        """Return the bits of the spots in a slot; None: of those in none."""
-        if not self._inside:
-            for (i, p), bit in self._bits.items():
-                key = self.movers[i].places[p].slot
-                self._inside[key] = self._inside.get(key, 0) | bit
-        return self._inside[slot]
+    @property
+    def starts(self) -> int:
+        """The bits of where movers stand at first."""
+        return sum_of(self._bits[i, 0] for i in range(len(self.movers)))
+
+    def by_slot(self) -> dict[str | None, int]:
+        """Return the bits of the spots in each slot; None: of those in none."""
+        found: dict[str | None, int] = {}
+        for i, p in self.spots:
+            slot = self.movers[i].places[p].slot
+            found[slot] = found.get(slot, 0) | self._bits[i, p]
+        return found
 
     def shape(self, mover: int, place: int) -> Shape:
         """Return the footprint of a mover at one of its places."""

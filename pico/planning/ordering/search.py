@@ -172,11 +172,11 @@ def ranked_storage(table: Conflicts, i: int, who: Sequence[int]) -> tuple[int, .
     """Return the storage places of a component, those first that none of `who` needs and that hinder least, then near
     ones."""
     mover = table.movers[i]
-    wanted = {table.movers[j].goal.slot for j in who}
+    wanted, inside = {table.movers[j].goal.slot for j in who}, table.by_slot()
 
     def rank(place: int) -> tuple[bool, int, float]:
         spot = mover.places[place]
-        crowd = ((table.arrive(i, place) or 0) & ~table.inside(spot.slot)).bit_count()
+        crowd = ((table.arrive(i, place) or 0) & ~inside[spot.slot]).bit_count()
         return spot.slot in wanted, crowd, spot.pose.distance(mover.goal.pose)
 
     return tuple(sorted((p for p in mover.staging if table.arrive(i, p) is not None), key=rank))
