@@ -117,7 +117,7 @@ def swapped(
     root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value], known: Known | None = None
 ) -> Swap:  # fmt: skip
     """Return what exchanging the specimen of a part changes in the bench's own Lab and in the tree's files; nothing is
-    written. Raises PicoError for what would not be right in either."""
+    written. Raises PicoError for what would not be right in either, or in the state beside them."""
     from pico.manifest.exchange import exchanged
 
     tree = own_lab.proposed(root)
@@ -128,12 +128,27 @@ def swapped(
         new = replace(lab, files={**lab.files, **own_lab.of_files(files).files})
         own_lab.setup_of(replace(new, at=""))  # what it would be: nothing that is kept is wrong
         made.append(new)
+    _require_state(root, made[1], name)
     setup = own_lab.setup_of(own)
     before = setup.lab.inventory[name]
     kept_as = {k: v for k, v in (before.parameters or {}).items() if k not in parameters}
     patch = "".join(_patch(tree.files, made[1].files))
     same = made[0].files == own.files and not patch
     return Swap(name, before.serial, serial, made[0], made[1], patch, kept_as, kind, parameters, known, same)
+
+
+def _require_state(root: Path, tree: OwnLab, name: str) -> None:
+    """Raise PicoError for what is wrong in the files of a lab with another Lab, and is right without."""
+    from pico.manifest.files import read_folder
+    from pico.manifest.load import load_files
+
+    files, _ = read_folder(root)
+    known = [d.summary for d in load_files(files).diagnostics if d.severity == "error"]
+    after = load_files({**files, **tree.as_bytes()}).diagnostics
+    if wrong := [d for d in after if d.severity == "error" and d.summary not in known]:
+        text = f"what the manifests say of {name} does not go with another specimen like that"
+        hint = "change what is named here so that it goes with both, or take it out; then swap, then say it anew"
+        raise PicoError([error("swap", text, hint=hint), *wrong])
 
 
 def swap(root: Path, backend: str, change: Swap) -> None:

@@ -65,6 +65,16 @@ def test_what_can_not_be_is_refused_where_it_would_stand(kept: Path, pico: Pico)
     assert answer.code == 1 and "pico init" not in answer.err and "lab.yaml:" in answer.err
 
 
+def test_another_type_that_the_state_does_not_go_with_is_refused_at_its_line(kept: Path, pico: Pico) -> None:
+    before = (kept / "lab.yaml").read_bytes()
+    for more in ((), ("--dry-run",)):
+        answer = pico("swap", "p2", "--serial", "B7", "--type", "plano_convex_100", "-y", *more)
+        assert answer.code == 1 and "p2 (plano_convex_100) has no tunable `angle`" in answer.err
+        assert "does not go with another specimen" in answer.err and "state/table.yaml:" in answer.err
+    assert (kept / "lab.yaml").read_bytes() == before and not pico("plan").err
+    assert pico("validate").code == 0
+
+
 def test_who_says_no_or_is_not_there_swaps_nothing(kept: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
     before = (kept / "lab.yaml").read_bytes()
     monkeypatch.setattr("sys.stdin", Typed("n\n"))

@@ -15,7 +15,7 @@ from serving import served
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
-from pico.edge import armings, own_lab
+from pico.edge import aligning, armings, local, own_lab
 from pico.edge.link import server
 from pico.edge.local import embedded
 from pico.edge.protocol import Edge, Lease
@@ -268,3 +268,30 @@ def test_who_leaves_the_role_arms_nothing_any_more(lab: Path) -> None:
         changed = replace(policy, arming=replace(policy.arming, roles=roles))
         setup = replace(bench.setup, lab=replace(bench.setup.lab, policy=changed))
         assert not over(bench.setup, arming(), NOON) and "no laser_user" in over(setup, arming(), NOON)
+
+
+@pytest.mark.parametrize("goal", [("null", "p2", "cam"), ("centre", "ly_150", "cam"), ("peak", "p2", "cam")])
+@pytest.mark.parametrize("after", [2, 4])
+def test_an_optimization_during_which_an_arming_ends_is_left_where_light_was_and_says_so(
+    lab: Path, monkeypatch: pytest.MonkeyPatch, goal: tuple[str, ...], after: int
+) -> None:
+    monkeypatch.setattr(local, "LOOKS", 1)
+    monkeypatch.setattr(local, "OBEYS", 0.0)
+    clock, told = Clock(), aligning.Aligning._progress
+
+    def progress(self: Any, run: Any, ask: Any, reading: Any) -> None:
+        told(self, run, ask, reading)
+        clock.now = EVENING if run.measured >= after else clock.now
+
+    monkeypatch.setattr(aligning.Aligning, "_progress", progress)
+    with at(lab, clock) as bench:
+        bench.apply("e1")
+        bench.wait(bench.edge.arm(arming()))
+        assert bench.apply(bench.single("laser", "set", shutter="open")).outcome == "done"
+        before = bench.observe().known_values
+        report, found = bench.goals.optimize(bench.goals.plan(bench.goals.chosen(goal)))
+        assert shutter(bench) == "closed" and bench.observe().known_values["cam"] == before["cam"]
+        if found.met:  # it was quicker
+            return
+        assert any("laser was shut: the arming by Ada Lovelace ended" in d.summary for d in report.diagnostics)
+        assert bench.observe().known_values[goal[1]] == before[goal[1]] and found.last is None
