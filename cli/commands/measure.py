@@ -36,15 +36,12 @@ def measure(
       pico measure 'cam.image | background | mode_overlap(radius=450)'
     """
     from pico.diagnostics import ExitCode
-    from pico.kernels.pipeline import parsed
 
     from ..runs.approving import measured
 
     session = Session.of(context)
     component, _, measurable = (word.strip() for word in what.partition("."))
-    kernels = measurable if "|" in measurable else ""
     bench = session.bench(fidelity, None, writing=not dry_run)
-    measurable = parsed(kernels).source if kernels else measurable
     plan = bench.plans.single(component, "measure", {"measurable": measurable} if measurable else {})
     report = measured(session, bench, plan, auto_approve, dry_run)
     if isinstance(report, int):
@@ -55,7 +52,6 @@ def measure(
         session.report(report.diagnostics)
     if found is None:
         return int(report.exit_code) or ExitCode.ERROR
-    found = bench.measurements.computed(found, kernels) if kernels else found
     session.show(view, found, run=report.run, advice=bench.measurements.advice(found))
     session.draw(picture, found.address, lambda path: bench.measurements.picture(found, path))
     return int(report.exit_code) or (ExitCode.ERROR if found.unknown else ExitCode.DONE)

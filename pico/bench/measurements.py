@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
+from pico.kernels.pipeline import source_of
 from pico.model.drift import drift_of
 from pico.model.plan import Plan
 from pico.model.request import read_peeked, read_values
@@ -47,26 +48,6 @@ class Measurements:
         if tunable and declared and declared.datatype in ("image", "float", "numbers"):
             return {tunable: read_peeked(opened.wait(opened.edge.peek(component, tunable)))}
         return read_values(opened.setup, opened.observe(), component, tunable)
-
-    def computed(self, measurement: Measurement, kernels: str) -> Measurement:
-        """Return what kernels (`image | centroid`) make of a picture that was measured, as a measurement; raises
-        PicoError."""
-        from pico.content.arrays import load_array
-        from pico.content.store import store_of
-        from pico.diagnostics import PicoError, error
-        from pico.kernels.measured import computed, version
-        from pico.kernels.pipeline import parsed
-
-        if measurement.array is None:
-            text = f"{measurement.address} is no picture: kernels have nothing to work on"
-            raise PicoError(error("kernel", text, address=measurement.address))
-        pipeline = parsed(kernels)
-        array = load_array(store_of(self.opened.folder.root), measurement.array)
-        found = computed(pipeline, array, measurement.settings)
-        return replace(
-            measurement, value=found.value, sigma=found.sigma, unit=found.unit, unknown=found.unknown or None,
-            kernel=kernels, kernel_version=version(pipeline),
-        )  # fmt: skip
 
     def picture(self, measurement: Measurement, out: Path) -> None:
         """Write the picture of a measurement as PNG, its brightest pixel white, its black level black; raises PicoError
@@ -138,7 +119,7 @@ class Measurements:
         turns, told = readable(setup, seen, state, goals, self._when_met(goals, recorded.goals), able)
         spoken = measured_in(setup, [one.that for one in state.expect])
         light = [(one.component, one.measurable) for _, one in sorted(recorded.measured.items())]
-        wanted = [one for one in dict.fromkeys((*spoken, *light)) if ".".join(one) in able]
+        wanted = [one for one in dict.fromkeys((*spoken, *light)) if source_of(".".join(one)) in able]
         return Verification(Plans(opened).measuring(wanted, turns), told)
 
     def _when_met(

@@ -12,6 +12,7 @@ from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.edge.lease import utc_now
+from pico.kernels.pipeline import source_of
 from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
@@ -161,7 +162,9 @@ class Plans:
             return ()
         able = self.opened.wait(self.opened.edge.describe()).measurables
         recorded = Lights(self.opened).recorded(target.revision).measured
-        return tuple((one.component, one.measurable) for address, one in sorted(recorded.items()) if address in able)
+        return tuple(
+            (one.component, one.measurable) for address, one in sorted(recorded.items()) if source_of(address) in able
+        )
 
     def start_of(self, seen: Observation) -> dict[str, Any]:
         """Return what a plan from this observation starts from, and on what it is to run."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.execution.stale import require_fresh, stale
+from pico.kernels.pipeline import source_of
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
@@ -66,7 +67,7 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
         elif op.primitive not in able.primitives:
             text = f"{able.name} ({able.fidelity}) cannot {op.primitive} {op.component}"
             yield error("capability", text, detail=f"{op.id} of the plan asks for it", address=op.component)
-        elif op.primitive == "measure" and op.address not in able.measurables:
+        elif op.primitive == "measure" and source_of(op.address) not in able.measurables:
             yield _unmeasured(op, able)
     for name in sorted({op.robot for op in plan.operations if op.robot} - set(able.robots)):
         here = ", ".join(able.robots) or "none"

@@ -59,11 +59,16 @@ def version(pipeline: Pipeline) -> str:
 def numbers_by(text: str, name: str) -> tuple[str, ...]:
     """Return what the numbers of the measurable `name` with these kernels are called: its own name where there is one
     number, else `name.x`; none where the text means nothing."""
+    return tuple(units_by(text, name))
+
+
+def units_by(text: str, name: str) -> dict[str, str]:
+    """Return the units of the numbers that `numbers_by` names, in their order."""
     try:
         units = parsed(text).last.units
     except PicoError:
-        return ()
-    return (name,) if len(units) == 1 else tuple(f"{name}.{number}" for number in units)
+        return {}
+    return dict.fromkeys((name,), *units.values()) if len(units) == 1 else {f"{name}.{n}": u for n, u in units.items()}
 
 
 def in_order(text: str | None, numbers: Any) -> Any:

@@ -54,6 +54,17 @@ def parsed(text: str) -> Pipeline:
     return Pipeline(words[0], steps)
 
 
+def spelt(address: str) -> str:
+    """Return a measurable, or kernels in a row (`image|centroid`), with or without its component, with the same spaces
+    however a person writes it: `image | centroid`."""
+    return " | ".join(word.strip() for word in address.split("|"))
+
+
+def source_of(address: str) -> str:
+    """Return what a measurement is made of by kernels, where it is: `cam.image` of `cam.image | centroid`."""
+    return address.partition("|")[0].strip()
+
+
 def misfit(pipeline: Pipeline, given: str) -> Diagnostic | None:
     """Return what is wrong where the pipeline begins with a `given` (such as `image`) that its kernel can't take."""
     first = pipeline.steps[0].name
@@ -62,6 +73,18 @@ def misfit(pipeline: Pipeline, given: str) -> Diagnostic | None:
         return None
     text = f"`{first}` takes {_a(takes)}, and `{pipeline.source}` gives {_a(given)}"
     return error("kernel", text, hint=_takers(given))
+
+
+def require_numbers(pipeline: Pipeline) -> None:
+    """Raise PicoError where kernels that begin with a picture can't take it, or make no numbers of it."""
+    if problem := misfit(pipeline, "image"):
+        raise PicoError(problem)
+    if not pipeline.last.units:
+        raise _pictured(pipeline)
+
+
+def _pictured(pipeline: Pipeline) -> PicoError:
+    return _wrong(f"`{pipeline.steps[-1].name}` gives an image, no number", "append a kernel such as `| centroid`")
 
 
 def run(pipeline: Pipeline, given: Given) -> Result:
@@ -77,7 +100,7 @@ def run(pipeline: Pipeline, given: Given) -> Result:
         if isinstance(made, Result):
             return replace(_finite(made), units=module.KERNEL.units, kernel=step.name, version=module.KERNEL.version)
         given = made
-    raise _wrong(f"`{pipeline.steps[-1].name}` gives an image, no number", "append a kernel such as `| centroid`")
+    raise _pictured(pipeline)
 
 
 def _finite(made: Result) -> Result:

@@ -8,6 +8,7 @@ from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import PicoError, did_you_mean, error, slot_meant
+from pico.kernels.pipeline import spelt
 from pico.model.catalog import Tunable
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -170,11 +171,8 @@ def _measure(setup: Setup, name: str, given: Mapping[str, str]) -> PrimitiveRequ
     _only(name, "measure", given, primitive("measure").arguments)
     own = setup.type_of(name).measurables if name in setup.lab.inventory else known
     read = [n for n, m in own.items() if m.kernel is None and n != "dark"]
-    measurable = given.get("measurable") or (read[0] if len(read) == 1 else "")
-    if measurable not in known:
-        what = f"{name} has no measurable `{measurable}`" if measurable else f"what of {name} is to be measured?"
-        hint = did_you_mean(measurable, known) if measurable else ""
-        raise _wrong(what, hint or f"known: {', '.join(sorted(known)) or 'none'}", name)
+    measurable = spelt(given.get("measurable") or (read[0] if len(read) == 1 else ""))
+    setup.measurable_of(name, measurable)
     return PrimitiveRequest(component=name, primitive="measure", measurable=measurable)
 
 

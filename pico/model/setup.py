@@ -84,6 +84,31 @@ class Setup:
         camera = self.lab.cameras.get(name)
         return {} if camera is None or camera.robot else {"frame": Measurable(datatype="image", unit="count")}
 
+    def measurable_of(self, name: str, measurable: str) -> Measurable:
+        """Return one of `measurables_of`, or what kernels in a row (`image | centroid`) make of the picture of one.
+
+        Raises PicoError where there is none of that name, or the kernels can't make numbers of it.
+        """
+        from pico.diagnostics import PicoError, did_you_mean, error
+        from pico.kernels.pipeline import parsed, require_numbers
+
+        known = self.measurables_of(name)
+        pipeline = parsed(measurable) if "|" in measurable else None
+        asked = pipeline.source if pipeline else measurable
+        found = known.get(asked)
+        if found is None:
+            hint = did_you_mean(asked[:40], known) or f"known: {', '.join(sorted(known)) or 'none'}"
+            text = f"{name} has no measurable `{asked[:40]}`" if asked else f"what of {name} is to be measured?"
+            raise PicoError(error("unknown-measurable", text, hint=hint, address=name))
+        if pipeline is None:
+            return found
+        if found.datatype != "image" or found.kernel:
+            text = f"{name}.{asked} is no picture: kernels have nothing to work on"
+            raise PicoError(error("kernel", text, address=name))
+        require_numbers(pipeline)
+        kind = "float" if len(pipeline.last.units) == 1 else "numbers"
+        return replace(found, datatype=kind, unit=pipeline.last.unit, kernel=measurable)  # type: ignore[arg-type]
+
     def at_speed(self, speed: float | None) -> Setup:
         """Return the same with every robot at a share of its joint limits; as it is where that is None."""
         if speed is None:

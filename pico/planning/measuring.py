@@ -59,7 +59,7 @@ def granted(setup: Setup, seen: Observation, needs: Iterable[Need]) -> list[Need
 
 def unlit(setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]]) -> dict[str, LaserClass]:
     """Return the lasers that measurements want to emit and nobody lets, each with its class."""
-    needs = [n for c, name in wanted for n in needed(setup, seen, c, setup.measurables_of(c)[name])]
+    needs = [n for c, name in wanted for n in needed(setup, seen, c, setup.measurable_of(c, name))]
     return unlicensed(setup, seen, [setting(setup, n, n.live, n.value, (), "") for n in needs if n.live != n.value])
 
 
@@ -83,7 +83,7 @@ def measuring(
     parks = [*map(str, range(len(out)))]
     waits: list[str] = []
     for component, name in wanted:
-        needs = granted(setup, seen, needed(setup, seen, component, setup.measurables_of(component)[name]))
+        needs = granted(setup, seen, needed(setup, seen, component, setup.measurable_of(component, name)))
         closed = bool(parks) and not waits  # while an arm parks
         wants = [n for n in needs if n.live != n.value or (closed and n.opens)]
         text = f"to measure {component}.{name}"

@@ -8,8 +8,10 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic, did_you_mean, error, slot_meant
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.expressions import ExpressionError, Kind
+from pico.kernels.measured import units_by
+from pico.kernels.pipeline import source_of
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_value
@@ -29,7 +31,7 @@ _WORDS = {
     "texts": "a list of texts", "list": "a list", "any": "a value",
 }  # fmt: skip
 _QUANTITY = re.compile(r"\s*[-+]?\d")
-_ALONE = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
+_WORD = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,9 @@ class Reader:
         self.document, self.setup, self.found, self.able = document, setup, found, able
         self.made = set[str]() if made is None else made
         """Branches and tags that steps before made."""
+        self.mark, self.lost = 0, set[str]()
+        """How much was wrong before the step that is read; names of results of which nobody knows what they are, for
+        something is wrong with their step: that is said, and nothing of who speaks of them."""
 
     def wrong(self, node: Node, code: str, summary: str, hint: str = "", label: str = "") -> Term:
         """Say what is wrong at a node; return a term that stands for it."""
@@ -263,24 +268,36 @@ class Reader:
         """Say where there is no such measurable, or the bench can't measure it; return whether it can."""
         component, _, name = address.partition(".")
         known = self.setup.measurables_of(component)
+        of, chained = source_of(name), "|" in name
         if not known:
             names = [*self.setup.lab.inventory, *self.setup.lab.cameras]
             hint = did_you_mean(component[:40], names) or "COMPONENT.MEASURABLE: `cam.centroid`"
             self.wrong(node, "unknown-component", f"there is no component `{component[:40]}` to be measured", hint)
-        elif name not in known:
-            hint = did_you_mean(name[:40], known) or f"it has: {', '.join(known)}"
-            self.wrong(node, "unknown-measurable", f"{component} has no measurable `{name[:40]}`", hint)
-        elif self.able.measurables is not None and address not in self.able.measurables:
-            self.wrong(node, "capability", f"this bench can't measure {address}")
+        elif of not in known:
+            hint = did_you_mean(of[:40], known) or f"it has: {', '.join(known)}"
+            self.wrong(node, "unknown-measurable", f"{component} has no measurable `{of[:40]}`", hint)
+        elif self.able.measurables is not None and f"{component}.{of}" not in self.able.measurables:
+            self.wrong(node, "capability", f"this bench can't measure {component}.{of}")
         else:
-            return True
+            return not chained or self._kernels(node, component, name)
         return False
 
+    def _kernels(self, node: Node, component: str, chain: str) -> bool:
+        """Say what is wrong with kernels in a row; return whether they give numbers."""
+        try:
+            self.setup.measurable_of(component, chain)
+        except PicoError as exc:
+            self.found.extend(replace(d, source=self.at(node)) for d in exc.diagnostics)
+            return False
+        return True
+
     def numbers(self, address: str) -> dict[str, str]:
-        """Return the numbers of a measurable, each with its unit where that is one for all."""
+        """Return the numbers of a measurable, or of kernels in a row, each with its unit."""
         component, _, measurable = address.partition(".")
-        unit = self.setup.measurables_of(component)[measurable].unit
-        return {n: unit for n, m in numbers_of(self.setup, component).items() if m == measurable}
+        kind = self.setup.measurable_of(component, measurable)
+        if kind.kernel:
+            return {n: "" if unit == "1" else unit for n, unit in units_by(kind.kernel, measurable).items()}
+        return {n: kind.unit for n, m in numbers_of(self.setup, component).items() if m == measurable}
 
     def slot(self, node: Node, name: str) -> None:
         """Say that there is no slot of that name."""
@@ -357,7 +374,7 @@ class Reader:
 
     def _same_unit(self, scope: Scope, node: Node, text: str, what: str, unit: str) -> None:
         """Say where a name alone stands for a number in another unit: nothing is converted in expressions."""
-        known = scope.name(text) if _ALONE.fullmatch(text) else None
+        known = scope.name(text) if _WORD.fullmatch(text) else None
         if known is not None and known.unit and unit and known.unit != unit:
             hint = f"declare `{text}` in {unit}" if text in scope.own else expected_quantity(unit)
             self.wrong(node, "unit", f"{what} is in {unit}, and `{text}` in {known.unit}", hint)
@@ -367,6 +384,8 @@ class Reader:
         return NOTHING
 
     def _mistake(self, node: Scalar, exc: ExpressionError, what: str, hint: str = "") -> Term:
+        if self.lost & {word.partition(".")[0] for word in _WORD.findall(node.text)}:
+            return NOTHING
         raw, part = self.document.source.content[node.start : node.end], node.text[exc.start : exc.end]
         start, end = node.start, node.end
         if part.strip() and part in raw:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pico.diagnostics import did_you_mean
+from pico.kernels.pipeline import spelt
 from pico.manifest.text.tree import List, Map, Node, Scalar
 from pico.recipes.reader import NOTHING, Reader, scalar_texts
 from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Parameter, Recipe, Scan, Step, While
@@ -50,7 +51,7 @@ def read_steps(reading: Reading, scope: Scope, node: Node | None, at: str, what:
 
 def _step(reading: Reading, scope: Scope, node: Node, at: str) -> Step | None:
     reader = reading.reader
-    names = (*CONTROL, *known())
+    names, reader.mark = (*CONTROL, *known()), len(reader.found)
     if not isinstance(node, Map):
         hint = f"`- {node.text}:`" if isinstance(node, Scalar) and node.text in names else "`- measure: cam.centroid`"
         reader.wrong(node, "type", "a step is a mapping that begins with what is done", hint)
@@ -91,15 +92,18 @@ def _bind(reading: Reading, scope: Scope, node: Node | None, kind: str, names: A
     if node is None:
         return ""
     word = node.text if isinstance(node, Scalar) else ""
-    if not names:
+    if not names and len(reader.found) > reader.mark:
+        reader.lost.add(word)
+    elif not names:
         reader.wrong(node, "name", f"`{kind}` here has no result that could be called `{word[:40]}`")
     elif reader.new_name(node, word, scope):
-        _define(scope, word, names)
+        _define(reading, scope, word, names)
         return word
     return ""
 
 
-def _define(scope: Scope, word: str, names: Mapping[str, Name]) -> None:
+def _define(reading: Reading, scope: Scope, word: str, names: Mapping[str, Name]) -> None:
+    reading.reader.lost.discard(word)
     gone = [n for n in scope.own if n == word or n.startswith(f"{word}.")]
     for old in gone:
         del scope.own[old]
@@ -142,7 +146,7 @@ def _foreach(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, No
         term, each = reader.values(scope, node, word)
         if reader.new_name(at, word, scope):
             over[word] = term
-            _define(inner, word, {"": each})
+            _define(reading, inner, word, {"": each})
     steps = _inside(reading, inner, beside, "steps", common["at"])
     if all(term.literal or any(term.text == f"${{{name}}}" for name in reading.full) for term in over.values()):
         scope.measured |= inner.measured  # it goes round at least once
@@ -162,7 +166,7 @@ def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node]
     listed = scalar_texts(beside["read"]) if "read" in beside else None
     if not listed:
         reader.wrong(beside.get("read", body), "missing-key", "`scan` does not say what to read", example)
-    of = tuple(text for node, text in listed or () if reader.measurable(node, text))
+    of = tuple(a for node, text in listed or () if reader.measurable(node, a := spelt(text)))
     measured = {f"{a.partition('.')[0]}.{n}": unit for a in of for n, unit in reader.numbers(a).items()}
     for address, unit in measured.items():
         names |= {column(address): Name("numbers", unit), f"{column(address)}_sigma": Name("numbers", unit)}
@@ -212,7 +216,7 @@ def _let(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node],
             reader.wrong(at, "type", f"`{word}` was {old.kind} before, and now is {kind.kind}", "another name for it")
         elif reader.new_name(at, word, scope):
             values[word] = term
-            _define(scope, word, {"": old or kind})
+            _define(reading, scope, word, {"": old or kind})
     return Let(**common, values=values)
 
 
@@ -226,6 +230,7 @@ def _call(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node]
     reader = reading.reader
     recipe = reading.called(body)
     if recipe is None:
+        _bind(reading, scope, beside.get("as"), "call", {})
         return Call(**common)
     given, arguments = dict[str, Term](), beside.get("with")
     entries = arguments.entries if isinstance(arguments, Map) else {}

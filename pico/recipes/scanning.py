@@ -7,6 +7,7 @@ standard deviations, what follows is another part of the scan, and no curve goes
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -15,8 +16,8 @@ APART = 2.0
 
 
 def column(address: str) -> str:
-    """Return the name of a column: `p1_angle`, `cam_centroid_x`."""
-    return address.replace(".", "_")
+    """Return the name of a column: `p1_angle`, `cam_centroid_x`, `cam_image_background_centroid_x`."""
+    return re.sub(r"\W+", "_", address).strip("_")
 
 
 def row(told: Mapping[str, Any]) -> dict[str, float]:

@@ -1,7 +1,8 @@
 """A run as documents of bluesky's event model: `start`, `descriptor`, `event`, `stop`, as plain data.
 
 Streams: `transitions`, an event for each operation; one for each thing that was measured (`cam-centroid`), with where
-the tunables then stood that the run changed. Keys have `-` where addresses have `.`, which documents do not allow.
+the tunables then stood that the run changed. Keys have `-` where addresses have `.`, which documents do not
+allow, or ` | `.
 """
 
 from __future__ import annotations
@@ -133,7 +134,7 @@ def _dtype(value: object) -> str:
 
 
 def _key(address: str) -> str:
-    return address.replace(".", "-")
+    return address.replace(" | ", "-").replace(".", "-")
 
 
 def _id(*words: str) -> str:

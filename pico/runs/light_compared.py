@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from pico.kernels.pipeline import parsed
 from pico.model.goal import Goal
 from pico.model.measurement import Compared, Measurement, incomparable
 from pico.model.setup import Setup
@@ -62,7 +61,7 @@ def _numbers(
     setup: Setup, one: Measurement, other: Measurement, spread: Spread, met: Mapping[str, Goal],
     monitor: tuple[Measurement, Measurement] | None,
 ) -> Iterator[Compared]:  # fmt: skip
-    units = _units(setup, one)
+    units = {f"{one.measurable}.{number}": unit for number, (_, _, unit) in one.numbers.items()}
     for name, before in _values(one).items():
         address, unit = f"{one.component}.{name}", units.get(name, one.unit)
         now = _values(other).get(name)
@@ -106,12 +105,6 @@ def _angle(made: Compared) -> Compared:
         return replace(made, why="the spot is too round to have one")
     turned = ((made.now or 0.0) - (made.before or 0.0) + 90.0) % 180.0 - 90.0
     return replace(made, now=(made.before or 0.0) + turned)
-
-
-def _units(setup: Setup, found: Measurement) -> dict[str, str]:
-    """Return the units of the numbers of a measurement, where a kernel gives several."""
-    kernel = setup.measurables_of(found.component)[found.measurable].kernel
-    return {f"{found.measurable}.{k}": unit for k, unit in parsed(kernel).last.units.items()} if kernel else {}
 
 
 def _power(made: Compared, spread: Spread, monitor: tuple[Measurement, Measurement] | None) -> Compared:

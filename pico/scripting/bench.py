@@ -34,7 +34,7 @@ class Bench(Services):
     >>> bench = pico.open("labs/shel")
     >>> bench["p1"].angle = 10
     >>> bench.measure("cam.image | centroid")
-    <cam.image: x 12.3 ± 0.04 um, y -3.1 ± 0.04 um>
+    <cam.image | centroid: x 12.3 ± 0.04 um, y -3.1 ± 0.04 um, 1024 x 1280 uint16>
     """
 
     @cached_property
@@ -122,23 +122,20 @@ class Bench(Services):
     def measure(self, *what: str) -> Reading | tuple[Reading, ...]:
         """Measure and return what was measured, in a run: `bench.measure("cam.centroid")`, by kernels
         `bench.measure("cam.image | centroid")`, several at once. Raises PicoError where there is no value."""
-        from pico.kernels.pipeline import parsed
+        from pico.kernels.pipeline import spelt
 
         if not what:
             raise PicoError(error("request", "what is to be measured?", hint='such as `bench.measure("cam.centroid")`'))
-        asked = [tuple(word.strip() for word in one.split(".", 1)) for one in what]
-        pairs = [(c, parsed(rest[0]).source if rest and "|" in rest[0] else "".join(rest)) for c, *rest in asked]
+        pairs = [(c.strip(), spelt(m)) for c, _, m in (one.partition(".") for one in what)]
         for component, measurable in pairs:
-            self._measurable(component, measurable)
+            if component not in self.setup.lab.cameras:
+                self._found(component)
+            self.setup.measurable_of(component, measurable)
         report = self.do_plan(lambda: self.plans.measuring(list(dict.fromkeys(pairs))))
-        found = tuple(
-            self._reading(report.measurements[f"{c}.{m}"], rest[0] if rest and "|" in rest[0] else "")
-            for (c, m), (_, *rest) in zip(pairs, asked, strict=True)
-        )
+        found = tuple(self._reading(report.measurements[f"{c}.{m}"]) for c, m in pairs)
         return found[0] if len(what) == 1 else found
 
-    def _reading(self, measurement: Measurement, kernels: str) -> Reading:
-        found = self.measurements.computed(measurement, kernels) if kernels else measurement
+    def _reading(self, found: Measurement) -> Reading:
         if found.unknown:
             text = f"{found.address} has no value: {found.unknown}"
             raise PicoError(error("unknown", text, hint=self.measurements.advice(found), address=found.address))
@@ -256,11 +253,3 @@ class Bench(Services):
             text = f"where to move {name}?" if not place else f"move of {name} takes no `{sorted(wrong)[0]}`"
             raise PicoError(error("request", text, hint="`x`, `y` [mm] and `yaw` [deg], or a slot", address=name))
         return {axis: float(value) for axis, value in place.items()}
-
-    def _measurable(self, component: str, measurable: str) -> None:
-        known = self.setup.measurables_of(component)
-        if measurable not in known:
-            if component not in self.setup.lab.cameras:
-                self._found(component)
-            hint = did_you_mean(measurable, known) or f"known: {', '.join(sorted(known)) or 'none'}"
-            raise PicoError(error("request", f"{component} has no measurable `{measurable}`", hint=hint))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from asking import read, right
 
+from pico.recipes.recipe import Act
+
 
 @pytest.mark.parametrize(
     ("text", "line", "code", "words"),
@@ -50,6 +52,37 @@ from asking import read, right
 def test_a_mistake_is_told_at_its_line(text: str, line: int, code: str, words: str) -> None:
     _, found = read(text)
     assert any(said.startswith(f"{line}: {code}: ") and words in said for said in found), found
+
+
+def test_kernels_in_a_row_are_measured_and_their_numbers_have_units() -> None:
+    chain = "cam.image | background | d4sigma"
+    recipe = right("steps:\n- {measure: cam.image|background | d4sigma, as: spot}\n- let: {big: spot.major}\n"
+                   "- assert: big > 3 && spot.major_sigma < 9\n- set: {p1.angle: spot.angle}\n")  # fmt: skip
+    step = recipe.steps[0]
+    assert isinstance(step, Act) and step.given["of"] == (chain,)
+    assert {name: step.names[name].unit for name in ("major", "minor", "angle", "ellipticity", "angle_sigma")} == {
+        "major": "um", "minor": "um", "angle": "deg", "ellipticity": "", "angle_sigma": "deg",
+    }  # fmt: skip
+    right(f"steps:\n- {{scan: {{p1.angle: [1, 2]}}, read: '{chain}', as: s}}\n"
+          "- let: {a: least(s.cam_image_background_d4sigma_major)}\n")  # fmt: skip
+    _, found = read(f"steps:\n- {{measure: '{chain}', as: spot}}\n- set: {{p1.angle: spot.major}}\n")
+    assert found == ["3: unit: angle of p1 is in deg, and `spot.major` in um"]
+
+
+@pytest.mark.parametrize(
+    ("chain", "said"),
+    [
+        ("cam.image | d5sigma", "kernel: there is no kernel `d5sigma`"),
+        ("cam.imago | d4sigma", "unknown-measurable: cam has no measurable `imago`"),
+        ("cam.image | background", "kernel: `background` gives an image, no number"),
+        ("cam.power | d4sigma", "kernel: cam.power is no picture: kernels have nothing to work on"),
+        ("cam.image | stokes", "kernel: `stokes` takes readings, and `image` gives an image"),
+    ],
+)
+def test_one_mistake_in_a_step_is_one_error(chain: str, said: str) -> None:
+    step = f"steps:\n- {{measure: '{chain}', as: spot}}\n"
+    _, found = read(step + "- assert: spot.major > 3\n- note: {p1: 'it is ${spot.major}'}\nreturns: {w: spot.minor}\n")
+    assert found == [f"2: {said}"]
 
 
 def test_all_mistakes_are_told_at_once() -> None:

@@ -13,6 +13,7 @@ from pico.diagnostics import ExitCode, PicoError
 from pico.recipes.log import Log, logs
 from pico.recipes.recipes import Recipes
 from pico.recipes.running import Outcome, Watching
+from pico.runs.table import rows
 
 TEXT = """apiVersion: pico/v1
 kind: Recipe
@@ -230,3 +231,37 @@ def test_a_failure_names_its_step_and_what_the_bench_said(lab: Path) -> None:
     found = begin(lab)
     assert (found.outcome, found.at) == ("failed", "2[1].1")
     assert "goes from 0 to 360 deg, not to 1000" in found.diagnostics[0].summary
+
+
+CHAIN = """apiVersion: pico/v1
+kind: Recipe
+metadata: {name: scan, lab: shel}
+steps:
+  - apply: C3
+  - set: {laser.emission: true, laser.shutter: open, p1.angle: 12, p2.angle: 102}
+  - do: cam auto_range
+  - {measure: cam.image | background | d4sigma, as: spot}
+  - set: {p2.angle: 100}
+returns: {size: spot.major, off: spot.major_sigma}
+"""
+
+
+def test_what_kernels_make_of_a_picture_is_not_measured_again_when_it_goes_on(lab: Path) -> None:
+    (lab.parent / "scan.yaml").write_text(CHAIN)
+
+    def stop(path: str, *_: object) -> None:
+        if path == "5":
+            raise Killed
+
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        with pytest.raises(Killed):
+            recipes.run(recipe, recipes.begin(recipe, {}), Watching(ended=stop))
+    ended = resume(lab)
+    assert ended.outcome == "done" and 0 < ended.returns["off"] < 0.1 * ended.returns["size"], ended
+    with Bench.open(lab) as bench:
+        found = [bench.history.recorded_run(run.id)[0] for run, _ in bench.history.runs()]
+        assert [row.measurement.address for one in found for row in rows(one.trace)] == [
+            "cam.image | background | d4sigma"
+        ]

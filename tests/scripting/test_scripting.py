@@ -10,7 +10,11 @@ import pytest
 
 import pico
 from pico.diagnostics import ExitCode
+from pico.recipes.encoding import encoded
+from pico.recipes.recipes import Recipes
+from pico.runs.table import rows
 from pico.scripting.bench import Bench
+from pico.scripting.replaying import replay
 
 
 @pytest.fixture
@@ -94,6 +98,29 @@ def test_measurements_are_numbers_with_uncertainties_and_pictures(lit: Bench) ->
     lit["laser"].shutter = "closed"
     with pytest.raises(pico.PicoError, match=r"cam.centroid has no value: there is no light"):
         lit.measure("cam.centroid")
+
+
+def test_what_kernels_make_of_a_picture_stays_with_the_run(lit: Bench) -> None:
+    chain = "cam.image | background | d4sigma"
+    with lit.record("spots") as run:
+        for angle in (102.1, 102):
+            lit["p2"].angle = angle
+            spot = lit.measure("cam.image|background|d4sigma")
+    assert spot.measurement.address == chain and spot.array.ndim == 2
+    assert run.table[f"{chain}.major"][-1] == spot["major"] and run.table[f"{chain}.major_sigma"][-1] > 0
+    assert f"{chain}.angle" in run.table.to_csv() and chain in repr(spot)
+    found, _ = lit.history.recorded_run()
+    units = {n: u for n, (_, _, u) in rows(found.trace)[-1].measurement.numbers.items()}
+    assert units == {"major": "um", "minor": "um", "angle": "deg", "ellipticity": "1"}
+    plot = lit.table().plot(y=f"{chain}.angle")
+    assert "angle [deg]" in str(plot) and len(plot.points.x) == 2
+    assert "units" in {d["name"]: d for n, d in lit.documents() if n == "descriptor"}[
+        "cam-image-background-d4sigma"]["data_keys"]["cam-image-background-d4sigma-major"]  # fmt: skip
+    text = encoded("spots", "shel", [found])
+    assert text.count(f"  - measure: {chain}\n") == 2
+    (lit.root / "spots.yaml").write_text(text)
+    assert Recipes(lit).check(str(lit.root / "spots.yaml"))[1] == ()
+    assert [c.address for c in replay(lit, found).compared][:1] == [f"{chain}.major"]
 
 
 def test_what_is_asked_for_meanwhile_comes_after_it(bench: Bench) -> None:

@@ -12,6 +12,7 @@ from pico.backends.sim.readings import Measurer, Table, measurer_of
 from pico.backends.sim.world import World, observe
 from pico.content.arrays import keep_array
 from pico.content.store import store_of
+from pico.diagnostics import PicoError
 from pico.model.catalog import Measurable
 from pico.model.measurement import PEEKED, Condition, Measurement
 from pico.model.setup import Setup
@@ -19,9 +20,12 @@ from pico.model.setup import Setup
 
 def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurable, Measurer]:
     """Return a measurable, and what reads it; raises `Failed` where it is not simulated."""
-    known = setup.measurables_of(component).get(name)
-    measurer = measurer_of(setup, component, name) if known else None
-    if known is None or measurer is None:
+    try:
+        known = setup.measurable_of(component, name)
+    except PicoError as exc:
+        raise Failed(exc.diagnostics[0]) from exc
+    measurer = measurer_of(setup, component, name)
+    if measurer is None:
         raise Failed(not_simulated(component, name))
     return known, measurer
 

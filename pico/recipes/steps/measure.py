@@ -1,5 +1,5 @@
 """`measure: cam.centroid`: one measurable or several; expressions then speak of the numbers by their addresses, and by
-the name that `as` gives."""
+the name that `as` gives. What kernels make of a picture (`cam.image | centroid`) has only that name."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.expressions import Kind as ValueKind
+from pico.kernels.pipeline import spelt
 from pico.manifest.text.tree import Node
 from pico.model.measurement import Measurement
 from pico.model.plan import Plan
@@ -28,7 +29,7 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
     if listed is None:
         reader.wrong(body, "type", "`measure` takes measurables", f"`{KIND.example}`")
         return Given({"of": ()})
-    of = [text for node, text in listed if reader.measurable(node, text)]
+    of = [a for node, text in listed if reader.measurable(node, a := spelt(text))]
     numbers = {a: reader.numbers(a) for a in of}
     names = _result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
     return Given(
@@ -40,22 +41,21 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
 
 def _result_names(reader: Reader, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
     component, _, measurable = address.partition(".")
-    kind = reader.setup.measurables_of(component)[measurable]
+    kind = reader.setup.measurable_of(component, measurable)
     if kind.datatype == "pose":
         return {"x": Name("number", "mm"), "y": Name("number", "mm"), "yaw": Name("number", "deg")}
     if kind.datatype == "setpoint":
         tunable = reader.setup.type_of(component).tunables[measurable]
         return {"": Name(_KINDS[tunable.datatype], tunable.unit)}
-    return _names(numbers)
+    return _names(measurable, numbers)
 
 
-def _names(numbers: Mapping[str, str]) -> dict[str, Name]:
+def _names(measurable: str, numbers: Mapping[str, str]) -> dict[str, Name]:
     """Return how a result is called, after its name: `x`, `x_sigma`; of a single number ``, `sigma`."""
     found: dict[str, Name] = {}
     for number, unit in numbers.items():
-        short = number.partition(".")[2]
-        found[short] = Name("number", "" if short else unit)
-        found[f"{short}_sigma" if short else "sigma"] = Name("number", "" if short else unit)
+        short = "" if number == measurable else number.removeprefix(f"{measurable}.")
+        found[short] = found[f"{short}_sigma" if short else "sigma"] = Name("number", unit)
     return found
 
 

@@ -15,20 +15,21 @@ from pico.model.setup import Setup
 
 def measures(setup: Setup, component: str, measurable: str) -> bool:
     """Whether it is computed of what can be measured."""
-    kernel = setup.measurables_of(component)[measurable].kernel
-    if kernel is None:
-        return False
     try:
-        source = parsed(kernel).source
+        kernel = setup.measurable_of(component, measurable).kernel
+        source = parsed(kernel).source if kernel else None
     except PicoError:
+        return False
+    if source is None:
         return False
     known = setup.measurables_of(component).get(source)
     return known is not None and known.kernel is None and measurer_of(setup, component, source) is not None
 
 
 def read(table: Table, component: str, measurable: str) -> Reading:
-    """Return what the kernels give; no value where they cannot tell, with why."""
-    kernel = table.setup.measurables_of(component)[measurable].kernel or ""
+    """Return what the kernels give; no value where they cannot tell, with why. The picture stays with what somebody
+    asked of it by kernels of his own."""
+    kernel = table.setup.measurable_of(component, measurable).kernel or ""
     pipeline = parsed(kernel)
     measurer = measurer_of(table.setup, component, pipeline.source)
     if measurer is None:
@@ -38,6 +39,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
         raise Failed(error("no-array", f"{component}.{pipeline.source} gives nothing for kernels", address=component))
     found = computed(pipeline, base.array, base.settings)
     return replace(
-        base, array=None, value=found.value, sigma=found.sigma, kernel=kernel, kernel_version=version(pipeline),
+        base, array=base.array if measurable == kernel else None,
+        value=found.value, sigma=found.sigma, kernel=kernel, kernel_version=version(pipeline),
         unknown=found.unknown, unit=found.unit,
     )  # fmt: skip
