@@ -171,7 +171,7 @@ def plot(
     context: typer.Context,
     run: Run = None,
     x: Annotated[
-        str | None, typer.Option("--x", metavar="COLUMN", help="Without it the first tunable that the run changed.")
+        str | None, typer.Option("--x", metavar="COLUMN", help="Without it the first that the run changed meanwhile.")
     ] = None,
     y: Annotated[
         str | None, typer.Option("--y", metavar="COLUMN", help="Without it the first number that was measured.")

@@ -50,7 +50,7 @@ def line(entered: Entered) -> str:
         values = ", ".join(f"{name} = {_short(value)}" for name, value in entered.values.items())
         total = f"/{entered.turn[1]}" if entered.turn[1] else ""
         turn = paint("cyan", f"  {values}  ({entered.turn[0]}{total})".replace("    (", "  ("))
-    title = "foreach" if entered.turn and entered.values else entered.step.title
+    title = "foreach" if entered.turn and entered.values else entered.said
     return f"{'  ' * (entered.depth + 1)}{paint('dim', entered.path)} {title}{turn}"
 
 
@@ -71,7 +71,7 @@ def data(recipe: Recipe, ahead: Foreseen) -> dict[str, Any]:
     """Return schema `pico.recipe_ahead/v1`: `recipe`, `digest`, `seconds`, `whole`, `steps` with `path`, `title`,
     `seconds`, and `diagnostics`."""
     steps = [
-        {"path": e.path, "title": e.step.title, **({"seconds": takes} if takes is not None else {})}
+        {"path": e.path, "title": e.said, **({"seconds": takes} if takes is not None else {})}
         for e, takes in ahead.steps
     ]
     return {

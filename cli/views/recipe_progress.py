@@ -42,7 +42,7 @@ def data(entered: Entered) -> dict[str, Any]:
     """Return schema `pico.recipe_event/v1` of a step that begins: `path`, `title`, `turn` of a loop, its `values`."""
     turn = {"turn": entered.turn[0], "turns": entered.turn[1]} if entered.turn else {}
     return {
-        "schema": "pico.recipe_event/v1", "event": "step", "path": entered.path, "title": entered.step.title,
+        "schema": "pico.recipe_event/v1", "event": "step", "path": entered.path, "title": entered.said,
         "values": dict(entered.values), **turn,
     }  # fmt: skip
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from pico.bench.bench import Bench
-from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target
@@ -17,10 +17,16 @@ from pico.model.record import digest
 from pico.model.state import LabState
 from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
+from pico.recipes.reader import NAMES, is_name
 from pico.recipes.recipe import Act, Recipe, Scan, Step
 from pico.recipes.registry import StepFile, step_file
 from pico.recipes.walking import Ask, Entered, Told, walk
 
+_REFS = {"tag": "tags", "branch": "heads"}
+_HINTS = {
+    "tag": "a tag is for good: give another name, by a parameter for instance",
+    "branch": "give another name, or `checkout: {name}` to go on with it",
+}
 MOST = 400
 """Steps that are looked at ahead."""
 _ANY = "*"
@@ -60,6 +66,36 @@ def foresee(
     return _Ahead(bench, recipe, arguments, known or {}).run()
 
 
+class _NewNames:
+    """The tags and branches of a bench's lab as they will be while a recipe goes on."""
+
+    def __init__(self, bench: Bench) -> None:
+        head = bench.folder.head()
+        self.bench, self.own = bench, set[tuple[str, str]]()
+        self.on = head.branch if head else None
+
+    def made(self, step: Act, given: Mapping[str, Any]) -> None:
+        """Remember what a step makes, or checks out; raises PicoError, at its place, for a name that can't be made."""
+        if step.kind == "checkout":
+            name = str(given["revision"])
+            self.on = name if self._there("branch", name) else None
+        if step.kind not in _REFS:
+            return
+        name = str(given["name"])
+        if step.kind == "branch" and name == self.on:
+            return
+        if not is_name(name):
+            raise PicoError(error("name", f"`{name[:40]}` is no name of a {step.kind}", hint=NAMES, source=step.source))
+        if self._there(step.kind, name):
+            text = f"there is a {step.kind} `{name[:40]}` already"
+            raise PicoError(error("name-taken", text, hint=_HINTS[step.kind].format(name=name), source=step.source))
+        self.own.add((step.kind, name))
+        self.on = name if step.kind == "branch" else self.on
+
+    def _there(self, kind: str, name: str) -> bool:
+        return (kind, name) in self.own or self.bench.history.is_revision(f"refs/{_REFS[kind]}/{name}")
+
+
 class _Ahead:
     def __init__(self, bench: Bench, recipe: Recipe, arguments: Mapping[str, Any], known: Mapping[str, Told]) -> None:
         self.later, self.known = _Later(bench), dict(known)
@@ -70,6 +106,7 @@ class _Ahead:
         self.made: dict[str, LabState] = {}
         self.before: dict[str, tuple[float, Observation, frozenset[str]]] = {}
         self.branch = ""
+        self.names = _NewNames(bench)
         self.open = set[str]()
 
     def may_be(self, step: Step) -> None:
@@ -126,6 +163,7 @@ class _Ahead:
 
     def planned(self, ask: Ask, step: Act, file: StepFile) -> float | None:
         """Plan a step from the bench as it would be by then, and let that be done; return how long it takes [s]."""
+        self.names.made(step, ask.given)
         self.named(step.kind, ask.given)
         if not hasattr(file, "plan"):
             return float(ask.given["seconds"]) if "seconds" in ask.given else 0.0

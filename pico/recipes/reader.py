@@ -30,6 +30,7 @@ _WORDS = {
     "number": "a number", "bool": "true or false", "text": "text", "numbers": "a list of numbers",
     "texts": "a list of texts", "list": "a list", "any": "a value",
 }  # fmt: skip
+NAMES = "letters, digits, `-`, `_`"
 _QUANTITY = re.compile(r"\s*[-+]?\d")
 _WORD = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
 
@@ -329,10 +330,8 @@ class Reader:
         """Return the name of a branch or tag that a step makes."""
         term = self.text(scope, node, f"the name of {what}")
         if term.known and term is not NOTHING:
-            if re.fullmatch(r"(?!-)[A-Za-z0-9._/-]+(?<![./])", str(term.literal)) is None or ".." in str(term.literal):
-                self.wrong(
-                    node, "name", f"`{str(term.literal)[:40]}` is no name of {what}", "letters, digits, `-`, `_`"
-                )
+            if not is_name(str(term.literal)):
+                self.wrong(node, "name", f"`{str(term.literal)[:40]}` is no name of {what}", NAMES)
             self.made.add(str(term.literal))
         return term
 
@@ -394,6 +393,11 @@ class Reader:
         source = self.document.source.range(start, end)
         self.found.append(error("expression", f"{what} can't be told: {exc}", hint=hint, source=source))
         return NOTHING
+
+
+def is_name(text: str) -> bool:
+    """Return whether a branch or a tag may be called so."""
+    return re.fullmatch(r"(?!-)[A-Za-z0-9._/-]+(?<![./])", text) is not None and ".." not in text
 
 
 def _is_quantity(text: str, unit: str) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pico.diagnostics import did_you_mean
+from pico.expressions import ExpressionError
 from pico.kernels.pipeline import spelt
 from pico.manifest.text.tree import List, Map, Node, Scalar
 from pico.recipes.reader import NOTHING, Reader, scalar_texts
@@ -14,7 +15,7 @@ from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Para
 from pico.recipes.registry import CONTROL, known, step_file
 from pico.recipes.scanning import column
 from pico.recipes.scope import Scope
-from pico.recipes.terms import Term, literal
+from pico.recipes.terms import Term, literal, text_term
 
 BESIDE = ("as", "name", "retries")
 """Keys that may stand beside any step."""
@@ -71,7 +72,8 @@ def _step(reading: Reading, scope: Scope, node: Node, at: str) -> Step | None:
     allowed = (kind, *BESIDE, *(OF[kind] if kind in CONTROL else step_file(kind).KIND.keys))
     reader.keys(node, allowed, f"the step `{kind}`")
     beside = {k: v for k, (_, v) in node.entries.items() if k != kind}
-    common = {"at": at, "title": _title(beside.get("name"), kind, node), "source": reader.at(node.entries[kind][0])}
+    title = _title(beside.get("name"), kind, node)
+    common = {"at": at, "title": title, "source": reader.at(node.entries[kind][0]), "says": _said(scope, title)}
     common["retries"] = _retries(reader, scope, beside.get("retries"))
     body = node.entries[kind][1]
     if kind in CONTROL:
@@ -120,6 +122,15 @@ def _title(node: Node | None, kind: str, step: Map) -> str:
         entries = ((k, v) for k, (_, v) in body.entries.items())
         return f"{kind} {', '.join(f'{k}: {v.text}' if isinstance(v, Scalar) else k for k, v in entries)}"
     return f"{kind} {', '.join(i.text for i in body.items if isinstance(i, Scalar))}"
+
+
+def _said(scope: Scope, title: str) -> Term | None:
+    """Return a title with expressions in it; None where it has none, or they are wrong, which its step says."""
+    try:
+        term = text_term(title, scope.language)
+    except ExpressionError:
+        return None
+    return None if term.known else term
 
 
 def _retries(reader: Reader, scope: Scope, node: Node | None) -> int:

@@ -50,13 +50,15 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Step:
-    """One step. `at`: its place in the recipe, `2.then.0`; `title`: what a person calls it; `retries`: how often it is
-    tried again after a failure."""
+    """One step. `at`: its place in the recipe, `2.then.0`; `title`: what a person calls it, as it is written; `says`:
+    the same with the values of the expressions in it (None: there are none); `retries`: how often it is tried again
+    after a failure."""
 
     at: str
     title: str
     source: SourceRange | None = field(default=None, compare=False)
     retries: int = 0
+    says: Term | None = None
 
 
 @dataclass(frozen=True)

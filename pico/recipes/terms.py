@@ -36,6 +36,18 @@ class Term:
             return f"{self.literal:.6g}" if isinstance(self.literal, float) else str(self.literal)
         return "".join(p if isinstance(p, str) else f"${{{p.text}}}" for p in self.parts)
 
+    def as_far_as(self, names: Mapping[str, Any]) -> str:
+        """Return it as a text, with the values of its expressions that are known; the others as they are written."""
+        from pico.expressions import ExpressionError
+
+        def one(part: Expression) -> str:
+            try:
+                return said(part.evaluate(names))
+            except ExpressionError:
+                return f"${{{part.text}}}"
+
+        return "".join(p if isinstance(p, str) else one(p) for p in self.parts) or self.text
+
     def words(self) -> set[str]:
         """Return the names that its expressions may speak of, with all that looks like one."""
         texts = [_TEXT.sub("", p.text) for p in self.parts if not isinstance(p, str)]

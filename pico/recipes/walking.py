@@ -57,13 +57,19 @@ Walk = Generator[Ask, Told, dict[str, Any]]
 @dataclass(frozen=True)
 class Entered:
     """A step that is begun, for who watches: `depth` of blocks around it; `turn`: which one of how many (None: nobody
-    knows) of a loop."""
+    knows) of a loop; `title`: of the step, where values stand in it."""
 
     path: str
     step: Step
     depth: int
     values: Mapping[str, Any] = field(default_factory=dict)
     turn: tuple[int, int | None] | None = None
+    title: str = ""
+
+    @property
+    def said(self) -> str:
+        """What it does, in words, with the values that are known of them."""
+        return self.title or self.step.title
 
 
 def walk(
@@ -104,6 +110,15 @@ class _Walker:
     def __init__(self, enter: Callable[[Entered], None], ahead: Callable[[Step], None] | None = None) -> None:
         self.enter, self.ahead, self.turns = enter, ahead, 0
         self.measured: dict[str, float] = {}
+        self.looked: dict[str, Any] = {}
+        """Names of the bench with their values as the step asked for them that is begun."""
+
+    def titled(self, step: Step, names: _Names) -> str:
+        """Return the title of a step with the values that are known of it; empty where it is as it is written."""
+        if step.says is None:
+            return ""
+        own = {name: value for name, value in names.all().items() if value is not UNKNOWN}
+        return step.says.as_far_as({**self.measured, **self.looked, **own})
 
     def recipe(self, recipe: Recipe, arguments: Mapping[str, Any], at: str, depth: int) -> Walk:
         names = _Names(dict(arguments))
@@ -128,6 +143,7 @@ class _Walker:
     def block(self, steps: tuple[Step, ...], names: _Names, at: str, depth: int) -> Walk:
         for step in steps:
             path = at + step.at.rpartition(".")[2]
+            self.looked = {}
             if isinstance(step, Act):
                 yield from self.act(step, names, path, depth)
             elif isinstance(step, Each):
@@ -149,7 +165,8 @@ class _Walker:
             elif isinstance(step, Let):
                 for name, term in step.values.items():
                     names.give(name, (yield from self.value(term, names, f"{path}.{name}", step.source)))
-                self.enter(Entered(path, step, depth, {n: names.all()[n] for n in step.values}))
+                values = {n: names.all()[n] for n in step.values}
+                self.enter(Entered(path, step, depth, values, title=self.titled(step, names)))
             elif isinstance(step, Assert):
                 yield from self.require(step, names, path, depth)
         return {}
@@ -159,7 +176,7 @@ class _Walker:
         if _unknown(given):
             self.left_out([step], names)
             return {}
-        self.enter(Entered(path, step, depth, given))
+        self.enter(Entered(path, step, depth, given, title=self.titled(step, names)))
         told = yield Ask(path, step, given)
         self.hear(told)
         for part in step.names if step.binds else ():
@@ -308,7 +325,8 @@ class _Walker:
         own = {name: value for name, value in names.all().items() if value is not UNKNOWN}
         known = {**{w: self.measured[w] for w in term.words() & self.measured.keys()}, **own}
         if term.asks:
-            known |= yield Ask(f"{path}?", names=term.asks)
+            self.looked |= yield Ask(f"{path}?", names=term.asks)
+            known |= {name: self.looked[name] for name in term.asks if name in self.looked}
         try:
             found = term.value(known)
         except ExpressionError as exc:

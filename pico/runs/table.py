@@ -77,6 +77,44 @@ def _values(name: str, part: Mapping[str, Any], changed: set[tuple[str, str]]) -
         yield from ((f"{name}.pose.{axis}", part["pose"].get(axis)) for axis in ("x", "y", "yaw"))
 
 
+def scanned(trace: Sequence[TraceEvent]) -> tuple[str, ...]:
+    """Return the numbers that a run set otherwise from one measurement to another, by address, in the order in which
+    they first changed: not what was set in passing, nor what stood still and was seen a little otherwise."""
+    stands: dict[str, float] = {}
+    last: dict[str, float] | None = None  # as it all stood at the last measurement
+    found: dict[str, None] = {}
+    for event in trace:
+        if event.kind == "intent":
+            for address, before, after in _commanded(event):
+                stands.pop(address, None)  # in the order of the last changes
+                stands[address] = after
+                if last is not None:
+                    last.setdefault(address, before)
+        elif event.kind == "done" and event.data.get("data", {}).get("measurement"):
+            found |= dict.fromkeys(a for a, v in stands.items() if last is not None and last[a] != v)
+            last = dict(stands)
+    return tuple(found)
+
+
+def _commanded(event: TraceEvent) -> Iterator[tuple[str, float, float]]:
+    """Yield the numbers that an operation sets, each with what it was before; nothing of what is set in passing."""
+    told = event.data.get("arguments", {})
+    reason = event.data.get("reason")
+    if event.component is None or (isinstance(reason, Mapping) and reason.get("kind") == "interlock"):
+        return
+    ends = told.get("from"), told.get("to")
+    if "tunable" in told:
+        yield from _moved(f"{event.component}.{told['tunable']}", *ends)
+    elif all(isinstance(end, Mapping) and isinstance(end.get("pose"), Mapping) for end in ends):
+        for axis in ("x", "y", "yaw"):
+            yield from _moved(f"{event.component}.pose.{axis}", *(end["pose"].get(axis) for end in ends))
+
+
+def _moved(address: str, before: object, after: object) -> Iterator[tuple[str, float, float]]:
+    if all(isinstance(end, int | float) and not isinstance(end, bool) for end in (before, after)):
+        yield address, float(before), float(after)  # type: ignore[arg-type]
+
+
 def columns(found: Sequence[Row]) -> list[str]:
     """Return the columns of some rows: those of all, then tunables, then what was measured."""
     tunables = sorted({name for row in found for name in row.tunables})

@@ -80,7 +80,8 @@ class Table:
 
     def plot(self, x: str | None = None, y: str | None = None) -> Plot:
         """Return a plot of one column against another, which shows itself in a notebook: `y` is the first number that
-        was measured where nobody says, `x` the first tunable that the run changed. Raises PicoError."""
+        was measured where nobody says, `x` the first that the run changed between measurements. Raises
+        PicoError."""
         return Plot(self.title, points_of(self._setup, self.run, x, y))
 
     def to_csv(self, out: Path | str | None = None) -> str:

@@ -247,3 +247,39 @@ def test_its_figures_are_plotted(turning: Path, pico: Pico) -> None:
     found = pico("runs", "plot", "--recipe", "--json").data
     assert found["schema"] == "pico.figures/v1" and found["figures"][0]["series"][0]["x"] == [20.0]
     assert pico("runs", "plot", "--recipe", "--x", "t").code == 1
+
+
+NAMING = """apiVersion: pico/v1
+kind: Recipe
+metadata: {name: naming}
+parameters: {label: a, turns: [1]}
+steps:
+  - set: {p1.angle: 5}
+  - commit: at ${p1.angle} deg, ${label}
+  - foreach: {turn: turns}
+    steps:
+      - tag: t-${label}
+"""
+
+
+def test_a_name_that_is_taken_is_told_before_anything_moves(turning: Path, pico: Pico) -> None:
+    (turning / "recipes" / "naming.yaml").write_text(NAMING)
+    ahead = pico("run", "naming", "--dry-run")
+    assert ahead.code == 0 and "commit at 5 deg, a" in ahead.out and "tag t-a" in ahead.out
+    done = pico("run", "naming", "--yes")
+    assert done.code == 0 and "commit at 5 deg, a" in done.out and "tag t-a" in done.out and "${" not in done.out
+    assert pico("set", "p1", "angle=9", "-y").code == 0
+    for words in (("recipe", "check", "naming"), ("run", "naming", "--yes")):
+        again = pico(*words)
+        assert again.code == 1 and "there is a tag `t-a` already" in again.err and "naming.yaml:10:9" in again.err
+    assert pico("get", "p1.angle").out.split()[1] == "9"
+    assert pico("recipe", "check", "naming", "-p", "label=b").code == 0
+    twice = pico("recipe", "check", "naming", "-p", "label=b", "-p", "turns=[1, 2]")
+    assert twice.code == 1 and "there is a tag `t-b` already" in twice.err
+    wrong = pico("recipe", "check", "naming", "-p", "label=b c")
+    assert wrong.code == 1 and "`t-b c` is no name of a tag" in wrong.err
+    (turning / "recipes" / "naming.yaml").write_text(NAMING.replace("tag: t-${label}", "branch: main"))
+    assert "there is a branch `main` already" not in pico("recipe", "check", "naming").err  # it is checked out
+    (turning / "recipes" / "naming.yaml").write_text(NAMING.replace("tag: t-${label}", "branch: e1"))
+    taken = pico("recipe", "check", "naming")
+    assert taken.code == 1 and "there is a branch `e1` already" in taken.err

@@ -14,6 +14,7 @@ import pytest
 from commanding import Pico
 
 import pico as library
+from pico.runs import table
 from pico.scripting.bench import Bench
 
 
@@ -127,6 +128,24 @@ def test_what_was_measured_is_plotted_for_people_and_as_a_picture(bench: Bench, 
     assert wrong.code == 1 and "did you mean" in wrong.err
     bench.apply("C3")
     assert pico("-C", str(bench.root), "runs", "plot").code == 1
+
+
+def test_without_being_told_a_plot_shows_what_was_read_first_against_what_was_scanned(bench: Bench) -> None:
+    bench.apply("C3")
+    with bench.record("scan") as run:
+        bench["p1"].move(x=300, y=420, yaw=5)
+        for angle in (10, 20, 30):
+            bench.set({"p2.angle": angle})
+            bench.measure("laser.monitor", "p1.pose", "hwp.angle")
+            bench.set({"hwp.angle": 2 * angle})
+    plot = run.table.plot()
+    assert (plot.points.x_name, plot.points.y_name) == ("hwp.angle", "laser.monitor"), "what changed first"
+    assert plot.points.x == (20.0, 40.0)  # before that nobody had looked at it
+    assert table.scanned(bench.history.recorded_run()[0].trace) == ("hwp.angle", "p2.angle")
+    with bench.record("still") as run:
+        bench.measure("p1.pose", "laser.monitor")
+        bench.measure("p1.pose", "laser.monitor")
+    assert (run.table.plot().points.x_name, run.table.plot().points.y_name) == ("t", "p1.pose.x")
 
 
 @pytest.mark.parametrize("points", [[(1, 1)], [(1, 2), (1, 2)], [(-1e-9, 0), (1e-9, 1e12)], [(0, -5), (3, -5)]])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.runs.event_model import units_of
-from pico.runs.table import FIRST, columns, rows
+from pico.runs.table import FIRST, columns, rows, scanned
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,18 +19,19 @@ if TYPE_CHECKING:
 
 def points_of(setup: Setup, run: RecordedRun, x: str | None = None, y: str | None = None) -> Points:
     """Return one column of a run's measurements against another: `y` is the first number that was measured where nobody
-    says, `x` the first tunable that the run changed, else the time. Raises PicoError where there is nothing to plot.
-    """
+    says, `x` the first that the run changed between measurements, else the time. Raises PicoError where there is
+    nothing to plot."""
     from pico.drawing.plots.scatter import of_columns
 
     found = rows(run.trace)
     units = units_of(setup) | {"t": "s"} | {key: unit for row in found for key, unit in _units(row)}
-    changed = sorted({name for row in found for name in row.tunables})
+    changed = scanned(run.trace)
     numbers = [n for n in dict.fromkeys(n for row in found for n in row.numbers) if not n.endswith("_sigma")]
     y = _known(run, y, found) or next((n for n in numbers if n not in changed), next(iter(numbers), None))
     if y is None:
         raise PicoError(error("nothing", f"run {run.document.id} measured no numbers", hint="`pico runs show` tells"))
-    x = _known(run, x, found) or next((n for n in changed if n != y and _varies(found, n)), "t")
+    sought = sorted({name for row in found for name in row.tunables if ".pose." not in name})
+    x = _known(run, x, found) or next((n for n in (*changed, *sought) if n != y and _varies(found, n)), "t")
     flat = [row.flat for row in found]
     try:
         return of_columns(
@@ -54,7 +55,7 @@ def _choice(found: Sequence[Row]) -> str:
 
 
 def _varies(found: Sequence[Row], name: str) -> bool:
-    return len({row.tunables.get(name) for row in found}) > 1
+    return len({v for row in found if not isinstance(v := row.tunables.get(name), bool | str)}) > 1
 
 
 def _units(row: Row) -> list[tuple[str, str]]:
