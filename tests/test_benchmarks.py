@@ -41,7 +41,7 @@ SMALLEST = {
     "shel": "--seeds 1 --fidelity kinematic --only 30",
     "restoration": "--experiments 1 --fidelity kinematic --history staged --only C3 --dark",
     "refusals": "--labs 6",
-    "restoring_light": "--seeds 1 --fidelity kinematic --passive",
+    "restoring_light": "--seeds 1 --fidelity kinematic --passive --exact",
     "morning": "--nights 1 --faults 0",
     "lens_by_light": "--seeds 1 --fidelity kinematic",
     "light": "--repeat 1",
