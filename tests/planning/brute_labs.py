@@ -125,6 +125,10 @@ class Lab:
             self._holds[i, p] = list(self._fingers(i, p))
         return self._holds[i, p]
 
+    def rooms(self, i: int, p: int) -> list[int]:
+        """Return `holds`, whether or not an arm gets there."""
+        return self.holds(i, p)
+
     def _fingers(self, i: int, p: int) -> Iterator[int]:
         geometry, lab = self.setup.type_of(self.names[i]).geometry, self.setup.lab
         if not self.by_arm[i] or geometry.grasp is None:

@@ -38,8 +38,6 @@ class Eased:
     def counted(self, mask: int, i: int, taken: int, kind: str, p: int) -> bool:
         """Whether something that is there keeps `i` from `p` by a constraint that counts."""
         stored = p and p not in self.lab.goals[i]
-        if mask == -1:  # no arm gets there
-            return bool(stored) or self.has("reach", i)
         hit = mask & (taken | self.there)
         while hit:
             low = hit & -hit
@@ -76,7 +74,11 @@ class Eased:
         """Return for each hold whether the fingers have room."""
         if p == self.air[i]:
             return [True] * len(self.lab.holds(i, 0))
-        return [not self.counted(mask, i, taken, "fingers", p) for mask in self.lab.holds(i, p)]
+        far = self.has("reach", i) or (p and p not in self.lab.goals[i])
+        return [
+            not (far and hold == -1) and not self.counted(mask, i, taken, "fingers", p)
+            for hold, mask in zip(self.lab.holds(i, p), self.lab.rooms(i, p), strict=True)
+        ]  # fmt: skip
 
     def possible(self) -> bool:
         """Whether all get home. Raises Undecided."""

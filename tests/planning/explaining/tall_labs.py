@@ -113,25 +113,33 @@ class TallLab(Lab):
 
     def __init__(self, case: Case, motion: ArmMotion) -> None:
         self.motion = motion
+        self._rooms: dict[tuple[int, int], list[int]] = {}
         super().__init__(case)
 
     def arms(self, i: int) -> list[tuple[str, float]]:
         grasp = self.setup.type_of(self.names[i]).geometry.grasp
         return [(robot, yaw) for robot in sorted(self.setup.lab.robots) for yaw in (grasp.yaws if grasp else ())]
 
-    def _fingers(self, i: int, p: int) -> Iterator[int]:
+    def rooms(self, i: int, p: int) -> list[int]:
+        if (i, p) not in self._rooms:
+            self._rooms[i, p] = list(self._masks(i, p))
+        return self._rooms[i, p]
+
+    def _masks(self, i: int, p: int) -> Iterator[int]:
         geometry, lab = self.setup.type_of(self.names[i]).geometry, self.setup.lab
+        for robot, yaw in self.arms(i) if self.by_arm[i] else ():
+            zones, lowest = fingers(geometry, lab.robots[robot].gripper, yaw, self.spots[i][p].pose)
+            masks = [self._near(i, zone, max(lab.margins.fingers - 1e-6, 0.0), lowest) for zone in zones]
+            yield masks[0] | masks[1]
+        if not self.by_arm[i]:
+            yield 0
+
+    def _fingers(self, i: int, p: int) -> Iterator[int]:
         if not self.by_arm[i]:
             yield 0
             return
-        for robot, yaw in self.arms(i):
-            pose = self.spots[i][p].pose
-            if self.motion.reach(robot, self.names[i], pose, yaw):
-                yield -1
-                continue
-            zones, lowest = fingers(geometry, lab.robots[robot].gripper, yaw, pose)
-            masks = [self._near(i, zone, max(lab.margins.fingers - 1e-6, 0.0), lowest) for zone in zones]
-            yield masks[0] | masks[1]
+        for (robot, yaw), mask in zip(self.arms(i), self.rooms(i, p), strict=True):
+            yield -1 if self.motion.reach(robot, self.names[i], self.spots[i][p].pose, yaw) else mask
 
 
 def way_out(case: Case, motion: ArmMotion) -> str:
