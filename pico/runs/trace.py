@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -86,6 +87,11 @@ def measurement_in(event: TraceEvent) -> Mapping[str, Any] | None:
     return found if isinstance(found, Mapping) else None
 
 
+def _plain(measurable: str) -> str:
+    """Return what was measured as it may stand in the name of a file, also where kernels are named."""
+    return re.sub(r"[^\w.=]+", "-", measurable).strip("-")
+
+
 def artifacts(trace: Sequence[TraceEvent]) -> tuple[Artifact, ...]:
     """Return the arrays that were measured in a run, and what its optimizations tried, as they lie in the content
     store."""
@@ -95,7 +101,7 @@ def artifacts(trace: Sequence[TraceEvent]) -> tuple[Artifact, ...]:
     tried = [(e, e.component, "points", points) for e in trace if (points := e.data.get("data", {}).get("points"))]
     return tuple(
         Artifact(
-            name=f"{e.operation}-{component}-{what}.npy", sha256=array["sha256"], size=array["size"],
+            name=f"{e.operation}-{component}-{_plain(what)}.npy", sha256=array["sha256"], size=array["size"],
             component=component, seq=e.seq, shape=tuple(array["shape"]), dtype=array["dtype"],
         )
         for e, component, what, array in sorted([*taken, *tried], key=lambda one: one[0].seq)

@@ -116,6 +116,7 @@ def test_what_kernels_make_of_a_picture_stays_with_the_run(lit: Bench) -> None:
     assert "angle [deg]" in str(plot) and len(plot.points.x) == 2
     assert "units" in {d["name"]: d for n, d in lit.documents() if n == "descriptor"}[
         "cam-image-background-d4sigma"]["data_keys"]["cam-image-background-d4sigma-major"]  # fmt: skip
+    assert found.document.artifacts[0].name.endswith("-cam-image-background-d4sigma.npy")
     text = encoded("spots", "shel", [found])
     assert text.count(f"  - measure: {chain}\n") == 2
     (lit.root / "spots.yaml").write_text(text)
