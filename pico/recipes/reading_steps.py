@@ -85,6 +85,8 @@ def _act(reading: Reading, scope: Scope, kind: str, body: Node, beside: Mapping[
     given = step_file(kind).read(reading.reader, scope, body, beside)
     binds = _bind(reading, scope, beside.get("as"), kind, given.names)
     scope.measured.update(given.measured)
+    if common["says"] is None and "name" not in beside and isinstance(body, Map):
+        common = {**common, "says": _filled(kind, body, given.values)}
     return Act(**common, kind=kind, given=given.values, binds=binds, names=dict(given.names))
 
 
@@ -131,6 +133,18 @@ def _said(scope: Scope, title: str) -> Term | None:
     except ExpressionError:
         return None
     return None if term.known else term
+
+
+def _filled(kind: str, body: Map, values: Mapping[str, Any]) -> Term | None:
+    """Return what a step does with the values of its expressions (`set p1.angle: 10`); None where it has none."""
+    parts: list[Any] = []
+    for key, (_, node) in body.entries.items():
+        term = values.get(key)
+        told = (
+            term.parts if isinstance(term, Term) and term.parts else (node.text if isinstance(node, Scalar) else key,)
+        )
+        parts += [", " if parts else f"{kind} ", f"{key}: ", *told]
+    return None if all(isinstance(part, str) for part in parts) else Term(parts=tuple(parts))
 
 
 def _retries(reader: Reader, scope: Scope, node: Node | None) -> int:

@@ -63,7 +63,7 @@ def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     assert answer.code == 0 and pico("get", "p1.angle").out.split()[1] == "0"
     answer = pico("run", "turning", "-p", "angles=3 deg", "--yes", "--junit", "run.xml")
     assert ElementTree.parse("run.xml").getroot().get("tests") == "1"
-    assert answer.code == 0 and "✓   1[1].1 set p1.angle: angle" in answer.out and "last = 3" in answer.out
+    assert answer.code == 0 and "✓   1[1].1 set p1.angle: 3" in answer.out and "last = 3" in answer.out
     assert pico("runs", "show", "--json").data["document"]["cause"]["kind"] == "recipe"
     run = answer.out.partition("`pico runs show ")[2].partition("`")[0]
     assert pico("runs", "show", run).code == 0
@@ -259,6 +259,7 @@ steps:
   - foreach: {turn: turns}
     steps:
       - tag: t-${label}
+      - set: {p2.angle: turn + 1, hwp.angle: 3}
 """
 
 
@@ -267,6 +268,7 @@ def test_a_name_that_is_taken_is_told_before_anything_moves(turning: Path, pico:
     ahead = pico("run", "naming", "--dry-run")
     assert ahead.code == 0 and "commit at 5 deg, a" in ahead.out and "tag t-a" in ahead.out
     done = pico("run", "naming", "--yes")
+    assert "3[1].2 set p2.angle: 2, hwp.angle: 3" in ahead.out and "3[1].2 set p2.angle: 2, hwp.angle: 3" in done.out
     assert done.code == 0 and "commit at 5 deg, a" in done.out and "tag t-a" in done.out and "${" not in done.out
     assert pico("set", "p1", "angle=9", "-y").code == 0
     for words in (("recipe", "check", "naming"), ("run", "naming", "--yes")):
