@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from itertools import permutations
+from itertools import pairwise, permutations
 
 import numpy as np
 import pytest
@@ -29,6 +29,14 @@ def test_potentials_are_below_all_costs_and_add_up_to_the_cheapest_assignment() 
         assert u.sum() + v.sum() == pytest.approx(best)
 
 
+def test_what_may_come_right_after_is_what_does_in_some_order() -> None:
+    for seed in range(10):
+        case = instance(6, 0.25, seed)
+        legal = [(6, *p, 6) for p in permutations(range(6)) if keeps(p, case.before)]
+        met = {arc for line in legal for arc in pairwise(line)}
+        assert met == {(i, j) for i in range(7) for j in range(7) if case.tour.successors(i) >> j & 1}
+
+
 def test_an_order_with_an_arc_costs_at_least_the_bound_and_the_excess_of_the_arc() -> None:
     for seed in range(10):
         case = instance(6, 0.2, seed)
@@ -48,7 +56,7 @@ def test_every_legal_order_fulfills_every_cut() -> None:
         pairs = [(i, j) for j in range(6) for i in range(6) if case.tour.before[j] >> i & 1]
         used = [
             (i, j, rnd.choice([0.25, 0.5, 0.75])) for i in range(7) for j in range(7)
-            if case.tour.follows(i, j) and rnd.random() < 0.35
+            if case.tour.successors(i) >> j & 1 and rnd.random() < 0.35
         ]  # fmt: skip
         cuts = violated(case.tour, pairs, used)
         met += len(cuts)

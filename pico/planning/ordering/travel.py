@@ -25,6 +25,8 @@ ORDER = replace(MANY, rounds=0)
 
 Tables = tuple[list[float], list[list[float]], list[float], Closure]
 """What the ways to the first move, between moves and to the park take [s], and what must come before each move."""
+Ways = dict[tuple[int, int, float], dict[tuple[int, int, float], float]]
+"""What the ways of one arm take [s], from where it places to where it picks: mover, place, and yaw of the hold."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,11 +60,12 @@ def toured(table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, mo
 
 def _one_arm(clock: Clock, steps: Sequence[OrderedMove], several: bool) -> ArmTour:
     """Return the steps of one arm in order. The bound is that of the order taken; `several`: of all arms that could."""
-    asked = _tables(clock, steps)
+    ways: Ways = {}
+    asked = _tables(clock, steps, ways)
     best = best_order(*asked, limit=ORDER)
     order = tuple(steps[k] for k in best.order)
     if (moved := nearer(clock, order)) != order:
-        asked = _tables(clock, moved)
+        asked = _tables(clock, moved, ways)
         best = best_order(*asked, limit=ORDER)
         order = tuple(moved[k] for k in best.order)
     loaded = sum(clock.loaded(s) for s in order)
@@ -71,8 +74,16 @@ def _one_arm(clock: Clock, steps: Sequence[OrderedMove], several: bool) -> ArmTo
     return ArmTour(order, loaded + best.cost, loaded + tightened(*asked, best, MANY).lower_bound)
 
 
-def _tables(clock: Clock, steps: Sequence[OrderedMove]) -> Tables:
-    between = [[clock.between(a, b) if a is not b else 0.0 for b in steps] for a in steps]
+def _tables(clock: Clock, steps: Sequence[OrderedMove], ways: Ways) -> Tables:
+    """Return what is to be ordered; the ways that it takes between moves are added to `ways`, and taken from there."""
+    begins = [(s.mover, s.start, s.hold.yaw) for s in steps]
+    between = []
+    for a in steps:
+        known = ways.setdefault((a.mover, a.goal, a.hold.yaw), {})
+        for b, begin in zip(steps, begins, strict=True):
+            if a is not b and begin not in known:
+                known[begin] = clock.between(a, b)
+        between.append([known.get(begin, 0.0) for begin in begins])
     start, end = [clock.start(s) for s in steps], [clock.end(s) for s in steps]
     return start, between, end, precedence(clock.table, steps, {})
 

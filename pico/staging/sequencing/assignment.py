@@ -22,11 +22,8 @@ def assign(tour: Tour) -> Assignment:
     import numpy as np
 
     size = tour.count + 1
-    costs = np.full((size, size), np.inf)
-    for i in range(size):
-        for j in range(size):
-            if tour.follows(i, j):
-                costs[i, j] = tour.arcs[i][j]
+    follows = [[after >> j & 1 for j in range(size)] for after in map(tour.successors, range(size))]
+    costs = np.where(np.array(follows, bool), np.array(tour.arcs), np.inf)
     rows, columns = duals(costs)
     excess = np.maximum(costs - rows[:, None] - columns[None, :], 0.0)
     return Assignment(float(rows.sum() + columns.sum()), excess)

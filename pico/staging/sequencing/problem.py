@@ -64,16 +64,19 @@ class Tour:
             at = k
         return total
 
-    def follows(self, i: int, j: int) -> bool:
-        """Whether j may come right after i in some order: neither later than something between, nor earlier."""
-        m = self.count
-        if i == j:
-            return False
-        if i == m:
-            return not self.before[j]
-        if j == m:
-            return not self.after[i]
-        return not self.before[i] >> j & 1 and not self.after[i] & self.before[j]
+    def successors(self, i: int) -> int:
+        """Return what may come right after i in some order, as bits: neither later than something between, nor earlier;
+        the park is bit m."""
+        if i == self.count:
+            return sum(1 << j for j, earlier in enumerate(self.before) if not earlier)
+        if not self.after[i]:
+            return (2 << self.count) - 1 & ~(self.before[i] | 1 << i)
+        far, left = 0, self.after[i]
+        while left:
+            low = left & -left
+            far |= self.after[low.bit_length() - 1]
+            left &= ~(low | far)
+        return (1 << self.count) - 1 & ~(self.before[i] | 1 << i | far)
 
 
 def read_tour(
@@ -101,15 +104,16 @@ def closure(before: abc.Sequence[abc.Set[int]]) -> Masks:
     count = len(before)
     if any(not 0 <= e < count for earlier in before for e in earlier):
         raise ValueError(f"precedence must name operations 0 to {count - 1}")
-    masks: dict[int, int] = {}
+    direct, masks, done = [sum(1 << e for e in earlier) for earlier in before], [0] * count, 0
     left = list(range(count))
     while left:
-        ready = [j for j in left if all(e in masks for e in before[j])]
+        ready = [j for j in left if not direct[j] & ~done]
         if not ready:
             raise ValueError(f"operations wait for one another: {', '.join(map(str, left))}")
         for j in ready:
-            masks[j] = 0
             for e in before[j]:
-                masks[j] |= masks[e] | 1 << e
-        left = [j for j in left if j not in masks]
-    return tuple(masks[j] for j in range(count))
+                if not masks[j] >> e & 1:  # else all that comes before it is there, too
+                    masks[j] |= masks[e] | 1 << e
+        done |= sum(1 << j for j in ready)
+        left = [j for j in left if not done >> j & 1]
+    return tuple(masks)
