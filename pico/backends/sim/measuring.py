@@ -23,7 +23,7 @@ def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurab
     try:
         known = setup.measurable_of(component, name)
     except PicoError as exc:
-        raise Failed(exc.diagnostics[0]) from exc
+        raise Failed(exc.diagnostics[0] if "|" in name else not_simulated(component, name)) from exc
     measurer = measurer_of(setup, component, name)
     if measurer is None:
         raise Failed(not_simulated(component, name))
