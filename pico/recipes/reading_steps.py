@@ -15,6 +15,7 @@ from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Para
 from pico.recipes.registry import CONTROL, known, step_file
 from pico.recipes.scanning import column
 from pico.recipes.scope import Scope
+from pico.recipes.steps.measure import result_names
 from pico.recipes.terms import Term, literal, text_term
 
 BESIDE = ("as", "name", "retries")
@@ -193,7 +194,11 @@ def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node]
         reader.wrong(beside.get("read", body), "missing-key", "`scan` does not say what to read", example)
     of = tuple(a for node, text in listed or () if reader.measurable(node, a := spelt(text)))
     measured = {f"{a.partition('.')[0]}.{n}": unit for a in of for n, unit in reader.numbers(a).items()}
-    for address, unit in measured.items():
+    where = {  # a pose and a set-point are no numbers of an instrument, and have columns all the same
+        f"{a}.{part}" if part else a: name.unit for a in of if not reader.numbers(a)
+        for part, name in result_names(reader, a, {}).items() if name.kind == "number"
+    }  # fmt: skip
+    for address, unit in (measured | where).items():
         names |= {column(address): Name("numbers", unit), f"{column(address)}_sigma": Name("numbers", unit)}
     names["part"] = Name("numbers")
     scope.measured |= measured.keys()

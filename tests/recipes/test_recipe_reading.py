@@ -114,3 +114,10 @@ def test_a_recipe_that_is_called_is_read_as_well_and_told_what_it_needs() -> Non
 def test_the_digest_counts_what_is_called() -> None:
     one, other = (right("steps:\n- call: b\n", {"b": f"steps: [{{wait: {n} s}}]\n"}) for n in (1, 2))
     assert one.digest != other.digest
+
+
+def test_a_scan_has_columns_of_a_pose_and_a_set_point_that_it_reads() -> None:
+    right(
+        "steps:\n- {scan: {p1.angle: [1, 2]}, read: [p2.angle, p2.pose], as: s}\n"
+        "returns: {a: sum(s.p2_angle), b: sum(s.p2_pose_x), c: least(s.p2_pose_yaw_sigma)}\n"
+    )

@@ -31,7 +31,7 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
         return Given({"of": ()})
     of = [a for node, text in listed if reader.measurable(node, a := spelt(text))]
     numbers = {a: reader.numbers(a) for a in of}
-    names = _result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
+    names = result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
     return Given(
         {"of": tuple(of)},
         names=names,
@@ -39,7 +39,8 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
     )
 
 
-def _result_names(reader: Reader, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
+def result_names(reader: Reader, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
+    """Return the names that the result of a measurement has, `""` for itself; `numbers`: those of the measurable."""
     component, _, measurable = address.partition(".")
     kind = reader.setup.measurable_of(component, measurable)
     if kind.datatype == "pose":
