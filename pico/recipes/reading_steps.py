@@ -13,9 +13,8 @@ from pico.manifest.text.tree import List, Map, Node, Scalar
 from pico.recipes.reader import NOTHING, Reader, scalar_texts
 from pico.recipes.recipe import Act, Assert, Call, Choice, Each, Let, Name, Parameter, Recipe, Scan, Step, While
 from pico.recipes.registry import CONTROL, known, step_file
-from pico.recipes.scanning import column
+from pico.recipes.scanning import column, result_names
 from pico.recipes.scope import Scope
-from pico.recipes.steps.measure import result_names
 from pico.recipes.terms import Term, literal, text_term
 
 BESIDE = ("as", "name", "retries")
@@ -196,7 +195,7 @@ def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node]
     measured = {f"{a.partition('.')[0]}.{n}": unit for a in of for n, unit in reader.numbers(a).items()}
     where = {  # a pose and a set-point are no numbers of an instrument, and have columns all the same
         f"{a}.{part}" if part else a: name.unit for a in of if not reader.numbers(a)
-        for part, name in result_names(reader, a, {}).items() if name.kind == "number"
+        for part, name in result_names(reader.setup, a, {}).items() if name.kind == "number"
     }  # fmt: skip
     for address, unit in (measured | where).items():
         names |= {column(address): Name("numbers", unit), f"{column(address)}_sigma": Name("numbers", unit)}

@@ -11,6 +11,11 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pico.expressions import Kind as ValueKind
+from pico.model.setup import Setup
+from pico.recipes.recipe import Name
+
+_KINDS: Mapping[str, ValueKind] = {"float": "number", "bool": "bool", "choice": "text"}
 APART = 2.0
 """Standard deviations of both readings from which two differ."""
 
@@ -47,3 +52,24 @@ def apart(before: Mapping[str, float], again: Mapping[str, float]) -> bool:
 def columns(rows: Sequence[Mapping[str, float]]) -> dict[str, list[float]]:
     """Return the columns of a scan's rows, which all have the same names."""
     return {name: [r[name] for r in rows] for name in rows[0]} if rows else {}
+
+
+def result_names(setup: Setup, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
+    """Return the names that the result of a measurement has, `""` for itself; `numbers`: those of the measurable."""
+    component, _, measurable = address.partition(".")
+    kind = setup.measurable_of(component, measurable)
+    if kind.datatype == "pose":
+        return {"x": Name("number", "mm"), "y": Name("number", "mm"), "yaw": Name("number", "deg")}
+    if kind.datatype == "setpoint":
+        tunable = setup.type_of(component).tunables[measurable]
+        return {"": Name(_KINDS[tunable.datatype], tunable.unit)}
+    return _names(measurable, numbers)
+
+
+def _names(measurable: str, numbers: Mapping[str, str]) -> dict[str, Name]:
+    """Return how a result is called, after its name: `x`, `x_sigma`; of a single number ``, `sigma`."""
+    found: dict[str, Name] = {}
+    for number, unit in numbers.items():
+        short = "" if number == measurable else number.removeprefix(f"{measurable}.")
+        found[short] = found[f"{short}_sigma" if short else "sigma"] = Name("number", unit)
+    return found

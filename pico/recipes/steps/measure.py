@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from pico.diagnostics import PicoError, error
-from pico.expressions import Kind as ValueKind
 from pico.kernels.pipeline import spelt
 from pico.manifest.text.tree import Node
 from pico.model.measurement import Measurement
@@ -15,11 +14,10 @@ from pico.model.plan import Plan
 from pico.model.record import as_json
 from pico.recipes.doing import Doing
 from pico.recipes.reader import Reader, scalar_texts
-from pico.recipes.recipe import Name
 from pico.recipes.registry import Given, Kind
+from pico.recipes.scanning import result_names
 from pico.recipes.scope import Scope
 
-_KINDS: Mapping[str, ValueKind] = {"float": "number", "bool": "bool", "choice": "text"}
 KIND = Kind("one measurable or several", "{measure: cam.centroid, as: spot}", within=True)
 
 
@@ -31,33 +29,12 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
         return Given({"of": ()})
     of = [a for node, text in listed if reader.measurable(node, a := spelt(text))]
     numbers = {a: reader.numbers(a) for a in of}
-    names = result_names(reader, of[0], numbers[of[0]]) if len(of) == 1 else {}
+    names = result_names(reader.setup, of[0], numbers[of[0]]) if len(of) == 1 else {}
     return Given(
         {"of": tuple(of)},
         names=names,
         measured=tuple(f"{a.partition('.')[0]}.{n}" for a in of for n in numbers[a]),
     )
-
-
-def result_names(reader: Reader, address: str, numbers: Mapping[str, str]) -> dict[str, Name]:
-    """Return the names that the result of a measurement has, `""` for itself; `numbers`: those of the measurable."""
-    component, _, measurable = address.partition(".")
-    kind = reader.setup.measurable_of(component, measurable)
-    if kind.datatype == "pose":
-        return {"x": Name("number", "mm"), "y": Name("number", "mm"), "yaw": Name("number", "deg")}
-    if kind.datatype == "setpoint":
-        tunable = reader.setup.type_of(component).tunables[measurable]
-        return {"": Name(_KINDS[tunable.datatype], tunable.unit)}
-    return _names(measurable, numbers)
-
-
-def _names(measurable: str, numbers: Mapping[str, str]) -> dict[str, Name]:
-    """Return how a result is called, after its name: `x`, `x_sigma`; of a single number ``, `sigma`."""
-    found: dict[str, Name] = {}
-    for number, unit in numbers.items():
-        short = "" if number == measurable else number.removeprefix(f"{measurable}.")
-        found[short] = found[f"{short}_sigma" if short else "sigma"] = Name("number", unit)
-    return found
 
 
 def plan(doing: Doing, given: Mapping[str, Any]) -> Plan:
