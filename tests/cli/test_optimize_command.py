@@ -63,6 +63,8 @@ def test_a_goal_of_the_lab_is_one_operation_with_its_points_beside_the_run(place
     assert operation["primitive"] == "optimize" and operation["data"]["last"] == found["last"]
     assert pico("undo", "--yes").code == 0
     assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
+    again = pico("optimize", "centred", "--dry-run")  # no part was put down anew: nothing is made up for
+    assert again.code == 0 and "makes up for" not in again.out and "operation" not in again.out
 
 
 def test_a_crossed_polarizer_is_found_from_a_saturated_start(placed: Path, pico: Pico) -> None:
