@@ -11,18 +11,21 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from pico.geometry import capture_disc
 from pico.model.plan import Blocking
 from pico.model.plan import BlockingKind as Kind
 from pico.planning.ordering.conflicts import Conflicts, Way, sum_of
-from pico.planning.ordering.fewest_stagings import BOUND
 from pico.planning.ordering.relaxed import relaxation
 from pico.planning.ordering.search import Expansions, SearchEffort, search
 from pico.planning.parts.movers import Hold, Mover, Place
+from pico.staging.feedback import Limit
 from pico.staging.feedback import solve as fewest_staged
 
 WORK = 60_000
 """Configurations looked at in all for one certificate."""
+LIMIT = Limit(solves=15, nodes=500)
+"""How hard to look for a proof that storage with room for all would not do."""
+FEW = 40
+"""So many constraints are told where nobody knows whether fewer would do."""
 EACH = 6000
 """Configurations looked at for one constraint."""
 QUICK = SearchEffort(weight=2.0, limit=200, commit=True, slots=3)
@@ -48,13 +51,21 @@ def certified(table: Conflicts, core: Sequence[int]) -> Certificate | None:
     kept = list(_constraints(table, who))
     if judged(table, who, kept, work) != "impossible":
         return None
+    for kind in dict.fromkeys(c.kind for c in kept):
+        less = [c for c in kept if c.kind != kind]
+        kept = less if judged(table, who, less, work) == "impossible" else kept
     minimal = True
     for one in tuple(kept):
+        if work.left <= 0:
+            minimal = False
+            break
         less = [c for c in kept if c != one]
         verdict = judged(table, who, less, work)
         if verdict == "impossible":
             kept = less
         minimal = minimal and verdict != "unknown"
+    if not minimal and len(kept) > FEW:
+        return None
     return Certificate(tuple(sorted(kept, key=lambda c: (c.kind, c.of, c.by))), minimal)
 
 
@@ -67,8 +78,11 @@ def stored_would_do(table: Conflicts, names: Iterable[str]) -> bool:
 
 def judged(table: Conflicts, who: Sequence[int], kept: Iterable[Blocking], work: Expansions) -> Verdict:
     """Return whether the movers `who` can get home by themselves where only the constraints `kept` count."""
+    work.left -= 20 + 5 * len(who)
+    if work.left <= 0:
+        return "unknown"
     eased = Eased(table, who, kept)
-    relaxed = fewest_staged(relaxation(eased), BOUND)
+    relaxed = fewest_staged(relaxation(eased), LIMIT)
     if relaxed.options is None and relaxed.proven:
         return "impossible"
     if search(eased, QUICK).steps is not None:
@@ -88,10 +102,25 @@ def _constraints(table: Conflicts, who: Sequence[int]) -> Iterator[Blocking]:
     for i in who:
         others = dict.fromkeys(name for hold, place in _ends(table, i) for name in _near_fingers(table, i, place, hold))
         yield from (Blocking(kind="fingers", of=table.movers[i].name, by=name) for name in others)
-    yield from (Blocking(kind="fingers", of=a, by=b) for a in names for b in names if a != b)
-    yield from (Blocking(kind="bodies", of=a, by=b) for n, a in enumerate(names) for b in names[n + 1 :])
+    gripped, met = _meetings(table, who)
+    yield from (Blocking(kind="fingers", of=a, by=b) for a in names for b in names if (a, b) in gripped)
+    pairs = ((a, b) for n, a in enumerate(names) for b in names[n + 1 :])
+    yield from (Blocking(kind="bodies", of=a, by=b) for a, b in pairs if (a, b) in met or (b, a) in met)
     yield from (Blocking(kind="stays", of=name) for name in names)
     yield from (Blocking(kind="reach", of=name) for name in names)
+
+
+def _meetings(table: Conflicts, who: Sequence[int]) -> tuple[set[tuple[str, str]], set[tuple[str, str]]]:
+    """Return the pairs of which the fingers around the first meet the second somewhere, and those that meet."""
+    gripped, met = set[tuple[str, str]](), set[tuple[str, str]]()
+    for i in who:
+        name = table.movers[i].name
+        places = range(len(table.movers[i].places))
+        bodies = sum_of(table.near_body(i, p) for p in places)
+        hands = sum_of(table.near_fingers(i, p, h) for p in places for h in table.movers[i].holds)
+        met |= {(name, table.movers[j].name) for j, _ in table.at(bodies)}
+        gripped |= {(name, table.movers[j].name) for j, _ in table.at(hands)}
+    return gripped, met
 
 
 def _ends(table: Conflicts, i: int) -> Iterator[tuple[Hold, int]]:
@@ -162,9 +191,7 @@ class Eased(Conflicts):
         if mask is None and (place in mover.staging or self._has("stays", mover.name)):
             return None
         if mask is None:
-            mask = self._full._meeting(j, self._full.shape(j, place), self.setup.lab.margins.body)
-            if slot := mover.places[place].slot:
-                mask |= self._full._meeting(j, capture_disc(self.setup.lab.slots[slot]), 0.0)
+            mask = self._full.near_body(j, place)
         return self._only(mask, i, "bodies")
 
     def grip(self, i: int, place: int, hold: Hold) -> int | None:

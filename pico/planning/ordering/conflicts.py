@@ -202,6 +202,14 @@ class Conflicts:
         keep_out = self.setup.lab.keep_out.values()
         return any(reaches(k, lowest, float("inf")) and conflict(z, outline(k)) for z in zones for k in keep_out)
 
+    def near_body(self, i: int, place: int) -> int:
+        """Return the spots of others that are where a mover, or the mouth of its slot, would be."""
+        mask, slot = (
+            self._meeting(i, self.shape(i, place), self.setup.lab.margins.body),
+            self.movers[i].places[place].slot,
+        )
+        return mask | self._meeting(i, self._mouths.shapes[slot], 0.0) if slot else mask
+
     def near_fingers(self, i: int, place: int, hold: Hold) -> int:
         """Return the spots of others that are where the fingers need room."""
         lowest, zones = self._zones(i, place, hold)
