@@ -247,6 +247,12 @@ class Kills:
             away = {n: v for n, v in stands(after, sought).items() if abs(v - stands(before, sought)[n]) > 1e-6}
             if away or code != 0:
                 yield f"undo ({code}) left {away}; {(folder / 'out.txt').read_text()[-300:]}"
+        elif (
+            code == 1
+            and "does it anew" in (folder / "out.txt").read_text()
+            and stands(left, sought) == stands(before, sought)
+        ):  # killed before it had begun its operation: nothing was set, and that is said
+            self.count["killed before it began"] += 1
         elif code not in (0, 6) or last > first * (1.02 if first > 0 else 0.98) + 1e-3:
             yield f"resume ({code}): {first:.6g}, now {last:.6g}; {(folder / 'out.txt').read_text()[-300:]}"
 
