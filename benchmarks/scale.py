@@ -66,6 +66,8 @@ geometry:
   bodies: [{name: post, shape: cylinder, size: [30, 100], at: [0, 0, 50]}]
   grasp: {height: 90, width: 30, yaws: [0]}
 """
+HIGH = 400.0
+"""Height at which the gantry carries: over everything that stands here [mm]."""
 FILE, RACK = 25, 100.0
 """Components a file, and the pitch of the storage beside the table [mm]."""
 NEAR = 60.0
@@ -181,7 +183,7 @@ def write_lab(folder: Path, found: Arrangement, gripper: Gripper) -> None:
     lab = [
         "apiVersion: pico/v1\nkind: Lab\nmetadata: {name: large}",
         f"table: {{size: [{found.side}, {found.side}], beam_height: 70}}",
-        f"robots: {{arm1: {{model: gantry, mount: {{x: 0, y: 0}}, gripper: {fingers}}}}}",
+        f"robots: {{arm1: {{model: gantry, mount: {{x: 0, y: 0}}, transit_height: {HIGH}, gripper: {fingers}}}}}",
         *(["margins: {body: 0, fingers: 0}"] if DISC in found.kinds.values() else []),
         "slots:",
         *(f"  rack/s{i}: {{x: {x}, y: {y}}}" for i, (x, y) in enumerate(rack)),
