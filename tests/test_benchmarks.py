@@ -36,7 +36,7 @@ SMALLEST = {
     "faulted_loops": "--loops 12 --kills 2 --goals tip null",
     "stages": "--seeds 1",
     "random_recipes": "--recipes 2 --broken 4",
-    "recipe_kills": "--kills 2 --until 7",
+    "recipe_kills": "--kills 1 --until 7",
     "recording": "--settings 3 --kills 2",
     "shel": "--seeds 1 --fidelity kinematic --only 30",
     "restoration": "--experiments 1 --fidelity kinematic --history staged --only C3 --dark",
