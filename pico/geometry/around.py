@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from pico.geometry.shape import Shape, separation
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 Point = tuple[float, float, float]
 """Where the load is: x, y, and its yaw."""
@@ -17,6 +24,8 @@ STEP = 2.0
 """How far the load goes between two looks."""
 _AROUND = 8
 """Corners of a way around a thing."""
+MOST_CORNERS = 80
+"""Corners over which a way around is sought: a table full of tall parts has thousands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,45 +86,62 @@ def _around(
     size: tuple[float, float],
 ) -> list[Point]:  # fmt: skip
     """Return the shortest way over corners around what is tall, turning at the first of them; nothing where there is
-    none."""
-    corners = [c for c in _corners(load, tall, start, goal, size) if _clear(load, tall, c, c)]
-    ends = {n for n, c in enumerate(corners) if not _met(load, tall, kept, (*c, goal[2]), goal)}
+    none over those with the least detour."""
+    import numpy as np
+
+    things = np.array([(s.x, s.y, s.radius + load.radius + load.margin) for s in tall.values()])
+    corners = _corners(things, start, goal, size)
     heap: list[tuple[float, int, tuple[int, ...]]] = [
-        (math.dist(start[:2], c), n, (n,)) for n, c in enumerate(corners)
+        (math.dist(start[:2], c), n, (n,)) for n, c in enumerate(corners.tolist())
         if not _met(load, tall, kept, start, (*c, start[2]))
     ]  # fmt: skip
     heap.sort()
     seen: set[int] = set()
+    places = corners.tolist()
     while heap:
         gone, n, trail = heappop(heap)
         if n == -1:
-            first = corners[trail[0]]
-            return [start, (*first, start[2]), *((*corners[k], goal[2]) for k in trail), goal]
+            first = places[trail[0]]
+            return [start, (*first, start[2]), *((*places[k], goal[2]) for k in trail), goal]
         if n in seen:
             continue
         seen.add(n)
-        if n in ends:
-            heappush(heap, (gone + math.dist(corners[n], goal[:2]), -1, trail))
-        for k, corner in enumerate(corners):
-            if k not in seen and _clear(load, tall, corners[n], corner):
-                heappush(heap, (gone + math.dist(corners[n], corner), k, (*trail, k)))
+        if not _met(load, tall, kept, (*places[n], goal[2]), goal):
+            heappush(heap, (gone + math.dist(places[n], goal[:2]), -1, trail))
+        for k in np.flatnonzero(_clear(things, corners[n], corners)).tolist():
+            if k not in seen:
+                heappush(heap, (gone + math.dist(places[n], places[k]), k, (*trail, k)))
     return []
 
 
-def _corners(
-    load: Load, tall: Mapping[str, Shape], start: Point, goal: Point, size: tuple[float, float]
-) -> Iterator[tuple[float, float]]:
-    """Yield places around each thing, above the table, or no farther out than the ends of the way."""
-    xs, ys = (0.0, size[0], start[0], goal[0]), (0.0, size[1], start[1], goal[1])
-    for shape in tall.values():
-        far = (shape.radius + load.radius + load.margin + 1.0) / math.cos(math.pi / _AROUND)
-        for k in range(_AROUND):
-            angle = 2 * math.pi * k / _AROUND
-            x, y = shape.x + far * math.cos(angle), shape.y + far * math.sin(angle)
-            if min(xs) <= x <= max(xs) and min(ys) <= y <= max(ys):
-                yield x, y
+def _corners(things: Array, start: Point, goal: Point, size: tuple[float, float]) -> Array:
+    """Return places (n, 2) around each thing where the load passes, above the table, or no farther out than the ends of
+    the way: those with the least detour."""
+    import numpy as np
+
+    angles = 2 * math.pi * np.arange(_AROUND) / _AROUND
+    far = (things[:, 2] + 1.0) / math.cos(math.pi / _AROUND)
+    around = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    found = (things[:, None, :2] + far[:, None, None] * around).reshape(-1, 2)
+    ends = np.array([(0.0, 0.0), size, start[:2], goal[:2]])
+    found = found[((found >= ends.min(axis=0)) & (found <= ends.max(axis=0))).all(axis=1)]
+    detour = sum(np.linalg.norm(found - end, axis=1) for end in ends[2:])
+    found = found[np.argsort(detour, kind="stable")]
+    free: list[Array] = []
+    for at in range(0, len(found), MOST_CORNERS):
+        some = found[at : at + MOST_CORNERS]
+        gaps = np.linalg.norm(some[:, None, :] - things[None, :, :2], axis=2)
+        free.append(some[(gaps > things[:, 2]).all(axis=1)])
+    return np.concatenate([np.zeros((0, 2)), *free])[:MOST_CORNERS]
 
 
-def _clear(load: Load, tall: Mapping[str, Shape], start: Sequence[float], goal: Sequence[float]) -> bool:
-    """Whether the load, however it is turned, passes everything from one corner to another."""
-    return all(_from_leg(s.x, s.y, start, goal) > s.radius + load.radius + load.margin for s in tall.values())
+def _clear(things: Array, start: Array, goals: Array) -> NDArray[np.bool_]:
+    """Return whether the load, however it is turned, passes everything from one corner to each of others (n, 2)."""
+    import numpy as np
+
+    way, off = goals - start, things[:, :2] - start
+    square = np.maximum((way**2).sum(axis=1), 1e-12)
+    share = np.clip(off @ way.T / square, 0.0, 1.0)
+    gaps = np.linalg.norm(off[:, None, :] - share[:, :, None] * way, axis=2)
+    clear: NDArray[np.bool_] = (gaps > things[:, 2:]).all(axis=0)
+    return clear
