@@ -162,7 +162,7 @@ class Experiment:
         self, folder: Path, seed: int, fidelity: str, passive: bool, only: str = "", shifts: bool = True
     ) -> None:
         self.folder, self.fidelity, self.only, self.shifts = folder, fidelity, only, shifts
-        bench_of(folder, seed, passive=passive)
+        bench_of(folder, seed, passive=passive, sighted=False)
         self.built: dict[str, Spent] = {}
         self.shift: dict[str, tuple[float, float]] = {}
 
