@@ -29,8 +29,6 @@ BY_HAND: tuple[ByHand, ...] = (
         "grid.conflicts(goal_shape(mover, mover.places[goal]), margin)", "grid.conflicts(goal_shape(mover, mover.places[goal]), 0.0)", "test_refusals.py"),
     ByHand("no margin between a part that arrives and what stands there",
         "mover.places[place].slot, lab.margins.body", "mover.places[place].slot, 0.0", "test_plans.py"),
-    ByHand("a part is put into a slot that another covers meanwhile",
-        "return mask | self._meeting(i, self._mouths.shapes[slot], 0.0) if slot else mask", "return mask", "test_plans.py"),
     ByHand("the fingers reach into a keep-out",
         'if any(reaches(k, lowest, float("inf")) and conflict(zone, outline(k)) for k in keep_out):', "if False:", "test_refusals.py"),
     ByHand("the fingers avoid a keep-out that ends below them",
