@@ -16,6 +16,7 @@ from shapely import Point, Polygon
 from shapely.affinity import rotate, translate
 
 from pico.model.catalog import Footprint, Geometry
+from pico.model.lab import Slot
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import Plan
@@ -69,11 +70,33 @@ def fingers(geometry: Geometry, gripper: Gripper, yaw: float, pose: Pose) -> tup
     return zones, grasp.height - finger.tip
 
 
-class World:
-    """What stands where, as a plan is walked."""
+def slot_used(setup: Setup, name: str, pose: Pose) -> str | None:
+    """Return the slot in which a part is at a pose, the nearest of those that capture it; what is bolted uses none."""
+    near = [(math.hypot(pose.x - s.x, pose.y - s.y), n) for n, s in setup.lab.slots.items()]
+    within = [(away, n) for away, n in near if away <= setup.lab.slots[n].capture]
+    return min(within)[1] if within and setup.movable(name) else None
 
-    def __init__(self, setup: Setup, seen: Observation) -> None:
-        self.setup = setup
+
+def mouth(slot: Slot) -> Base:
+    """Return what must stay empty of all but the part in a slot."""
+    return Base(Point(slot.x, slot.y), slot.capture)
+
+
+def right(setup: Setup, wanted: LabState, name: str, pose: Pose) -> bool:
+    """Whether a part at a pose is where it belongs."""
+    slot, goal = place_of(setup, wanted, name)
+    if slot:
+        return pose.distance(goal) <= setup.lab.slots[slot].capture
+    tolerance = setup.type_of(name).pose.tolerance
+    away, turned = pose.distance(goal), abs((pose.yaw - goal.yaw + 180) % 360 - 180)
+    return away <= tolerance.position + EPSILON and turned <= tolerance.yaw + EPSILON
+
+
+class World:
+    """What stands where, as a plan is walked that is to lead to a state."""
+
+    def __init__(self, setup: Setup, seen: Observation, wanted: LabState) -> None:
+        self.setup, self.wanted = setup, wanted
         self.poses: dict[str, Pose] = {
             n: p.pose for n, p in seen.components.items() if p.pose is not None and p.presence == "seen"
         }
@@ -108,6 +131,7 @@ class World:
         for zone, keep_out in lab.keep_out.items():
             if keep_out.z[0] <= geometry.height and _zone(keep_out.area).gap(shape) <= 0:
                 faults.append(f"{name} stands in keep-out {zone}")
+        faults += self._covers(name, pose, shape)
         return faults + (self._slot_faults(name, pose, slot) if slot else [])
 
     def _off_table(self, name: str, shape: Base) -> list[str]:
@@ -127,8 +151,20 @@ class World:
         radius = footprint.disc or max(math.hypot(x, y) for x, y in corners)
         if place.fits is not None and radius > place.fits + EPSILON:
             faults.append(f"{name} does not fit into {slot}")
-        mouth = Base(Point(place.x, place.y), place.capture)
-        faults += [f"{slot} is not free: {o} meets it" for o, b, _ in self.others(name) if mouth.gap(b) < -EPSILON]
+        faults += [
+            f"{slot} is not free: {o} meets it" for o, b, _ in self.others(name) if mouth(place).gap(b) < -EPSILON
+        ]  # fmt: skip
+        return faults
+
+    def _covers(self, name: str, pose: Pose, shape: Base) -> list[str]:
+        """Return the slots in use that a part would cover: only where both belong it may."""
+        faults = []
+        for other, stands in self.poses.items():
+            slot = slot_used(self.setup, other, stands) if other != name else None
+            if slot is None or mouth(self.setup.lab.slots[slot]).gap(shape) >= -EPSILON:
+                continue
+            if not (right(self.setup, self.wanted, name, pose) and right(self.setup, self.wanted, other, stands)):
+                faults.append(f"{name} at {pose} covers {slot}, in which {other} is")
         return faults
 
     def grip_faults(self, name: str, pose: Pose, yaw: float, robot: str, when: str) -> list[str]:
@@ -189,19 +225,19 @@ def check(
     """Return everything that is wrong with a plan; `extensions`: how many other orders that keep `after` are walked."""
     operations = plan.operations
     faults = [*_graph_faults(operations), *_staging_faults(setup, wanted, operations)]
-    world = World(setup, seen)
+    world = World(setup, seen, wanted)
     for operation in operations:
         faults += world.walk(operation)
     faults += _end_faults(setup, seen, wanted, plan, world)
     rng = random.Random(seed)
     for _ in range(extensions if len(operations) > 1 else 0):
-        faults += [f"in another order, {f}" for f in _walk(setup, seen, extension(operations, rng))]
-        faults += [f"after a failure, {f}" for f in _walk(setup, seen, survivors(operations, rng))]
+        faults += [f"in another order, {f}" for f in _walk(setup, seen, wanted, extension(operations, rng))]
+        faults += [f"after a failure, {f}" for f in _walk(setup, seen, wanted, survivors(operations, rng))]
     return faults
 
 
-def _walk(setup: Setup, seen: Observation, operations: Iterable[Operation]) -> list[str]:
-    world = World(setup, seen)
+def _walk(setup: Setup, seen: Observation, wanted: LabState, operations: Iterable[Operation]) -> list[str]:
+    world = World(setup, seen, wanted)
     return [fault for operation in operations for fault in world.walk(operation)]
 
 
@@ -284,12 +320,7 @@ def _end_faults(setup: Setup, seen: Observation, wanted: LabState, plan: Plan, w
         if name not in world.poses:
             continue
         pose, (slot, goal) = world.poses[name], place_of(setup, wanted, name)
-        tolerance = setup.type_of(name).pose.tolerance
-        away, turned = pose.distance(goal), abs((pose.yaw - goal.yaw + 180) % 360 - 180)
-        right = away <= setup.lab.slots[slot].capture if slot else (
-            away <= tolerance.position + EPSILON and turned <= tolerance.yaw + EPSILON
-        )  # fmt: skip
-        if not right:
+        if not right(setup, wanted, name, pose):
             faults.append(f"{name} ends at {pose}, not at {slot or goal}")
         values = wanted.components[name].values if name in wanted.components else {}
         for tunable, value in values.items():

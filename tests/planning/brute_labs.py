@@ -12,9 +12,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
-from checker import EPSILON, Base, World, base, fingers
+from checker import EPSILON, Base, World, base, fingers, mouth, slot_used
 from random_labs import Case
-from shapely import Point
 
 from pico.model.pose import Pose, wrap
 from pico.model.state import place_of
@@ -99,15 +98,24 @@ class Lab:
 
     def _standing(self, i: int, p: int) -> int | None:
         spot, lab = self.spots[i][p], self.setup.lab
-        alone = World(self.setup, self.case.seen)
+        alone = World(self.setup, self.case.seen, self.case.wanted)
         alone.poses = {}
         if alone.place_faults(self.names[i], spot.pose, spot.slot):
             return None
         enough = max(lab.margins.body - EPSILON, 0.0)
         mask = self._near(i, spot.base, enough)
         if spot.slot:
-            place = lab.slots[spot.slot]
-            mask |= self._near(i, Base(Point(place.x, place.y), place.capture), -EPSILON)
+            mask |= self._near(i, mouth(lab.slots[spot.slot]), -EPSILON)
+        return mask | self._covered(i, p)
+
+    def _covered(self, i: int, p: int) -> int:
+        """Return the spots of others in slots that a component would cover at a spot: only where both belong it may."""
+        mask, shape = 0, self.spots[i][p].base
+        for j, spots in enumerate(self.spots):
+            for q, s in enumerate(spots if j != i else ()):
+                slot = slot_used(self.setup, self.names[j], s.pose)
+                if slot and mouth(self.setup.lab.slots[slot]).gap(shape) < -EPSILON:
+                    mask |= 0 if p in self.goals[i] and q in self.goals[j] else self.bit(j, q)
         return mask
 
     def _near(self, i: int, shape: Base, enough: float, above: float = -1.0) -> int:

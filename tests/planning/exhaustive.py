@@ -31,7 +31,7 @@ class Puzzle:
     """The components of a small table, their spots, and which moves exclude which neighbours."""
 
     def __init__(self, setup: Setup, seen: Observation, wanted: LabState) -> None:
-        self.setup, self.seen = setup, seen
+        self.setup, self.seen, self.wanted = setup, seen, wanted
         self.names = sorted(setup.lab.inventory)
         self.spots: list[list[Spot]] = []
         self.goals: list[set[int]] = []
@@ -70,7 +70,7 @@ class Puzzle:
 
     def _alone(self, *placed: tuple[int, int]) -> World:
         """A table on which only these stand."""
-        world = World(self.setup, self.seen)
+        world = World(self.setup, self.seen, self.wanted)
         world.poses = {self.names[i]: self.spots[i][p][0] for i, p in placed}
         return world
 

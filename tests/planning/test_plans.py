@@ -107,6 +107,11 @@ DISC = ComponentType(
         footprint=Footprint(disc=58), height=60, mass=0.3, grasp=Grasp(height=50, width=40, yaws=(0.0, 90.0)),
     ),
 )  # fmt: skip
+PIN = ComponentType(
+    name="pin", title="Pin", geometry=Geometry(
+        footprint=Footprint(disc=8), height=60, mass=0.1, grasp=Grasp(height=50, width=16, yaws=(0.0, 90.0)),
+    ),
+)  # fmt: skip
 
 
 def test_a_part_may_be_put_down_meanwhile_over_the_mouth_of_a_slot_that_nobody_needs() -> None:
@@ -119,15 +124,32 @@ def test_a_part_may_be_put_down_meanwhile_over_the_mouth_of_a_slot_that_nobody_n
     assert check(setup, seen, wanted, made) == []
 
 
-def test_who_covers_a_slot_meanwhile_leaves_before_another_is_put_there() -> None:
-    # c goes to s1, which a or b, staged in s2, covers
-    slots = {"s1": Slot(x=60, y=60), "s2": Slot(x=90, y=60)}
-    setup = bench(dict.fromkeys("abc", "block"), slots)
-    seen = see(setup, {"a": (300, 300), "b": (500, 300), "c": (700, 300)})
-    wanted = want({"a": (500, 300), "b": (300, 300), "c": "s1"})
+def test_who_covers_a_slot_meanwhile_is_not_there_while_another_is_in_it() -> None:
+    """A pin in s1, whose mouth a block in s2 covers without touching it: the swap of two blocks is done before the pin
+    comes, or after it has left; where it stays, there is no slot for them."""
+    slots = {"s1": Slot(x=60, y=60, capture=20), "s2": Slot(x=102, y=60)}
+    vacuum = {"arm1": Robot(mount=Mount(x=400, y=500), gripper=Gripper(fingers="none"))}
+    setup = bench({"a": "block", "b": "block", "pin": part("pin", stage="never")}, slots, robots=vacuum)
+    setup = replace(setup, catalog={**setup.catalog, "pin": PIN})
+    swap = {"a": (500, 300), "b": (300, 300)}
+    for before, then, order in (((150, 150), "s1", -1), ("s1", (700, 300), 0), ("s1", "s1", None)):
+        seen = see(setup, {"a": (300, 300), "b": (500, 300), "pin": before})
+        wanted = want({**swap, "pin": then})
+        made = planned(setup, seen, wanted)
+        assert made.errored == (order is None)
+        if order is not None:
+            assert [o.component for o in made.operations if o.kind.carries][order] == "pin"
+            assert check(setup, seen, wanted, made) == []
+    assert "in s2 it would cover the mouth of s1, in which something stays" in made.diagnostics[0].detail
+
+
+def test_a_state_may_have_a_part_over_the_mouth_of_a_slot_in_use() -> None:
+    slots = {"s1": Slot(x=60, y=60, capture=20)}
+    setup = bench({"a": "block", "pin": "pin"}, slots)
+    setup = replace(setup, catalog={**setup.catalog, "pin": PIN})
+    seen, wanted = see(setup, {"a": (300, 300), "pin": (700, 300)}), want({"a": (102, 60), "pin": "s1"})
     made = planned(setup, seen, wanted)
-    order = [o.component for o in made.operations if o.kind.carries]
-    assert made.staging.count == 1 and order[-1] == "c" and check(setup, seen, wanted, made) == []
+    assert [name for name, _ in moves(made)] == ["pin", "a"] and check(setup, seen, wanted, made) == []
 
 
 def test_turning_in_place_is_one_move() -> None:

@@ -186,6 +186,9 @@ def _geometric(setup: Setup, first: Operation, then: Operation) -> Iterator[Beca
             yield Because(kind="contact", text=f"if {where}, {by.text}", contact=by)
         elif by := mouth(setup, takes.slot, a, leaves.pose):
             yield Because(kind="contact", text=f"{takes.slot} must be empty first: {by.text}", contact=by)
+        elif by := mouth(setup, leaves.slot, b, takes.pose):
+            text = f"{a} must have left {leaves}: with {b} at {takes}, {by.text}"
+            yield Because(kind="contact", text=text, contact=by)
     if leaves:
         yield from _by_fingers(setup, then, a, leaves, f"if {a} still stood at {leaves}")
     goal = _end(setup, first, "to")

@@ -220,7 +220,9 @@ def before(table: Conflicts, a: int, b: int) -> str:
     if not all(m & bit for m in masks) or (not masks and not all(m & bit for m in bodies)):
         return ""
     depth = max(body_overlap(table, (b, g), (a, 0)) for g in second.goals)
-    if all(m & bit for m in bodies):
+    if all(m & bit for m in bodies) and -depth > table.setup.lab.margins.body:
+        how = f"it stands in the mouth of {second.goal.slot}" if second.goal.slot else "it is in the slot covered then"
+    elif all(m & bit for m in bodies):
         how = f"bodies overlap by {depth:.3g} mm" if depth > 0 else f"bodies come within {-depth:.3g} mm"
     else:
         how = f"a finger of the gripper would touch {first.name}, every grasp yaw tried"
@@ -254,9 +256,13 @@ def _no_room(table: Conflicts, i: int) -> str:
     if not slots:
         return "every slot that takes it is occupied"
     near = sorted({name for p in mover.staging for name in table.static.conflicts(table.shape(i, p), margin)})
-    why = (
-        f"it would come too near to {listed(near, 'or')}" if near else "it would reach over the edge or into a keep-out"
-    )
+    covered = sorted({slot for p in mover.staging for slot in table.covered_in_use(i, p)})
+    if near:
+        why = f"it would come too near to {listed(near, 'or')}"
+    elif covered:
+        why = f"it would cover the mouth of {listed(covered, 'or')}, in which something stays"
+    else:
+        why = "it would reach over the edge or into a keep-out"
     return f"in {listed(slots, 'or')} {why}"
 
 

@@ -23,6 +23,7 @@ from pico.geometry import (
     separation,
 )
 from pico.model.catalog import Footprint
+from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion
@@ -68,6 +69,9 @@ class Conflicts:
         movers = self.movers = with_spots(setup, movers, obstacles) if on_table else movers
         self.spots: list[Spot] = [(i, p) for i, m in enumerate(movers) for p in range(len(m.places))]
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
+        self._in_use = {s for o in obstacles if (s := self._slot_used(o.name, o.standing.pose))}
+        """The slots in which something stays."""
+        self._users, self._ends_in = self._in_slots()
         self.ends = sum_of(self._bits[i, p] for i, m in enumerate(movers) for p in {0, *m.goals})
         """Where movers stand at first and where they may end."""
         self._own = [sum_of(self._bits[i, p] for p in range(len(m.places))) for i, m in enumerate(movers)]
@@ -78,6 +82,20 @@ class Conflicts:
         self._ways: dict[tuple[int, int, int], tuple[Way, ...]] = {}
         self.blocked_holds: set[tuple[int, Hold]] = set()
         self.blocked_paths: dict[tuple[int, int, int, Hold], int | None] = {}
+
+    def _slot_used(self, name: str, pose: Pose) -> str | None:
+        """Return the slot in which a component is at a pose; what is bolted uses none."""
+        return slot_at(self.setup, pose) if name in self.setup.lab.inventory and self.setup.movable(name) else None
+
+    def _in_slots(self) -> tuple[dict[str, int], int]:
+        """Return the spots that are in each slot, and those where movers may be in the end."""
+        users, ends = dict[str, int](), 0
+        for i, p in self.spots:
+            mover = self.movers[i]
+            ends |= self._bits[i, p] if p in mover.finished else 0
+            if slot := self._slot_used(mover.name, mover.places[p].pose):
+                users[slot] = users.get(slot, 0) | self._bits[i, p]
+        return users, ends
 
     def _stored(self, movers: Sequence[Mover]) -> tuple[Mover, ...]:
         """Give movers the storage slots that nothing which stays keeps from being free."""
@@ -141,13 +159,11 @@ class Conflicts:
             return None
         if any(reaches(k, 0.0, mover.geometry.height) and conflict(shape, outline(k)) for k in lab.keep_out.values()):
             return None
-        mask = self._meeting(i, shape, margin)
-        if slot is not None:
-            mouth = self._mouths.shapes[slot]
-            if self.static.conflicts(mouth, 0.0):
-                return None
-            mask |= self._meeting(i, mouth, 0.0)
-        return mask
+        if slot is not None and self.static.conflicts(self._mouths.shapes[slot], 0.0):
+            return None
+        if place in mover.staging and self.covered_in_use(i, place):
+            return None
+        return self.near_body(i, place)
 
     def _meeting(self, i: int, shape: Shape, margin: float, above: float = -1.0) -> int:
         """Return the spots of others, taller than `above`, that come too near to a shape that mover `i` needs."""
@@ -203,12 +219,22 @@ class Conflicts:
         return any(reaches(k, lowest, float("inf")) and conflict(z, outline(k)) for z in zones for k in keep_out)
 
     def near_body(self, i: int, place: int) -> int:
-        """Return the spots of others that are where a mover, or the mouth of its slot, would be."""
-        mask, slot = (
-            self._meeting(i, self.shape(i, place), self.setup.lab.margins.body),
-            self.movers[i].places[place].slot,
-        )
+        """Return the spots of others that are where a mover, or the mouth of its slot, would be, and those in a slot
+        whose mouth it would cover; but where both may be in the end, nobody forbids it."""
+        mover = self.movers[i]
+        slot, mask = mover.places[place].slot, self._meeting(i, self.shape(i, place), self.setup.lab.margins.body)
+        users = sum_of(self._users.get(s, 0) for s in self._covered(i, place)) & ~self._own[i]
+        mask |= users & ~self._ends_in if place in mover.finished else users
         return mask | self._meeting(i, self._mouths.shapes[slot], 0.0) if slot else mask
+
+    def covered_in_use(self, i: int, place: int) -> set[str]:
+        """Return the slots in which something stays whose mouths a mover would cover."""
+        return self._in_use.intersection(self._covered(i, place))
+
+    def _covered(self, i: int, place: int) -> Iterator[str]:
+        """Yield the slots whose mouths a mover covers at a place that is not in them."""
+        slot = self.movers[i].places[place].slot
+        return (s for s in self._mouths.conflicts(self.shape(i, place), 0.0) if s != slot)
 
     def near_fingers(self, i: int, place: int, hold: Hold) -> int:
         """Return the spots of others that are where the fingers need room."""

@@ -43,6 +43,10 @@ def tall_case(seed: int) -> tuple[Case, str]:
     robots = rng.choice(sorted(ARMS))
     high = rng.choice((250.0, 250.0, 330.0, 380.0))
     kinds = {f"type_{i}": _type(rng, f"type_{i}") for i in range(3)}
+    mouth = random.Random(f"mouths of {seed}").choice((10.0, 10.0, 10.0, 22.0))
+    if mouth > 10:  # wider than a thin part, so that others may cover it
+        thin = kinds["type_2"].geometry
+        kinds["type_2"] = replace(kinds["type_2"], geometry=replace(thin, footprint=Footprint(disc=9.0)))
     parts = {
         f"c{i}": Part(type=rng.choice(sorted(kinds)), home="s0", stage=rng.choice(("allowed",) * 6 + ("never",)),
                       seating="bolted" if rng.random() < 0.06 else None)
@@ -52,7 +56,7 @@ def tall_case(seed: int) -> tuple[Case, str]:
     lab = LabFile(
         name="tall", table=Table(size=SIZE), inventory=parts, margins=Margins(body=margin, fingers=margin),
         robots={n: replace(r, transit_height=high) for n, r in ARMS[robots].items()},
-        slots={f"s{i}": Slot(x=330 + pitch * i, y=230) for i in range(rng.randint(1, 5))},
+        slots={f"s{i}": Slot(x=330 + pitch * i, y=230, capture=mouth) for i in range(rng.randint(1, 5))},
     )  # fmt: skip
     setup = Setup(lab=lab, catalog=kinds)
     around = rng.choice((60.0, 90.0, 150.0))

@@ -406,6 +406,10 @@ def test_a_slot_must_be_empty_though_what_stands_in_its_mouth_would_not_touch_th
         "wide must be empty until a is there: with b at (290, 200, 0°), "
         "it would stand 30 mm inside the mouth of the slot"
     )
+    (gone,) = why_after(setup, moved("a", slot, far), moved("b", away, rim))
+    assert gone.text == (
+        "a must have left wide: with b at (290, 200, 0°), it would stand 30 mm inside the mouth of the slot"
+    )
     (path,) = why_after(setup, moved("a", far, away), moved("b", rim, {"pose": {"x": 100, "y": 450}}))
     assert (path.kind, path.contact) == ("path", None)
     body, *_ = why_after(setup, moved("a", far, {"pose": {"x": 330, "y": 200}}), moved("b", away, rim))
