@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import threading
 import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
@@ -12,15 +11,17 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import bench_folder, require_attached
+from pico.attachment import require_attached
 from pico.backends.device import Capabilities, Device
 from pico.backends.devices import opener
 from pico.backends.world import World
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.disk import write_whole
 from pico.edge import own_lab
-from pico.edge.lease import BenchLock, user, utc_now
+from pico.edge.kept_lab import KeptLab
+from pico.edge.lease import BenchLock, utc_now
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
+from pico.edge.remembering import Remembering
+from pico.edge.started import StartedRuns
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from pico.edge.protocol import Asking
     from pico.edge.recovery import SettledOperation
     from pico.edge.running import Running
+    from pico.edge.shutting import Shutting
     from pico.edge.teleoperating import Teleoperating
     from pico.model.arming import Arming
     from pico.model.trace.report import RunReport
@@ -50,16 +52,8 @@ LOOKS = 10
 """Between so many of these is looked whether an arming is over."""
 OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
-KNOWN = 32
-"""Runs whose events are kept in memory, for who follows them; the journal remembers all."""
 ADOPTING = "adopting"
 """For which the bench is taken while it gets another Lab: one that can't be read is no reason not to."""
-_FIRST = Diagnostic(
-    "note",
-    "bench-lab",
-    "the bench keeps what the lab's files describe as its own Lab from now on",
-    hint="later edits of them only propose another bench: `pico bench update` adopts it",
-)
 HALTED = error("halted", "the bench is halted: nothing more is started")
 
 
@@ -76,28 +70,24 @@ class LocalEdge:
         clock: Callable[[], str] = utc_now,
     ) -> None:  # fmt: skip
         self.setup, self.root, self.device = setup, root, opening(setup)
-        self._opening, self._lab = opening, lab
+        self._opening, self._kept = opening, KeptLab(root, lab, clock)
         self._usual: tuple[Setup, Device] | None = None
-        self._first: tuple[Diagnostic, ...] = ()
         self.settled: tuple[SettledOperation, ...] = ()
-        self._lock, self._clock = BenchLock(root, clock), clock
-        self._shutting = asyncio.Lock()
+        self._lock, self.now = BenchLock(root, clock), clock
+        self._lasers: Shutting | None = None
         self._minded = frozenset[tuple[str, str]]()
-        self._shut: tuple[Diagnostic, ...] = ()
         self._able: tuple[Device, Capabilities] | None = None
         self._lease: Lease | None = None
         self._halted = False
         self._stopping: Stopping = ""
-        self._cancelled: set[str] = set()
         self._attempts: Attempts | None = None
         self._steering: Teleoperating | None = None
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
-        self._runs: dict[str, Running] = {}
+        self._runs = StartedRuns()
         self._running: Running | None = None
         self._open: OpenRun | None = None
         self._obeying: asyncio.Task[None] | None = None
-        self._journal: Journal | None = None
-        self._memories: dict[int, Journal] = {}
+        self._remembers = Remembering(root, clock)
 
     async def describe(self) -> Capabilities:
         """Return what the device can do, at the speed of the run that goes on."""
@@ -119,18 +109,12 @@ class LocalEdge:
         return self._lock.holder()
 
     async def unended(self) -> str | None:
-        """Return the run that has begun and not ended, None for none; its id stands beside the journal meanwhile."""
-        with suppress(OSError, UnicodeError):
-            return self._run_mark.read_text(encoding="ascii").strip() or None
-        return None
-
-    @property
-    def _run_mark(self) -> Path:
-        return bench_folder(self.root) / "run"
+        """Return the run that has begun and not ended, None for none."""
+        return self._remembers.unended()
 
     async def lab(self) -> OwnLab | None:
         """Return the Lab of the bench; None on trial."""
-        return self._lab
+        return self._kept.lab
 
     async def adopt(self, lab: OwnLab, holder: str) -> None:
         """Take another Lab as the bench's own; see `pico.edge.protocol.Edge`."""
@@ -138,7 +122,7 @@ class LocalEdge:
         await self._acquire(holder, 0.0, ADOPTING)
         try:
             await self._require_hands(setup)
-            self._keep(lab, holder)
+            self._kept.keep(lab, holder)
         finally:
             await self._leave()
         self.setup, self.device = setup, self._opening(setup)
@@ -148,25 +132,6 @@ class LocalEdge:
             if robot.holding and (robot.holding not in setup.lab.inventory or name not in setup.lab.robots):
                 text = f"{name} holds {robot.holding}, and the Lab to be adopted does not have both"
                 raise PicoError(error("held", text, hint="`pico recover` sets it down"))
-
-    def _keep(self, lab: OwnLab, holder: str) -> None:
-        self._lab = replace(lab, by=f"{user()}: {holder}", at=self._clock())
-        own_lab.write(self.root, self._lab)
-
-    def _require_own(self, holder: str) -> None:
-        """Let the bench keep the Lab that this edge was opened with, where it keeps none yet; raises PicoError (exit
-        code STALE) where it keeps another one by now."""
-        if self._lab is None:
-            return
-        kept = own_lab.read(self.root)
-        if kept is None:
-            self._keep(self._lab, holder)
-            self._first = (_FIRST,)
-        elif kept.files != self._lab.files:
-            text = "the bench's own Lab was changed since this command read it"
-            raise PicoError(error("stale", text, hint="call it again: it plans anew"), ExitCode.STALE)
-        elif not own_lab.is_sealed(self.root):  # the lab became a repository since
-            own_lab.write(self.root, kept)
 
     # looking
 
@@ -201,7 +166,7 @@ class LocalEdge:
 
         if self._able is None or self._able[0] is not self.device:
             self._able = self.device, await self.device.describe()
-        return with_licences(self.setup, self.root, self._able[1], self._clock(), seen)
+        return with_licences(self.setup, self.root, self._able[1], self.now(), seen)
 
     # who may let it emit
 
@@ -218,7 +183,7 @@ class LocalEdge:
 
         require_attached(self.root)
         given = replace(arming, backend=(await self.device.describe()).name)
-        if wrong := refusal(self.setup, given, self._clock()):
+        if wrong := refusal(self.setup, given, self.now()):
             raise PicoError(wrong, ExitCode.DENIED)
         keep(self.root, given)
         return given
@@ -229,7 +194,7 @@ class LocalEdge:
         from pico.policy.arming import ended
 
         require_attached(self.root)
-        now, known = self._clock(), {one.laser: one.arming for one in await self.armings()}
+        now, known = self.now(), {one.laser: one.arming for one in await self.armings()}
         keep(self.root, ended(self.setup, known.get(laser), laser, by, (await self.device.describe()).name, now))
         for _ in range(SHUT_WITHIN):
             if self._lease is None and await self.holder() is None:
@@ -241,59 +206,29 @@ class LocalEdge:
         return False
 
     async def _shut_over(self, seen: Observation | None = None) -> None:
-        """Shut the lasers whose arming is over, as operations that the journal has, and of what is `seen` those that
-        shine without one; one that can't be is tried again, by whoever has the bench next."""
-        from pico.edge import emission
+        """See `pico.edge.shutting.Shutting.shut_over`; nothing is shut here while nobody has the bench."""
+        if self._attempts is None:
+            return
+        if self._lasers is None:
+            from pico.edge.shutting import Shutting
 
-        async with self._shutting:
-            bare = emission.unlicensed(self.setup, seen) if seen is not None else {}
-            for laser, why in (bare | emission.over(self.setup, self.root, self._clock())).items():
-                if self._attempts is None or not await self._shut_one(self._attempts, laser, why):
-                    return
+            self._lasers = Shutting(self)
+        await self._lasers.shut_over(seen)
+
+    def run_under_way(self) -> str | None:
+        """Return the run that an operation belongs to now, None where none goes on."""
+        under_way = self._open or self._running
+        return under_way.id if under_way is not None else None
 
     def arming_over(self) -> bool:
         """Return whether an arming has ended since this was asked last, while nobody has the bench."""
         from pico.edge import emission
 
-        over = frozenset(emission.over(self.setup, self.root, self._clock()).items())
+        over = frozenset(emission.over(self.setup, self.root, self.now()).items())
         if self._lease is not None or over <= self._minded:
             return False
         self._minded = over
         return True
-
-    async def _shut_one(self, attempts: Attempts, laser: str, why: str) -> bool:
-        from pico.edge import emission
-        from pico.edge.armings import forget
-
-        operation = emission.shutting(self.setup, await self.observe(), laser, why)
-        if operation is not None:
-            under_way = self._open or self._running
-            run = under_way.id if under_way is not None else await self._tidying(operation)
-            key = f"{run}/{operation.id}.{self._clock()}/1"
-            attempts.known(operation, key)
-            task = self._under_way[key] = asyncio.create_task(attempts.perform(operation, key))
-            task.add_done_callback(lambda _: self._under_way.pop(key, None))
-            result = await asyncio.shield(task)
-            if under_way is None:
-                self.journal.end_run(run, "done" if result.outcome == "done" else "failed", {result.outcome: 1})
-            if result.outcome != "done":
-                return False
-            self._shut = (*self._shut, emission.told(laser, why))
-        forget(self.root, laser)
-        return True
-
-    async def _tidying(self, operation: Operation) -> str:
-        """Begin a run of one operation that shuts a laser, and return its id."""
-        from pico.edge.about import about_run
-        from pico.edge.emission import shut_plan
-        from pico.edge.running import new_run_id
-
-        able = await self.describe()
-        plan = shut_plan(self.setup, await self.observe(), operation, able)
-        run = new_run_id()
-        about = about_run(self.setup, plan, able)
-        self.journal.begin_run(run, plan.digest, "the edge", document=plan.to_json(), about=about)
-        return run
 
     # who may move it
 
@@ -314,12 +249,14 @@ class LocalEdge:
 
         self._halted &= self._lease is not None  # what is halted stays so for who has the bench
         own = self._lease is None
-        lease = await self._lock.acquire_within(holder, wait, lambda: run in self._cancelled or (own and self._halted))
+        lease = await self._lock.acquire_within(
+            holder, wait, lambda: run in self._runs.cancelled or (own and self._halted)
+        )
         self._halted, self._stopping = False, ""
         try:
             self._require_kept()
             try:
-                self._require_own(holder)
+                self._kept.require(holder)
             except PicoError as exc:
                 if run != ADOPTING or exc.diagnostics[0].code != own_lab.CODE:
                     raise
@@ -394,12 +331,18 @@ class LocalEdge:
         key with other content or a journal that can't be written.
         `tidies`: it sets back what was set only to measure, which a bench does that is halted safely, too.
         """
-        attempts = self._attempts
-        if attempts is None or self._lease is None or lease.token != self._lease.token:
+        if self._lease is None or lease.token != self._lease.token:
             text = f"the lease {lease.token} of {lease.holder} is not the current one"
             raise PicoError(error("lease", text), ExitCode.LOCKED)
         if self._halted and not (tidies and self._stopping == "safely"):
             raise PicoError(HALTED, ExitCode.INTERRUPTED)
+        return await self.perform(operation, key)
+
+    async def perform(self, operation: Operation, key: str) -> OperationResult:
+        """Have an operation done by who has the bench, once for each key; cancelling the wait does not cancel it."""
+        attempts = self._attempts
+        if attempts is None:
+            raise PicoError(error("lease", "nobody has the bench any more"), ExitCode.LOCKED)
         if key not in self._under_way:
             known = attempts.known(operation, key)
             if known is not None:
@@ -412,11 +355,9 @@ class LocalEdge:
         """Check a plan again, and start a run of it; see `pico.edge.protocol.Edge`."""
         from pico.execution.checks import require_allowed, require_applicable, require_current
 
-        if run in self._runs and not job.resumes:
-            if self._runs[run].plan != job.plan.digest:
-                raise PicoError(error("run", f"run {run} is of another plan", hint="start it under a new id"))
+        if not job.resumes and self._runs.is_known(run, job.plan.digest):
             return run
-        self._cancelled.discard(run)  # of an earlier time that it was taken up
+        self._runs.cancelled.discard(run)  # of an earlier time that it was taken up
         running = self._new(job, run)
         lease = self._step_of(job) if job.within else await self._taken(job, running)
         try:
@@ -432,11 +373,9 @@ class LocalEdge:
             if not job.within:
                 await self._leave()
             raise
-        over = [old for old, known in self._runs.items() if known.task is not None and known.task.done()]
-        for old in over[: -KNOWN + 1]:
-            del self._runs[old]
-        self._runs[run] = self._running = running
-        self._halted |= run in self._cancelled
+        self._runs.add(running)
+        self._running = running
+        self._halted |= run in self._runs.cancelled
         running.task = asyncio.create_task(self._carry_out(job, running, lease, seen.time))
         running.task.add_done_callback(running.over)
         return run
@@ -502,8 +441,7 @@ class LocalEdge:
         try:
             seen, able = await self.observe(), await self.describe()
             report = opened.report("interrupted" if self._halted else outcome, seen, able)
-            report = replace(report, diagnostics=self._shut)
-            self._shut = ()
+            report = replace(report, diagnostics=self._told())
             self._end_open(report.outcome)
             self.journal.saw(run, seen_after(seen, (), reached=False))
         finally:
@@ -514,9 +452,7 @@ class LocalEdge:
         """Write down how the open run ended."""
         opened, self._open = self._open, None
         if opened is not None:
-            self.journal.end_run(opened.id, outcome, opened.counts())
-            with suppress(OSError):
-                self._run_mark.unlink(missing_ok=True)
+            self._remembers.end(opened.id, outcome, opened.counts())
 
     def _new(self, job: Job, run: str) -> Running:
         from pico.edge.running import Running
@@ -533,7 +469,7 @@ class LocalEdge:
         else:
             plan = job.plan
             self.journal.begin_run(run, plan.digest, lease.holder, document=plan.to_json(), about=about)
-        write_whole(self._run_mark, f"{run}\n".encode(), durable=False)
+        self._remembers.begun(run)
 
     async def _carry_out(self, job: Job, running: Running, lease: Lease, now: float) -> RunReport:
         """Walk a plan to its end, whoever listens, and return what became of it."""
@@ -557,7 +493,7 @@ class LocalEdge:
             return await self._reported(job, running, time.monotonic() - began)
         finally:
             self._running = None
-            self._cancelled.discard(running.id)
+            self._runs.cancelled.discard(running.id)
             if around is None:
                 await self.release(lease)
 
@@ -568,9 +504,7 @@ class LocalEdge:
                 self._open.count(event)
             elif event.kind == "run_finished":
                 tally = {k: v for k, v in event.data.items() if k != "outcome"}
-                self.journal.end_run(running.id, event.data["outcome"], tally)
-                with suppress(OSError):
-                    self._run_mark.unlink(missing_ok=True)
+                self._remembers.end(running.id, event.data["outcome"], tally)
         finally:  # a journal that is gone must not hide what became of the run
             running.tell(event)
 
@@ -584,8 +518,7 @@ class LocalEdge:
         seen = replace(await self.observe(), measurements=measured(job.plan, events))
         report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
         reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
-        report = replace(report, diagnostics=(*report.diagnostics, *self._first, *self._shut))
-        self._first = self._shut = ()
+        report = replace(report, diagnostics=(*report.diagnostics, *self._kept.told(), *self._told()))
         if self._open is not None:
             return report
         try:
@@ -598,41 +531,38 @@ class LocalEdge:
         if self._running is not None and self._running.walk is not None:
             self._running.walk.heard(event)
 
-    def _run(self, run: str) -> Running:
-        if run not in self._runs:
-            raise PicoError(
-                error("no-run", f"no run {run} was started here", hint="`pico runs` lists those that are over")
-            )
-        return self._runs[run]
+    def _told(self) -> tuple[Diagnostic, ...]:
+        """Return, once, which lasers were shut, and why."""
+        return self._lasers.told() if self._lasers is not None else ()
 
     async def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:
         """Yield what happened in a run after its event `since`, and what happens."""
-        async for event in self._run(run).events(since):
+        async for event in self._runs[run].events(since):
             yield event
 
     async def report(self, run: str) -> RunReport:
         """Wait for the end of a run, and return what became of it; raises PicoError for what cut it short."""
-        task = self._run(run).task
+        task = self._runs[run].task
         assert task is not None  # it is known from then on
         return await asyncio.shield(task)
 
     async def film(self, run: str) -> list[Snapshot]:
         """Return what a film of a run shows; empty where it was not filmed."""
-        recording = self._run(run).recording
+        recording = self._runs[run].recording
         return recording.snapshots if recording else []
 
     async def jog(self, run: str, frame: Frame) -> Answer:
         """Say what a hand on a key says to the teleoperation in a run; see `pico.edge.protocol.Edge`."""
         from pico.teleop.frames import over
 
-        self._run(run)
+        self._runs[run]
         if self._steering is None or self._running is None or self._running.id != run:
             return over(time.monotonic())
         return self._steering.hear(frame)
 
     async def cancel(self, run: str) -> None:
         """Start nothing more of a run, and bring everything to a safe end."""
-        self._cancelled.add(run)
+        self._runs.cancelled.add(run)
         if self._running is not None and self._running.id == run:
             await self.halt()
 
@@ -657,26 +587,12 @@ class LocalEdge:
     @property
     def journal(self) -> Journal:
         """The journal of the bench, opened when it is first needed; raises PicoError."""
-        if self._journal is None:
-            from pico.runs.journal import Journal
-
-            self._journal = Journal(self._journal_path, self._clock)
-        return self._journal
+        return self._remembers.journal
 
     @property
     def memory(self) -> Journal | None:
-        """What the bench remembers of its runs, to be read from any disk; None where there was none yet. Each thread
-        has a connection of its own: the loop of the edge reads, too."""
-        here = threading.get_ident()
-        if here not in self._memories and self._journal_path.exists():
-            from pico.runs.journal import Journal
-
-            self._memories[here] = Journal(self._journal_path, self._clock, looking=True)
-        return self._memories.get(here)
-
-    @property
-    def _journal_path(self) -> Path:
-        return bench_folder(self.root) / "journal.sqlite"
+        """What the bench remembers of its runs, to be read from any disk and thread; None where there was none yet."""
+        return self._remembers.memory
 
     async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
         """Record what a person says of an operation that only a person can tell the end of; raises PicoError."""
@@ -697,10 +613,10 @@ class LocalEdge:
 
     def _require_kept(self) -> None:
         """Raise PicoError where a simulated world is gone, and the journal says that it was moved."""
-        if not self.device.kept() and self._journal_path.exists():
+        if not self.device.kept() and self._remembers.path.exists():
             from pico.edge.recovery import require_unmoved
 
-            require_unmoved(self._journal_path)
+            require_unmoved(self._remembers.path)
 
     async def _ended(self) -> None:
         if self._running is not None and self._running.task is not None:
@@ -712,11 +628,7 @@ class LocalEdge:
         await self._ended()
         if self._lease is not None:
             await self._leave()
-        if self._journal is not None:
-            self._journal.close()
-            self._journal = None
-        while self._memories:
-            self._memories.popitem()[1].close()
+        self._remembers.close()
 
 
 def embedded(

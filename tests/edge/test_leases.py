@@ -15,7 +15,7 @@ from serving import served
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
-from pico.edge import local
+from pico.edge import started
 from pico.edge.link import client, place
 from pico.edge.link.client import RemoteEdge
 from pico.edge.link.server import edge_of
@@ -97,7 +97,7 @@ def test_who_asks_for_a_bench_does_not_lift_the_halt_of_another(on_edge: Acting)
 
 
 def test_only_the_last_runs_are_kept_for_who_follows_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(local, "KNOWN", 3)
+    monkeypatch.setattr(started, "KNOWN", 3)
     root = make_example("shel", tmp_path / "shel").root
 
     async def act() -> None:

@@ -127,7 +127,7 @@ class InstantDevice:
 def instant(root: Path, table: Table, journal: KilledJournal) -> LocalEdge:
     """Return the edge of an instant device, with the journal that kills."""
     edge = LocalEdge(SETUP, root, lambda _: InstantDevice(table))  # type: ignore[arg-type]
-    edge._journal = journal
+    edge._remembers._journal = journal
     return edge
 
 

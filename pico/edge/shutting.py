@@ -1,0 +1,92 @@
+"""Lasers whose arming is over are shut, by whoever has the bench, as operations that the journal has."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Protocol
+
+from pico.backends.device import Capabilities
+from pico.diagnostics import Diagnostic
+from pico.edge import emission
+from pico.edge.about import about_run
+from pico.edge.armings import forget
+from pico.edge.running import new_run_id
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult
+from pico.model.setup import Setup
+from pico.runs.journal import Journal
+
+
+class Emitting(Protocol):
+    """What shutting needs of an edge that has its bench."""
+
+    setup: Setup
+    root: Path
+
+    @property
+    def journal(self) -> Journal: ...
+
+    async def observe(self) -> Observation: ...
+
+    async def describe(self) -> Capabilities: ...
+
+    def now(self) -> str:
+        """Return the wall time as ISO 8601, UTC."""
+        ...
+
+    def run_under_way(self) -> str | None:
+        """Return the run that an operation belongs to now, None where none goes on."""
+        ...
+
+    async def perform(self, operation: Operation, key: str) -> OperationResult:
+        """Have an operation done; cancelling the wait does not cancel it."""
+        ...
+
+
+class Shutting:
+    """Shuts the lasers of one bench, one after the other."""
+
+    def __init__(self, edge: Emitting) -> None:
+        self._edge, self._one_at_a_time = edge, asyncio.Lock()
+        self._told: tuple[Diagnostic, ...] = ()
+
+    async def shut_over(self, seen: Observation | None) -> None:
+        """Shut the lasers whose arming is over, and of what is `seen` those that shine without one; one that can't be
+        is tried again, by whoever has the bench next."""
+        edge = self._edge
+        async with self._one_at_a_time:
+            bare = emission.unlicensed(edge.setup, seen) if seen is not None else {}
+            for laser, why in (bare | emission.over(edge.setup, edge.root, edge.now())).items():
+                if not await self._shut(laser, why):
+                    return
+
+    def told(self) -> tuple[Diagnostic, ...]:
+        """Return, once, which lasers were shut, and why."""
+        told, self._told = self._told, ()
+        return told
+
+    async def _shut(self, laser: str, why: str) -> bool:
+        edge = self._edge
+        operation = emission.shutting(edge.setup, await edge.observe(), laser, why)
+        if operation is not None:
+            under_way = edge.run_under_way()
+            run = under_way or await self._tidying(operation)
+            result = await edge.perform(operation, f"{run}/{operation.id}.{edge.now()}/1")
+            if under_way is None:
+                edge.journal.end_run(run, "done" if result.outcome == "done" else "failed", {result.outcome: 1})
+            if result.outcome != "done":
+                return False
+            self._told = (*self._told, emission.told(laser, why))
+        forget(edge.root, laser)
+        return True
+
+    async def _tidying(self, operation: Operation) -> str:
+        """Begin a run of one operation that shuts a laser, and return its id."""
+        edge = self._edge
+        able = await edge.describe()
+        plan = emission.shut_plan(edge.setup, await edge.observe(), operation, able)
+        run = new_run_id()
+        about = about_run(edge.setup, plan, able)
+        edge.journal.begin_run(run, plan.digest, "the edge", document=plan.to_json(), about=about)
+        return run

@@ -1,0 +1,43 @@
+"""The runs that were started at an edge since it was opened: what follows them asks for them by id."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import PicoError, error
+
+if TYPE_CHECKING:
+    from pico.edge.running import Running
+
+KNOWN = 32
+"""Runs whose events are kept in memory, for who follows them; the journal remembers all."""
+
+
+class StartedRuns:
+    """Runs by id, the oldest of those that are over forgotten. `cancelled`: ids of which nothing more may start, known
+    here or not."""
+
+    def __init__(self) -> None:
+        self._runs: dict[str, Running] = {}
+        self.cancelled: set[str] = set()
+
+    def add(self, running: Running) -> None:
+        """Add a run that starts."""
+        over = [old for old, known in self._runs.items() if known.task is not None and known.task.done()]
+        for old in over[: -KNOWN + 1]:
+            del self._runs[old]
+        self._runs[running.id] = running
+
+    def is_known(self, run: str, plan: str) -> bool:
+        """Return whether a run was started, of the plan with this digest; raises PicoError where of another one."""
+        if run in self._runs and self._runs[run].plan != plan:
+            raise PicoError(error("run", f"run {run} is of another plan", hint="start it under a new id"))
+        return run in self._runs
+
+    def __getitem__(self, run: str) -> Running:
+        """Return a run; raises PicoError for one that was not started here."""
+        if run not in self._runs:
+            raise PicoError(
+                error("no-run", f"no run {run} was started here", hint="`pico runs` lists those that are over")
+            )
+        return self._runs[run]
