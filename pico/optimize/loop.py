@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
-from pico.optimize.extremum import same, unsaid
+from pico.optimize.extremum import ends, same, unsaid
 from pico.optimize.problem import Algorithm, Point, Problem, Short, Solution, Solver
 
 STOPPED = "it was stopped"
@@ -22,6 +23,8 @@ _FEW = 8
 """Readings in the dark up to which all places are tried once more."""
 _SURE = 5.0
 """Standard deviations of a power from which it counts as light."""
+_LEAP = 100.0
+"""How many times more light from one reading to the next may be other light: steps of a search seldom bring that."""
 Making = Callable[[Problem], Algorithm]
 
 
@@ -269,14 +272,14 @@ class _Walk:
             yield from self._ask(best, why="best")
             if not self._believed(self.tried[-1].result) and len(self.tried) < self.limits.measurements:
                 yield from self._ask(best, why="best")  # one reading may be lost
-        if self._doubtful(first, self.tried[-1]):
+        if self.here != begun and self._doubtful(first, self.tried[-1]):
             if len(self.tried) + 2 > self.limits.measurements:  # nobody can tell: as it was
                 yield from self._ask(begun, measure=False, why="start")
-                return Short(f"{why}, and whether it is a null or {LIGHT_LOST} would take two more measurements")
+                return Short(f"{why}, and whether that is light that came or went would take two more measurements")
             best = dict(self.here)
             again = yield from self._ask(begun, why="check")
-            if self.problem.cost(again.result) < self.problem.cost(first.result) / 2:
-                return Short(f"{LIGHT_LOST} on the way: less comes now to where it began")
+            if changed := self._changed(first.result, again.result):
+                return Short(changed)
             yield from self._ask(best, why="best")
         if self._worse(first, 0.0 if isinstance(why, Short) else 2.0):
             gone = "nothing better was found than where it began"
@@ -288,14 +291,29 @@ class _Walk:
             return Short(f"{why}, but {gone}")
         return why
 
-    def _doubtful(self, first: Tried, null: Tried) -> bool:
-        """Whether what looks like a null may be a beam that was lost: where it reads as without light, though it did
-        not where it began, and nothing else is measured that would tell."""
-        if self.problem.aim != "minimize" or self.limits.signal or self.fault or not self._believed(first.result):
+    def _doubtful(self, first: Tried, last: Tried) -> bool:
+        """Whether light may have changed meanwhile: what looks like a null may be a beam that was lost, where it reads
+        as without light though it did not where it began; what looks like a peak may be other light, where a power
+        leapt from one reading to the next or is most at a bound; and nothing else is measured that would tell."""
+        if self.problem.aim == "reach" or self.fault or not self._believed(first.result):
             return False
-        output, last = self.problem.outputs[0], null.result
-        least = {n: _SURE * r.get(f"{output}_sigma", 0.0) for n, r in (("first", first.result), ("last", last))}
-        return abs(last.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
+        output = self.problem.outputs[0]
+        if self.problem.aim == "maximize":
+            powers = [t.result[output] for t in self.tried if self._believed(t.result)]
+            return bool(ends(self.problem, last.result)) or any(_LEAP * a < b for a, b in pairwise(powers))
+        if self.limits.signal:
+            return False
+        least = {n: _SURE * t.result.get(f"{output}_sigma", 0.0) for n, t in (("first", first), ("last", last))}
+        return abs(last.result.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
+
+    def _changed(self, first: Mapping[str, float], again: Mapping[str, float]) -> str:
+        """Return what is told of light that is another now where it began, empty where it is as it was."""
+        output = self.problem.outputs[0]
+        if self.problem.aim == "minimize" and again.get(output, math.nan) < first[output] / 2:
+            return f"{LIGHT_LOST} on the way: less comes now to where it began"
+        if self.problem.aim == "maximize" and again.get(output, math.nan) > 2 * first[output]:
+            return "other light came on the way: there is more of it now where it began"
+        return ""
 
     def _leave(self, why: str, solution: Solution, offset: Mapping[str, float]) -> Loop:
         """Leave the tunables by an offset from where the best is, not the best that was read, as finely as they can

@@ -189,6 +189,19 @@ def test_a_beam_that_is_lost_is_no_null() -> None:
     assert asks[-1].point == problem.start
 
 
+@pytest.mark.parametrize(("tip", "tilt"), [(0.6, -0.2), (0.5, 0.1)])
+@pytest.mark.parametrize("came", range(2, 14))
+def test_other_light_is_no_peak(came: int, tip: float, tilt: float) -> None:
+    """From a reading on, a lamp or a reflection makes a thousand times the light of it all."""
+    problem = replace(PEAK, variables=tuple(replace(v, start=s) for v, s in zip(BOX, (tip, tilt), strict=True)))
+
+    def read(point: Point, number: int) -> dict[str, float]:
+        return {n: (1000.0 if number >= came else 1.0) * value for n, value in bump(point).items()}
+
+    _, asks = driven(problem, "nelder_mead", read)
+    assert bump(asks[-1].point)["pd.power"] > 0.99 * bump(problem.start)["pd.power"]
+
+
 def test_too_much_light_is_not_looked_for_on_a_spiral() -> None:
     def read(point: Point, number: int) -> Reading:
         return Reading(unknown="cam.image is saturated", glaring=True, time=float(number))
