@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
+from itertools import count
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic
@@ -101,6 +102,15 @@ class Operation:
     def address(self) -> str:
         """See `address_of`."""
         return address_of(self.component, self.arguments)
+
+
+_NEW = count(1)
+
+
+def new_id() -> str:
+    """Return an id for an operation of a plan in the making, which no other operation has in this process; the schedule
+    of a plan numbers them from `op1` on."""
+    return f"new{next(_NEW)}"
 
 
 def address_of(component: str, arguments: Mapping[str, Any]) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, error, warning
 from pico.model.observation import Observation, left_standing
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.plan import Base, Blocking, LabRef, Plan, Staging, Target
 from pico.model.record import as_json
 from pico.model.setup import Setup
@@ -87,9 +87,7 @@ def compiled_plan(request: Request, *, backend: str, fidelity: str, base: Base, 
     diagnostics = (*emptied.diagnostics, *situation.diagnostics, *moves.diagnostics, *notes)
     operations: tuple[Operation, ...] = ()
     if not any(d.severity == "error" for d in diagnostics):
-        offset = len(moves.operations)
-        shifted = [replace(o, after=tuple(str(int(e) + offset) for e in o.after)) for o in values]
-        ordered = after_set_downs(setup, emptied, (*moves.operations, *shifted), request.motion)
+        ordered = after_set_downs(setup, emptied, (*moves.operations, *values), request.motion)
         if request.only.everything or any(lets_out(setup, o) for o in ordered):
             ordered = parked_first(setup, request.seen, ordered, request.motion)
         ordered = light_last(setup, request.seen, ordered)
@@ -164,35 +162,23 @@ def _operations(request: Request, answer: OrderedMoves) -> tuple[list[Operation]
     table, steps, paths = answer.table, answer.steps, answer.paths
     closure = precedence(table, steps, paths.extra if paths else {})
     reasons = move_reasons(request.setup, request.wanted, table, steps, closure)
-    before, out, notes = reduced(closure), list[Operation](), list[Diagnostic]()
-    index: dict[int, int] = {}
-    listed = items(request.setup, steps, paths)
-    number = _numbers(listed)
-    for item in listed:
-        waits = [number[e] for e in item.waits if number[e] is not None]
+    before, notes = reduced(closure), list[Diagnostic]()
+    made: dict[int, Operation] = {}  # by the number of the item
+    moved: dict[int, Operation] = {}  # by that of the step
+    for n, item in enumerate(items(request.setup, steps, paths)):
+        after = [made[e].id for e in item.waits if e in made]
         if item.park:
-            own = [index[k] for k in item.park.steps]
-            made = _park(item, own, out)
-            if isinstance(made, Diagnostic):
-                notes.append(made)
+            done = _park(item, [moved[k] for k in item.park.steps])
+            if isinstance(done, Diagnostic):
+                notes.append(done)
                 continue
+            made[n] = replace(done, after=tuple(dict.fromkeys((*done.after, *after))))
         else:
             k = item.step or 0
-            index[k] = len(out)
-            made = _moved(request, table, steps[k], item, paths.moves[k] if paths else None, reasons[k])
-            waits = [*(index[e] for e in before[k]), *waits]
-        waits = [*(int(e) for e in made.after), *waits]
-        out.append(replace(made, after=tuple(str(e) for e in dict.fromkeys(waits))))
-    return out, notes
-
-
-def _numbers(listed: Sequence[Item]) -> list[int | None]:
-    """Return which operation each item becomes; None for a park that can't be made."""
-    found: list[int | None] = []
-    for item in listed:
-        stuck = item.park is not None and isinstance(item.park.path, Blocked)
-        found.append(None if stuck else sum(n is not None for n in found))
-    return found
+            done = _moved(request, table, steps[k], item, paths.moves[k] if paths else None, reasons[k])
+            after = [*(moved[e].id for e in before[k]), *after]
+            made[n] = moved[k] = replace(done, after=tuple(dict.fromkeys(after)))
+    return [*made.values()], notes
 
 
 def _moved(
@@ -203,7 +189,7 @@ def _moved(
     nominal = MOVE_SECONDS if step.hold.robot else OPERATOR_SECONDS
     owners = (step.hold.robot, actor.name, *item.zones) if step.hold.robot else None
     return Operation(
-        id="", component=actor.name, robot=step.hold.robot,
+        id=new_id(), component=actor.name, robot=step.hold.robot,
         primitive="operator" if step.hold.robot is None else "stow" if goal.slot else "move",
         arguments=_arguments(start, goal, step.hold.yaw if step.hold.robot else None, actor.name),
         resources=owners or (actor.name, *sorted(request.setup.lab.robots)),  # a person works where no arm moves
@@ -211,7 +197,7 @@ def _moved(
     )  # fmt: skip
 
 
-def _park(item: Item, own: Sequence[int], out: Sequence[Operation]) -> Operation | Diagnostic:
+def _park(item: Item, own: Sequence[Operation]) -> Operation | Diagnostic:
     """Return the park of an arm after its operations `own`, or why it can't park."""
     assert item.park is not None
     robot, path = item.park.robot, item.park.path
@@ -219,9 +205,10 @@ def _park(item: Item, own: Sequence[int], out: Sequence[Operation]) -> Operation
         if item.park.before is None:  # one that was found standing there: where a move would end so there is no plan
             return warning("not-parked", f"{robot} can't park: {path.text}", address=robot)
         return error("blocked", f"{robot} can't park: {path.text}", address=robot)
-    waited = {int(e) for k in own for e in out[k].after}
+    waited = {e for op in own for e in op.after}
     return Operation(
-        id="", primitive="park", component=robot, robot=robot, after=tuple(str(k) for k in own if k not in waited),
+        id=new_id(), primitive="park", component=robot, robot=robot,
+        after=tuple(op.id for op in own if op.id not in waited),
         resources=(robot, *item.zones), reason=Reason(kind="parked", text="out of the beam"),
         seconds=path.seconds if path else PARK_SECONDS,
     )  # fmt: skip

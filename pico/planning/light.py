@@ -66,15 +66,14 @@ def without_light(setup: Setup, seen: Observation, plan: Plan) -> Plan:
 
 def light_last(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
     """Return the operations such that light comes out after all else is done; a laser behind its own shutter, which is
-    closed, warms up meanwhile. `after` holds indices as text."""
-    lit = [n for n, op in enumerate(operations) if _comes_out(setup, seen, op)]
-    others = [n for n in range(len(operations)) if n not in lit]
-    waited = {int(e) for n in others for e in operations[n].after}
-    last = [str(n) for n in others if n not in waited]
+    closed, warms up meanwhile."""
+    lit = {op.id for op in operations if _comes_out(setup, seen, op)}
+    others = [op for op in operations if op.id not in lit]
+    waited = {e for op in others for e in op.after}
+    last = [op.id for op in others if op.id not in waited]
     return [
-        replace(op, after=tuple(dict.fromkeys((*op.after, *last)))) if n in lit else op
-        for n, op in enumerate(operations)
-    ]
+        replace(op, after=tuple(dict.fromkeys((*op.after, *last)))) if op.id in lit else op for op in operations
+    ]  # fmt: skip
 
 
 def _comes_out(setup: Setup, seen: Observation, op: Operation) -> bool:

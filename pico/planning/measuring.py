@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pico.model.arming import LaserClass
 from pico.model.catalog import Measurable
 from pico.model.observation import Observation, astray
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.primitive import primitive
 from pico.model.quantities import Value
 from pico.model.record import record
@@ -73,14 +73,13 @@ def kept_shut(setup: Setup, seen: Observation, need: Need) -> bool:
 def measuring(
     setup: Setup, seen: Observation, wanted: Sequence[tuple[str, str]], reason: Reason, motion: Motion | None
 ) -> list[Operation]:
-    """Return the operations that measure each of `wanted`, a component and a measurable, one after the other: `after`
-    holds indices as text, ids are given later.
+    """Return the operations that measure each of `wanted`, a component and a measurable, one after the other.
 
     Arms that stand out park first, and what is needed is set, shutters opened when they have parked; afterwards that is
     set back, in so far as it is known.
     """
     out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen) if wanted]
-    parks = [*map(str, range(len(out)))]
+    parks = [op.id for op in out]
     waits: list[str] = []
     for component, name in wanted:
         needs = granted(setup, seen, needed(setup, seen, component, setup.measurable_of(component, name)))
@@ -88,18 +87,18 @@ def measuring(
         wants = [n for n in needs if n.live != n.value or (closed and n.opens)]
         text = f"to measure {component}.{name}"
         out += [setting(setup, n, n.live, n.value, [*waits, *(parks if n.opens else ())], text) for n in wants]
-        measured = str(len(out))
-        out.append(_measure(setup, component, name, [*map(str, range(len(out)))], reason))
+        measured = _measure(setup, component, name, [op.id for op in out], reason)
         text = f"as it was before {component}.{name} was measured"
         back = [(n, n.live) for n in wants if n.live != n.value and not kept_shut(setup, seen, n)]
-        out += [setting(setup, n, n.value, live, [measured], text) for n, live in back if live is not None]
-        waits = [measured, *map(str, range(int(measured) + 1, len(out)))]
+        undone = [setting(setup, n, n.value, live, [measured.id], text) for n, live in back if live is not None]
+        out += [measured, *undone]
+        waits = [measured.id, *(op.id for op in undone)]
     return out
 
 
 def _measure(setup: Setup, component: str, name: str, after: Sequence[str], reason: Reason) -> Operation:
     return Operation(
-        id="", primitive="measure", component=component, arguments={"measurable": name}, after=tuple(after),
+        id=new_id(), primitive="measure", component=component, arguments={"measurable": name}, after=tuple(after),
         resources=(component, *sorted(setup.lab.robots)), reason=reason, seconds=primitive("measure").seconds,
     )  # fmt: skip
 
@@ -108,7 +107,7 @@ def setting(setup: Setup, need: Need, before: Value | None, after: Value, waits:
     """Return the operation that sets what is needed, or sets it back."""
     kind = setup.type_of(need.component).tunables[need.tunable]
     return Operation(
-        id="", primitive="set", component=need.component, reason=Reason(kind="interlock", text=text),
+        id=new_id(), primitive="set", component=need.component, reason=Reason(kind="interlock", text=text),
         arguments={"tunable": need.tunable, "from": before, "to": after}, after=tuple(waits),
         resources=(need.address, need.component), seconds=set_seconds(kind, before, after),
     )  # fmt: skip

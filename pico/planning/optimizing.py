@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from pico.diagnostics import PicoError, error
 from pico.model.goal import Goal
 from pico.model.observation import Observation, astray
-from pico.model.operation import Operation, Reason, touched_by
+from pico.model.operation import Operation, Reason, new_id, touched_by
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
@@ -65,9 +65,9 @@ def optimizing(
     gets what it needs, an optimization for each, and all is set back at the end; what a goal wants only during its own
     is set back before one that does not want it.
 
-    `before`: operations that come first, after which the bench will be as `seen`. `after` holds indices as text, into
-    `before` and what is returned. Each comes only after those of `before` and of the earlier goals that its light
-    depends on. Raises PicoError where a tunable of a goal is not known, so that nobody could go back to it.
+    `before`: operations that come first, after which the bench will be as `seen`. Each comes only after those of
+    `before` and of the earlier goals that its light depends on. Raises PicoError where a tunable of a goal is not
+    known, so that nobody could go back to it.
     """
     return _Block(setup, seen, turns, motion, before).made()
 
@@ -81,12 +81,13 @@ class _Block:
     ) -> None:  # fmt: skip
         self.setup, self.seen, self.turns, self.motion, self.before = setup, seen, turns, motion, before
         self.out: list[Operation] = []
-        self.arms = [n for n, op in enumerate(before) if op.robot or op.kind.by_hand]
-        self.latest: dict[str, int] = {}
+        self.arms = [op.id for op in before if op.robot or op.kind.by_hand]
+        self.latest: dict[str, str] = {}
         """Which operation of the block set a tunable last, by address."""
         self.now: dict[str, Need] = {}
         """What is set otherwise than it was, by address, as the need that wants it so."""
-        self.made_of: list[tuple[int, Turn]] = []
+        self.made_of: dict[str, Turn] = {}
+        """The operations in which the goals have their turns."""
 
     def made(self) -> list[Operation]:
         working = {op.robot for op in self.before}
@@ -130,13 +131,13 @@ class _Block:
             known = live.value if live is not None and live.status == "known" else None
             yield Need(component=component, tunable=tunable, value=value, live=known)
 
-    def _set(self, need: Need, text: str, waits: Sequence[int]) -> None:
+    def _set(self, need: Need, text: str, waits: Sequence[str]) -> None:
         """Set what is needed, where it is not so already."""
         live = self.now[need.address].value if need.address in self.now else need.live
         if live == need.value and not (need.address not in self.now and need.opens and waits):
             return
-        after = [*waits, *self._after(need.address), *(n for n, _ in self.made_of)]
-        self.latest[need.address] = self._add(setting(self.setup, need, live, need.value, _texts(after), text))
+        after = _once(*waits, *self._after(need.address), *self.made_of)
+        self.latest[need.address] = self._add(setting(self.setup, need, live, need.value, after, text))
         self.now[need.address] = replace(need, live=self.now.get(need.address, need).live)
 
     def _set_back(self, address: str, text: str) -> None:
@@ -144,35 +145,39 @@ class _Block:
         need = self.now.pop(address)
         if need.live is None or need.live == need.value or kept_shut(self.setup, self.seen, need):
             return
-        after = [*self._after(address), *(n for n, _ in self.made_of)]
-        self.latest[address] = self._add(setting(self.setup, need, need.value, need.live, _texts(after), text))
+        after = _once(*self._after(address), *self.made_of)
+        self.latest[address] = self._add(setting(self.setup, need, need.value, need.live, after, text))
 
     def _optimize(self, turn: Turn) -> None:
         setup, here = self.setup, foreseen(self.setup, self.seen, self.out)
         begin = {a: v for stage in turn.stages for a, v in _from(setup, here, stage.name, stage.goal).items()}
         only = {a: v for stage in turn.stages for a, v in _to_measure(setup, here, stage.goal).items()}
         light = goal_light(setup, self.seen, turn.one.goal).parts
-        own = [n for n, op in enumerate(self.before) if _touches(op, light)]
-        own += [n for n, made in self.made_of if any(a.partition(".")[0] in light for a in made.one.goal.tunables)]
+        own = [op.id for op in self.before if _touches(op, light)]
+        own += [
+            i for i, made in self.made_of.items() if any(a.partition(".")[0] in light for a in made.one.goal.tunables)
+        ]
         made_up = (absorbed(setup, here, turn.one.goal, bench) for bench in turn.right)
         for address, value in next((found for found in made_up if found is not None), _aim(turn.one, begin)).items():
-            self.latest[address] = self._add(_absorbing(setup, address, begin[address], value, self._waits(address)))
+            self.latest[address] = self._add(
+                _absorbing(setup, address, begin[address], value, _once(*self.arms, *self._after(address)))
+            )
             begin = {**begin, address: value}
         parts = sorted({address.partition(".")[0] for address in begin})
         looked = {a for stage in turn.stages for found in (stage.goal.looks or {}).values() for a in found}
         measured = {component for component, _ in measured_in(setup, turn.texts)}
         detectors = sorted(measured | {a.partition(".")[0] for a in looked})
         reckoned = sum(seconds(setup, stage.goal, stage.algorithm) for stage in turn.stages)
-        index = self._add(Operation(
-            id="", primitive="optimize", component=parts[0], reason=turn.reason,
+        made = self._add(Operation(
+            id=new_id(), primitive="optimize", component=parts[0], reason=turn.reason,
             arguments={
                 "from": {**only, **begin}, "specimens": specimens(setup), **arguments_of(setup, turn.one, turn.first),
             },
-            after=_texts([*self.arms, *own, *self.latest.values()]),
+            after=_once(*self.arms, *own, *self.latest.values()),
             seconds=reckoned if turn.took is None else turn.took,
             resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
         ))  # fmt: skip
-        self.made_of.append((index, turn))
+        self.made_of[made] = turn
 
     def _verify(self, turn: Turn) -> None:
         setup, here, goal = self.setup, foreseen(self.setup, self.seen, self.out), turn.one.goal
@@ -180,38 +185,35 @@ class _Block:
         looked = {address for settings in (goal.looks or {}).values() for address in settings}
         measured = measured_in(setup, goal.texts)
         what = {"goal": turn.one.name, "what": goal, **({"was": turn.was} if turn.was else {})}
-        index = self._add(Operation(
-            id="", primitive="verify", component=measured[0][0], reason=turn.reason,
+        made = self._add(Operation(
+            id=new_id(), primitive="verify", component=measured[0][0], reason=turn.reason,
             arguments={
                 "from": {**_to_measure(setup, here, goal), **begin}, "specimens": specimens(setup), **as_json(what),
             },
-            after=_texts([*self.arms, *self.latest.values(), *(n for n, _ in self.made_of)]),
+            after=_once(*self.arms, *self.latest.values(), *self.made_of),
             seconds=TAKES * max(1, len(goal.looks or ())) * len(measured),
             resources=tuple(dict.fromkeys(
                 (*sorted(looked), *(name for name, _ in measured), *sorted(setup.lab.robots))
             )),
         ))  # fmt: skip
-        self.made_of.append((index, turn))
+        self.made_of[made] = turn
 
-    def _waits(self, address: str) -> tuple[str, ...]:
-        return _texts([*self.arms, *self._after(address)])
-
-    def _after(self, address: str) -> list[int]:
+    def _after(self, address: str) -> list[str]:
         """Return what set a tunable last: of this block, else of what comes before it."""
         if address in self.latest:
             return [self.latest[address]]
-        return [n for n, op in enumerate(self.before) if address in {f"{c}.{t}" for c, t in _sets(op)}]
+        return [op.id for op in self.before if address in {f"{c}.{t}" for c, t in _sets(op)}]
 
-    def _add(self, operation: Operation) -> int:
+    def _add(self, operation: Operation) -> str:
         if operation.reason.kind == "interlock":
             names = tuple(turn.one.name for turn in self.turns if turn.reason.kind == "align")
             operation = replace(operation, reason=replace(operation.reason, of=names))
         self.out.append(operation)
-        return len(self.before) + len(self.out) - 1
+        return operation.id
 
 
-def _texts(indices: Sequence[int]) -> tuple[str, ...]:
-    return tuple(str(n) for n in sorted(set(indices)))
+def _once(*ids: str) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(ids))
 
 
 def _sets(op: Operation) -> tuple[tuple[str, str], ...]:
@@ -247,7 +249,8 @@ def absorbed(setup: Setup, seen: Observation, goal: Goal, right: Right) -> dict[
 def _absorbing(setup: Setup, address: str, before: float, after: float, waits: Sequence[str]) -> Operation:
     component, _, tunable = address.partition(".")
     return Operation(
-        id="", primitive="set", component=component, reason=Reason(kind="asked", text="makes up for how parts stand"),
+        id=new_id(), primitive="set", component=component,
+        reason=Reason(kind="asked", text="makes up for how parts stand"),
         arguments={"tunable": tunable, "from": before, "to": after}, after=tuple(waits),
         resources=(address, component), seconds=set_seconds(setup.type_of(component).tunables[tunable], before, after),
     )  # fmt: skip

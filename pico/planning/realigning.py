@@ -24,8 +24,7 @@ def realigned(
     """Return the plan, sealed, with an optimization for each goal that is `sought`, in this order, and after them
     measurements of what is to be `measured`; `seen`: the bench that it starts from. A goal that cannot be begun then is
     an error of the plan."""
-    number = {op.id: str(n) for n, op in enumerate(plan.operations)}
-    before = [replace(op, after=tuple(number[e] for e in op.after)) for op in plan.operations]
+    before = plan.operations
     then = foreseen(setup, seen, before)
     try:
         whole = [*before, *optimizing(setup, then, sought, motion, before)] if sought else before
@@ -44,11 +43,8 @@ def measured_last(
     """Return the operations that measure when all else is done; an arm of which something comes before parks then."""
     working = {op.robot for op in whole}
     parked = replace(then, robots={name: robot for name, robot in then.robots.items() if name not in working})
-    made, all_before = measuring(setup, parked, measured, reason, motion), tuple(str(n) for n in range(len(whole)))
-    return [
-        replace(op, after=tuple(str(int(e) + len(whole)) for e in op.after) or all_before)
-        for op in made
-    ]  # fmt: skip
+    made = measuring(setup, parked, measured, reason, motion)
+    return [replace(op, after=op.after or tuple(op.id for op in whole)) for op in made]
 
 
 _RECORDED = Reason(kind="align", text="the commit recorded it")

@@ -8,6 +8,8 @@ from dataclasses import replace
 from pico.model.operation import Operation
 
 Span = tuple[float, float]
+Waits = Sequence[Sequence[int]]
+"""For each operation by its place in the list those that it waits for, in order of the list."""
 
 
 def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
@@ -15,14 +17,14 @@ def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
 
     List scheduling: an operation starts when all in `after` are done and each of its resources is free for as long as
     it takes. Operations of robots and people keep their order; the others come after them, the longest chain first.
-    `after` holds indices into `operations` as text, and holds ids afterwards.
     """
+    waits = _waits(operations)
     busy: dict[str, list[Span]] = {}
     ends: dict[int, float] = {}
     starts: dict[int, float] = {}
-    for n in _priorities(operations):
+    for n in _priorities(operations, waits):
         operation = operations[n]
-        ready = max((ends[int(e)] for e in operation.after), default=0.0)
+        ready = max((ends[e] for e in waits[n]), default=0.0)
         spans = sorted(s for r in operation.resources for s in busy.get(r, ()))
         if operation.robot:  # an arm takes its operations in order: no gap before what it already has
             ready = max([ready, *(end for _, end in busy.get(operation.robot, ()))])
@@ -30,31 +32,36 @@ def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
         ends[n] = starts[n] + operation.seconds
         for resource in operation.resources:
             busy.setdefault(resource, []).append((starts[n], ends[n]))
-    return _numbered(operations, starts)
+    return _numbered(operations, waits, starts)
 
 
-def _priorities(operations: Sequence[Operation]) -> list[int]:
+def _waits(operations: Sequence[Operation]) -> Waits:
+    at = {op.id: n for n, op in enumerate(operations)}
+    return [sorted(at[e] for e in op.after) for op in operations]
+
+
+def _priorities(operations: Sequence[Operation], waits: Waits) -> list[int]:
     """Return the order in which operations are given their time; what one waits for comes before it."""
-    turns = _in_turn(operations)
+    turns = _in_turn(operations, waits)
     rest = sorted(set(range(len(operations))) - set(turns))
     tails = {n: operations[n].seconds for n in rest}
     for n in reversed(rest):
-        for e in operations[n].after:
-            if int(e) in tails:
-                tails[int(e)] = max(tails[int(e)], operations[int(e)].seconds + tails[n])
-    ordered = sorted(rest, key=lambda n: (bool(operations[n].after), -tails[n], n))
-    return turns + _each_after(operations, ordered)
+        for e in waits[n]:
+            if e in tails:
+                tails[e] = max(tails[e], operations[e].seconds + tails[n])
+    ordered = sorted(rest, key=lambda n: (bool(waits[n]), -tails[n], n))
+    return turns + _each_after(waits, ordered)
 
 
-def _each_after(operations: Sequence[Operation], ordered: Sequence[int]) -> list[int]:
+def _each_after(waits: Waits, ordered: Sequence[int]) -> list[int]:
     """Return operations in an order, but none before what it waits for among them."""
     found: dict[int, None] = {}
     wanted = set(ordered)
 
     def put(n: int) -> None:
-        for e in operations[n].after:
-            if int(e) in wanted and int(e) not in found:
-                put(int(e))
+        for e in waits[n]:
+            if e in wanted and e not in found:
+                put(e)
         found.setdefault(n)
 
     for n in ordered:
@@ -62,24 +69,24 @@ def _each_after(operations: Sequence[Operation], ordered: Sequence[int]) -> list
     return list(found)
 
 
-def _in_turn(operations: Sequence[Operation]) -> list[int]:
+def _in_turn(operations: Sequence[Operation], waits: Waits) -> list[int]:
     """Return the operations of robots and people as they are listed, each after what it waits for, a shutter, say."""
     order: dict[int, None] = {}
     left = [n for n, o in enumerate(operations) if o.robot or o.kind.by_hand]
-    left = [*_awaited(operations, left), *left]
+    left = [*_awaited(waits, left), *left]
     while left:
-        n = next(n for n in left if all(int(e) in order for e in operations[n].after))
+        n = next(n for n in left if all(e in order for e in waits[n]))
         order[n] = None
         left.remove(n)
     return list(order)
 
 
-def _awaited(operations: Sequence[Operation], turns: Sequence[int]) -> list[int]:
+def _awaited(waits: Waits, turns: Sequence[int]) -> list[int]:
     """Return what robots and people wait for besides one another, directly or not."""
     found: set[int] = set()
     todo = list(turns)
     while todo:
-        new = {int(e) for e in operations[todo.pop()].after} - found - set(turns)
+        new = set(waits[todo.pop()]) - found - set(turns)
         found |= new
         todo += new
     return sorted(found)
@@ -95,16 +102,16 @@ def _gap(spans: Sequence[Span], ready: float, seconds: float) -> float:
     return start
 
 
-def _numbered(operations: Sequence[Operation], starts: dict[int, float]) -> tuple[Operation, ...]:
+def _numbered(operations: Sequence[Operation], waits: Waits, starts: dict[int, float]) -> tuple[Operation, ...]:
     order = sorted(range(len(operations)), key=lambda n: (round(starts[n], 6), n))
-    ids = {n: f"op{k}" for k, n in enumerate(order, 1)}
+    place = {n: k for k, n in enumerate(order)}
     return tuple(
         replace(
             operations[n],
-            id=ids[n],
+            id=f"op{place[n] + 1}",
             start=round(starts[n], 6),
             seconds=round(operations[n].seconds, 6),
-            after=tuple(ids[m] for m in sorted((int(e) for e in operations[n].after), key=order.index)),
+            after=tuple(f"op{k + 1}" for k in sorted(place[e] for e in waits[n])),
         )
         for n in order
     )

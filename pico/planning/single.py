@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
 from pico.model.observation import Observation, live_state, with_value
-from pico.model.operation import Operation, Reason, searched_by
+from pico.model.operation import Operation, Reason, new_id, searched_by
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
@@ -126,7 +126,7 @@ def do_one(
         ]  # fmt: skip
         return _sealed(setup, seen, ranging, [], backend, fidelity, base, live_state(setup, seen), ())
     operation = Operation(
-        id="", primitive=name, component=component, arguments=arguments, resources=(component,), reason=ASKED,
+        id=new_id(), primitive=name, component=component, arguments=arguments, resources=(component,), reason=ASKED,
         seconds=primitive(name).seconds,
     )  # fmt: skip
     return _sealed(setup, seen, [operation], [], backend, fidelity, base, live_state(setup, seen), ())
@@ -194,7 +194,7 @@ def arm_one(
             **live.components, component: replace(now, values={**now.values, tunable: value})
         })  # fmt: skip
     operations, notes = value_operations(setup, seen, tuple(changes), ASKED)
-    operations = [replace(op, after=tuple(map(str, range(n)))) for n, op in enumerate(operations)]
+    operations = [replace(op, after=tuple(o.id for o in operations[:n])) for n, op in enumerate(operations)]
     return _sealed(
         setup, seen, parked_first(setup, seen, operations, motion), notes, backend, fidelity, base, live, tuple(changes)
     )
@@ -217,15 +217,13 @@ def again(
 
     Raises PicoError for tunables of which nobody knows where they stand then.
     """
-    place = {op.id: str(n) for n, op in enumerate(plan.operations)}
-    out = [replace(op, id="", after=tuple(place[a] for a in op.after)) for op in plan.operations]
-    after = seen
+    out, after = [*plan.operations], seen
     for op in plan.operations:
         if op.primitive == "set":
             after = with_value(after, op.component, str(op.arguments["tunable"]), op.arguments["to"])
     for key, cut in sought.items():
         one, stages = sought_by(cut.arguments)
-        waits = tuple(map(str, range(len(out))))
+        waits = [op.id for op in out]
         for op in optimizing(setup, after, [Turn(one, stages)], motion, out):
             given = {**op.arguments, "again": key} if op.primitive == "optimize" else op.arguments
             out.append(replace(op, arguments=given, after=tuple(dict.fromkeys((*waits, *op.after)))))

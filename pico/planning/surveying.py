@@ -8,7 +8,7 @@ from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.model.observation import Observation, astray
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import set_seconds
@@ -27,13 +27,13 @@ def surveying(
     setup: Setup, seen: Observation, shots: Shots, dark: Sequence[str], motion: Motion | None
 ) -> list[Operation]:
     """Return the operations of a survey: arms that stand out park, what is measured gets what it needs, all is read and
-    set back; frames in the `dark` of cameras come last. `after` holds indices as text.
+    set back; frames in the `dark` of cameras come last.
 
     Raises PicoError where a tunable that is to be set is not known, so that nobody could go back to it.
     """
     begin = {a: _known(setup, seen, a) for a in sorted({a for _, at in shots for a in at})}
     out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
-    parks = [*map(str, range(len(out)))]
+    parks = [op.id for op in out]
     wants = {
         need.address: need
         for component, _, measurable in (address.partition(".") for address, _ in shots)
@@ -43,27 +43,22 @@ def surveying(
     for need in wants.values():
         out.append(setting(setup, need, need.live, need.value, parks if need.opens else [], "to measure"))
     if shots:
-        out.append(_survey(setup, shots, begin, [*map(str, range(len(out)))]))
-    done = str(len(out) - 1)
+        out.append(_survey(setup, shots, begin, [op.id for op in out]))
+    done = [op.id for op in out[-1:]]
     for need in wants.values():
         if need.live is not None:
-            out.append(setting(setup, need, need.value, need.live, [done], "as it was before"))
-    before = [*map(str, range(len(out)))]
+            out.append(setting(setup, need, need.value, need.live, done, "as it was before"))
+    before = tuple(op.id for op in out)
     wanted = [(name, "dark") for name in dark if not shuts_for_good(setup, seen, name)]
-    for op in measuring(setup, seen, wanted, Reason(kind="asked"), None):
-        if op.primitive != "park":
-            out.append(_later(op, before))
-    return out
+    parked = replace(seen, robots={})
+    measured = measuring(setup, parked, wanted, Reason(kind="asked"), None)
+    return [*out, *(replace(op, after=(*before, *op.after)) for op in measured)]
 
 
 def shuts_for_good(setup: Setup, seen: Observation, camera: str) -> bool:
     """Return whether a frame in the dark would shut a laser that nobody lets emit again."""
     needs = needed(setup, seen, camera, setup.measurables_of(camera)["dark"])
     return any(kept_shut(setup, seen, need) for need in needs if need.live != need.value)
-
-
-def _later(op: Operation, before: Sequence[str]) -> Operation:
-    return replace(op, after=(*before, *(str(int(n) + len(before)) for n in op.after)))
 
 
 def _survey(setup: Setup, shots: Shots, begin: Mapping[str, float], after: Sequence[str]) -> Operation:
@@ -73,8 +68,8 @@ def _survey(setup: Setup, shots: Shots, begin: Mapping[str, float], after: Seque
     bounds = {a: [min(values), max(values)] for a, values in reached.items()}
     what: dict[str, Any] = {"tunables": bounds, "shots": [{"address": a, "at": dict(at)} for a, at in shots]}
     return Operation(
-        id="", primitive="survey", component=(parts or detectors)[0], reason=Reason(kind="asked"), after=tuple(after),
-        arguments={"from": dict(begin), **as_json({"what": what})},
+        id=new_id(), primitive="survey", component=(parts or detectors)[0], reason=Reason(kind="asked"),
+        after=tuple(after), arguments={"from": dict(begin), **as_json({"what": what})},
         resources=tuple(dict.fromkeys((*begin, *parts, *detectors, *sorted(setup.lab.robots)))),
         seconds=seconds(setup, shots, begin),
     )  # fmt: skip

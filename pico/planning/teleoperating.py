@@ -7,7 +7,7 @@ from dataclasses import replace
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.model.catalog import Tunable
 from pico.model.observation import Observation
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion
@@ -45,7 +45,7 @@ def _steerable(kind: Tunable) -> bool:
 def teleoperating(
     setup: Setup, seen: Observation, component: str, tunables: tuple[str, ...], motion: Motion
 ) -> list[Operation]:
-    """Return the operations in which a person steers a component; `after` holds indices as text.
+    """Return the operations in which a person steers a component.
 
     Raises PicoError where nobody knows where something stands, and where no hand can take the part.
     """
@@ -62,7 +62,7 @@ def teleoperating(
     bounds = {f"{component}.{name}": _bounds(kinds[name]) for name in tunables}
     held = [f"motor/{a}" if kinds[a.partition(".")[2]].mover == "motor" else a for a in bounds]
     return [Operation(
-        id="", primitive="teleoperate", component=component, reason=ASKED, seconds=SECONDS,
+        id=new_id(), primitive="teleoperate", component=component, reason=ASKED, seconds=SECONDS,
         arguments={"what": {"tunables": bounds}, "from": begin},
         resources=(*held, component, *sorted(setup.lab.robots)),
     )]  # fmt: skip
@@ -79,13 +79,13 @@ def _by_arm(setup: Setup, seen: Observation, component: str, motion: Motion) -> 
     robot, yaw = _hand(setup, seen, component, motion)
     pose = seen.components[component].pose
     steer = Operation(
-        id="", primitive="teleoperate", component=component, robot=robot, reason=ASKED, seconds=SECONDS,
+        id=new_id(), primitive="teleoperate", component=component, robot=robot, reason=ASKED, seconds=SECONDS,
         arguments={
             "what": {"tunables": {f"{component}.{POSE}": None}}, "from": {"pose": as_json(pose)}, "grasp_yaw": yaw,
         },
         resources=(robot, component, *(other for other in sorted(setup.lab.robots) if other != robot)),
     )  # fmt: skip
-    return [steer, park_operation(setup, seen, robot, ("0",), motion)]
+    return [steer, park_operation(setup, seen, robot, (steer.id,), motion)]
 
 
 def _hand(setup: Setup, seen: Observation, component: str, motion: Motion) -> tuple[str, float]:
@@ -115,21 +115,17 @@ def _hand(setup: Setup, seen: Observation, component: str, motion: Motion) -> tu
 
 def kept_dark(setup: Setup, operations: list[Operation]) -> tuple[list[Operation], list[Diagnostic]]:
     """Return the operations without those that let light out again after an arm, and what is said of each: where a
-    part ends that a person steers nobody knows, so that nothing could be said of the light. `after` holds indices as
-    text, and what lets light out comes last."""
+    part ends that a person steers nobody knows, so that nothing could be said of the light."""
     steers = any(op.primitive == "teleoperate" and op.robot for op in operations)
-    shut = [n for n, op in enumerate(operations) if steers and lets_out(setup, op)]
-    if not shut:
-        return operations, []
-    number = {str(n): str(k) for k, n in enumerate(n for n in range(len(operations)) if n not in shut)}
-    left = [op for n, op in enumerate(operations) if n not in shut]
-    kept = [replace(op, after=tuple(number[e] for e in op.after if e in number)) for op in left]
+    shut = [op for op in operations if steers and lets_out(setup, op)]
     told = [
         warning(
-            "shut", f"{operations[n].component} stays shut afterwards: where its light goes then is not known yet",
-            hint=f"`pico set {operations[n].component} shutter=open` lets it out, after the beam audit",
-            address=f"{operations[n].component}.shutter",
+            "shut", f"{op.component} stays shut afterwards: where its light goes then is not known yet",
+            hint=f"`pico set {op.component} shutter=open` lets it out, after the beam audit",
+            address=f"{op.component}.shutter",
         )
-        for n in shut
+        for op in shut
     ]  # fmt: skip
-    return kept, told
+    gone = {op.id for op in shut}
+    left = (replace(op, after=tuple(e for e in op.after if e not in gone)) for op in operations if op.id not in gone)
+    return [*left], told

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import Tunable
 from pico.model.diff import Change
 from pico.model.observation import Observation
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.quantities import Value
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.model.setup import Setup
@@ -23,7 +22,7 @@ def value_operations(
     setup: Setup, seen: Observation, changes: tuple[Change, ...], reason: Reason | None = None
 ) -> tuple[list[Operation], list[Diagnostic]]:
     """Return the operations that bring every tunable other than a pose to its value, homing first where nobody knows
-    where a homed axis stands; ids are given later. `after` holds indices as text, into the list returned."""
+    where a homed axis stands."""
     operations: list[Operation] = []
     found: list[Diagnostic] = []
     for change in changes:
@@ -32,9 +31,7 @@ def value_operations(
         kind = setup.type_of(change.component).tunables[change.tunable]
         why = reason or Reason(kind="changed", text=change.text)
         if kind.mover in ("motor", "electronics"):
-            for operation in _drive(seen, change, kind, why):
-                after = (str(len(operations) - 1),) if operation.after else ()
-                operations.append(replace(operation, after=after))
+            operations += _drive(seen, change, kind, why)
         elif kind.mover == "none":
             found.append(warning(
                 "unsupported", f"nothing moves {change.tunable} of {change.component} ({change.text})",
@@ -60,20 +57,22 @@ def _drive(seen: Observation, change: Change, kind: Tunable, reason: Reason) -> 
     live = seen.components[name].values[tunable]
     homing = live.status == "unknown" and kind.axis is not None and kind.axis.kind == "homed"
     before: Value | None = change.before
+    after: tuple[str, ...] = ()
     if homing and kind.axis:
-        before = kind.axis.home
-        yield home_operation(name, tunable, kind, None, Reason(kind=reason.kind, text=UNKNOWN))
+        home = home_operation(name, tunable, kind, None, Reason(kind=reason.kind, text=UNKNOWN))
+        before, after = kind.axis.home, (home.id,)
+        yield home
     yield Operation(
-        id="", primitive="set", component=name, arguments={"tunable": tunable, "from": before, "to": change.after},
-        resources=(resource, name), after=("home",) if homing else (), reason=reason,
-        seconds=set_seconds(kind, before, change.after),
+        id=new_id(), primitive="set", component=name,
+        arguments={"tunable": tunable, "from": before, "to": change.after}, resources=(resource, name), after=after,
+        reason=reason, seconds=set_seconds(kind, before, change.after),
     )  # fmt: skip
 
 
 def home_operation(name: str, tunable: str, kind: Tunable, live: Value | None, reason: Reason) -> Operation:
     """Return the operation that homes the axis of a tunable."""
     return Operation(
-        id="", primitive="home", component=name, arguments={"tunable": tunable},
+        id=new_id(), primitive="home", component=name, arguments={"tunable": tunable},
         resources=(f"motor/{name}.{tunable}", name), reason=reason, seconds=home_seconds(kind, live),
     )  # fmt: skip
 
@@ -81,7 +80,7 @@ def home_operation(name: str, tunable: str, kind: Tunable, live: Value | None, r
 def _by_hand(setup: Setup, change: Change) -> Operation:
     text = f"set {change.tunable} of {change.component}: {change.text}"
     return Operation(
-        id="", primitive="operator", component=change.component,
+        id=new_id(), primitive="operator", component=change.component,
         arguments={"text": text, "tunable": change.tunable, "to": change.after},
         resources=(change.component, *sorted(setup.lab.robots)),
         reason=Reason(kind="operator", text="only a person can do this"), seconds=OPERATOR_SECONDS,

@@ -21,9 +21,9 @@ def listed(rng: random.Random) -> list[Operation]:
         robot = rng.choice(("arm1", "arm1", "arm2", None, None))
         primitive = rng.choice(("move", "stow", "park")) if robot else rng.choice(("set", "set", "home", "operator"))
         needs = [f"p{rng.randrange(3)}", *([robot] if robot else []), *(["zone"] if rng.random() < 0.3 else [])]
-        after = tuple(str(e) for e in range(n) if rng.random() < 0.2)
+        after = tuple(f"a{e}" for e in range(n) if rng.random() < 0.2)
         found.append(Operation(
-            id="", primitive=primitive, component=needs[0], robot=robot, after=after, resources=tuple(needs),
+            id=f"a{n}", primitive=primitive, component=needs[0], robot=robot, after=after, resources=tuple(needs),
             reason=CHANGED, seconds=rng.choice((0.0, 0.1, 1.0, 2.5, 7 / 3, 10.0)),
         ))  # fmt: skip
     return found

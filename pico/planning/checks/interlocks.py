@@ -3,7 +3,7 @@ lamps of the room are on while an arm works: cameras see by them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,7 +11,7 @@ from pico.diagnostics import Diagnostic, error, warning
 from pico.model.arming import LaserClass
 from pico.model.catalog import Tunable
 from pico.model.observation import Observation, ObservedValue
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.quantities import Value
 from pico.model.setpoint import set_seconds
 from pico.model.setup import Setup
@@ -46,25 +46,25 @@ class Gate:
 
 def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
     """Return the operations, more where shutters must be closed first and opened again at the end, and with the edges
-    that this takes. `after` holds indices as text. A shutter ends as the operations given leave it.
+    that this takes. A shutter ends as the operations given leave it.
 
     What sets a shutter comes after the moves themselves, not only after the park: where a move fails, an arm still
     parks, but nobody knows what stands in the beam, and the shutter stays closed. That of a laser which nobody lets
     emit stays closed in the end, too.
     """
-    out = list(operations)
-    arms = [n for n, o in enumerate(operations) if o.robot is not None]
+    out = {op.id: op for op in operations}
+    arms = [op for op in operations if op.robot is not None]
     for lamp in _lamps(setup, seen, operations) if arms else ():
-        _keep(out, operations, lamp, arms, "the cameras of the arm see by it", "on while an arm worked")
+        _keep(out, lamp, arms, "the cameras of the arm see by it", "on while an arm worked")
     guarded = _guarded(setup, operations)
     if not guarded or setup.lab.policy.open_beam:
-        return out
-    why = _why(operations, guarded)
+        return [*out.values()]
+    why = _why(guarded)
     for shutter in _shutters(setup, seen, operations):
         if _stays_shut(setup, seen, operations, shutter):
             shutter = replace(shutter, goal=None)
-        _keep(out, operations, shutter, guarded, why, f"closed while {why}")
-    return out
+        _keep(out, shutter, guarded, why, f"closed while {why}")
+    return [*out.values()]
 
 
 def stay_shut(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> dict[str, LaserClass]:
@@ -86,11 +86,9 @@ def _stays_shut(
     return unlicensed(setup, seen, [*operations, _set(gate, CLOSED, gate.goal, "")])
 
 
-def _keep(
-    out: list[Operation], operations: Sequence[Operation], gate: Gate, guarded: Sequence[int], why: str, was: str
-) -> None:
+def _keep(out: dict[str, Operation], gate: Gate, guarded: Sequence[Operation], why: str, was: str) -> None:
     """Let a gate be at its working value while the guarded operations go on, and as it is to be after them."""
-    first, last = _ends(operations, guarded)
+    first, last = _ends(guarded)
     _close(out, gate, first, guarded, why)
     _set_back(out, gate, last, was)
 
@@ -112,9 +110,9 @@ def _gate(
     return Gate(laser, name, kind, live, ends[-1] if ends else known.value, tunable, working)
 
 
-def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[int]:
-    """Return which operations want the beam blocked: those of arms and people, and homing what steers it."""
-    return [n for n, o in enumerate(operations) if _works(o) or (o.primitive == "home" and _steers(setup, o))]
+def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[Operation]:
+    """Return the operations that want the beam blocked: those of arms and people, and homing what steers it."""
+    return [o for o in operations if _works(o) or (o.primitive == "home" and _steers(setup, o))]
 
 
 def _works(operation: Operation) -> bool:
@@ -126,20 +124,19 @@ def _steers(setup: Setup, operation: Operation) -> bool:
     return setup.type_of(operation.component).optics.element in STEERING
 
 
-def _ends(operations: Sequence[Operation], guarded: Sequence[int]) -> tuple[list[int], list[int]]:
-    """Return those of the guarded operations that wait for none of them, and those that none but a park waits for."""
-    inside = {str(n) for n in guarded}
-    first = [n for n in guarded if inside.isdisjoint(operations[n].after)]
-    waited = {e for n in guarded if not operations[n].kind.parks for e in operations[n].after}
-    return first, [n for n in guarded if str(n) not in waited]
+def _ends(guarded: Sequence[Operation]) -> tuple[list[str], list[str]]:
+    """Return which of the guarded operations wait for none of them, and which none but a park waits for."""
+    inside = {o.id for o in guarded}
+    waited = {e for o in guarded if not o.kind.parks for e in o.after}
+    return [o.id for o in guarded if inside.isdisjoint(o.after)], [o.id for o in guarded if o.id not in waited]
 
 
-def _why(operations: Sequence[Operation], guarded: Sequence[int]) -> str:
-    who = sorted({operations[n].robot or "" for n in guarded} - {""})
-    who += ["a person"] if any(operations[n].kind.by_hand for n in guarded) else []
+def _why(guarded: Sequence[Operation]) -> str:
+    who = sorted({o.robot or "" for o in guarded} - {""})
+    who += ["a person"] if any(o.kind.by_hand for o in guarded) else []
     if who:
         return f"{listed(who)} {'works' if len(who) == 1 else 'work'} in the beam"
-    names = [f"{operations[n].component}.{operations[n].arguments['tunable']}" for n in guarded]
+    names = [f"{o.component}.{o.arguments['tunable']}" for o in guarded]
     return f"homing {', '.join(names)} steers the beam"
 
 
@@ -178,48 +175,44 @@ def _sets(operation: Operation, name: str, tunable: str = "shutter") -> bool:
 
 
 def _close(
-    out: list[Operation], gate: Gate, first: Sequence[int], guarded: Sequence[int], why: str
+    out: dict[str, Operation], gate: Gate, first: Sequence[str], guarded: Sequence[Operation], why: str
 ) -> None:  # fmt: skip
     """Let the first of the guarded operations come after the gate is as it must be, by what the plan holds or more."""
     if gate.live == gate.working:
         return
-    n = _setting(out, gate, gate.working)
-    if n == len(out):
-        out.append(_set(gate, gate.live, gate.working, why))
-    _at_once(out, n, guarded)
+    closing = _setting(out, gate, gate.working) or _set(gate, gate.live, gate.working, why)
+    out.setdefault(closing.id, closing)
+    _at_once(out, closing.id, {o.id for o in guarded})
     for k in first:
-        out[k] = replace(out[k], after=(*out[k].after, str(n)))
+        out[k] = replace(out[k], after=(*out[k].after, closing.id))
 
 
-def _at_once(out: list[Operation], n: int, guarded: Sequence[int]) -> None:
+def _at_once(out: dict[str, Operation], one: str, guarded: Set[str]) -> None:
     """Let an operation, and what it waits for, wait for none of the guarded: not for a hand to be emptied, either."""
-    out[n] = replace(out[n], after=tuple(e for e in out[n].after if int(e) not in guarded))
-    for e in out[n].after:
-        _at_once(out, int(e), guarded)
+    out[one] = replace(out[one], after=tuple(e for e in out[one].after if e not in guarded))
+    for e in out[one].after:
+        _at_once(out, e, guarded)
 
 
-def _setting(out: Sequence[Operation], gate: Gate, value: Value) -> int:
-    """Return which operation sets a gate to a value; their number where none does."""
-    mine = (n for n, o in enumerate(out) if _sets(o, gate.component, gate.tunable) and o.arguments["to"] == value)
-    return next(mine, len(out))
+def _setting(out: Mapping[str, Operation], gate: Gate, value: Value) -> Operation | None:
+    """Return the operation that sets a gate to a value; None where none does."""
+    mine = (o for o in out.values() if _sets(o, gate.component, gate.tunable) and o.arguments["to"] == value)
+    return next(mine, None)
 
 
-def _set_back(out: list[Operation], gate: Gate, last: Sequence[int], was: str) -> None:
+def _set_back(out: dict[str, Operation], gate: Gate, last: Sequence[str], was: str) -> None:
     """Let the gate be set as wanted after the last of the guarded operations."""
     if gate.goal is None or gate.goal == gate.working:
         return
-    after = tuple(str(k) for k in last)
-    n = _setting(out, gate, gate.goal)
-    if n == len(out):
-        out.append(replace(_set(gate, gate.working, gate.goal, was), after=after))
-    else:
-        before = {**out[n].arguments, "from": gate.working}
-        out[n] = replace(out[n], arguments=before, after=(*out[n].after, *after))
+    own = _setting(out, gate, gate.goal)
+    back = replace(own, arguments={**own.arguments, "from": gate.working}) if own else None
+    back = back or _set(gate, gate.working, gate.goal, was)
+    out[back.id] = replace(back, after=(*back.after, *last))
 
 
 def _set(gate: Gate, before: Value | None, after: Value, why: str) -> Operation:
     return Operation(
-        id="", primitive="set", component=gate.component, reason=Reason(kind="interlock", text=why),
+        id=new_id(), primitive="set", component=gate.component, reason=Reason(kind="interlock", text=why),
         arguments={"tunable": gate.tunable, "from": before, "to": after},
         resources=(f"{gate.component}.{gate.tunable}", gate.component), seconds=set_seconds(gate.kind, before, after),
     )  # fmt: skip
@@ -234,7 +227,7 @@ def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
     if held or not _guarded(setup, operations):
         return held
     closed = {s.laser for s in _shutters(setup, seen, operations)}
-    why = _why(operations, _guarded(setup, operations))
+    why = _why(_guarded(setup, operations))
     return [
         warning(
             "open-beam", f"no operation can close the beam of {laser} while {why}",
@@ -258,7 +251,7 @@ def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Op
 
 def policy_rules(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> tuple[Mapping[str, Any], ...]:
     """Return what `Plan.policy` says of a plan's lasers: each rule with whether it holds, and in words."""
-    count = sum(not operations[n].kind.parks for n in _guarded(setup, operations))
+    count = sum(not o.kind.parks for o in _guarded(setup, operations))
     lasers = [s.component for s in _shutters(setup, seen, operations)]
     if not count or not lasers:
         return ()

@@ -10,7 +10,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry import Grid, fits, placed
 from pico.model.observation import Observation, ObservedRobot, astray
-from pico.model.operation import Operation, Reason
+from pico.model.operation import Operation, Reason, new_id
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion, MovePath, StandingObject
@@ -36,7 +36,7 @@ class EmptiedHands:
 def set_downs(setup: Setup, seen: Observation, motion: Motion | None) -> EmptiedHands:
     """Return the operations that empty the hands, one after the other, and the bench as it then is.
 
-    `after` holds indices as text. A part for which there is no place stays in the hand, with a warning that says why.
+    A part for which there is no place stays in the hand, with a warning that says why.
     """
     settled = EmptiedHands(seen)
     for robot, state in sorted(seen.robots.items()):
@@ -59,7 +59,7 @@ def _emptied(
         if isinstance(path, Blocked):
             why = path.text
             continue
-        after = tuple(str(n) for n in range(len(settled.operations)))
+        after = tuple(op.id for op in settled.operations)
         operation = _operation(name, robot, as_json(part.pose), place, path, after)
         joints = path.end if path else hand.joints
         components = {**seen.components, name: replace(part, presence="seen", pose=place.pose)}
@@ -74,7 +74,7 @@ def _operation(
 ) -> Operation:
     to = {"pose": as_json(place.pose)} | ({"slot": place.slot} if place.slot else {})
     return Operation(
-        id="", primitive="stow" if place.slot else "move", component=name, robot=robot, resources=(robot, name),
+        id=new_id(), primitive="stow" if place.slot else "move", component=name, robot=robot, resources=(robot, name),
         arguments={"from": {"pose": held, "held": True}, "to": to}, after=after,
         reason=Reason(kind="held", text=f"{robot} still holds it"),
         seconds=path.seconds if path else SET_DOWN_SECONDS,
@@ -128,33 +128,29 @@ def after_set_downs(
     setup: Setup, settled: EmptiedHands, rest: Sequence[Operation], motion: Motion | None
 ) -> list[Operation]:
     """Return the operations with the set-downs before all others, and with a park of each robot that does nothing
-    else; `after` holds indices as text."""
+    else."""
     first = settled.operations
     if not first:
         return list(rest)
-    count, last = len(first), str(len(first) - 1)
-    shifted = [replace(o, after=tuple(str(int(e) + count) for e in o.after) or (last,)) for o in rest]
-    idle = sorted({o.robot or "" for o in first} - {o.robot for o in rest})
-    waits = [last, *(str(count + len(rest) + i) for i in range(len(idle)))]  # one at a time: they may meet
-    parks = (
-        park_operation(setup, settled.seen, robot, (wait,), motion) for robot, wait in zip(idle, waits, strict=False)
-    )
-    return [*first, *shifted, *parks]
+    out = [*first, *(replace(o, after=o.after or (first[-1].id,)) for o in rest)]
+    waits = first[-1].id
+    for robot in sorted({o.robot or "" for o in first} - {o.robot for o in rest}):
+        out.append(park_operation(setup, settled.seen, robot, (waits,), motion))
+        waits = out[-1].id  # one at a time: they may meet
+    return out
 
 
 def parked_first(setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None) -> list[Operation]:
     """Return the operations after a park of each arm that was stopped on its way with an empty hand, and that none of
-    them uses; `after` holds indices as text. An arm that has no way to its park pose is left where it stands."""
+    them uses. An arm that has no way to its park pose is left where it stands."""
     used, parks = {o.robot for o in rest}, list[Operation]()
     for name in astray(setup, seen):
         found = _park_path(setup, seen, name, motion)
         if name not in used and not isinstance(found, Blocked):
-            parks.append(park_operation(setup, seen, name, [str(len(parks) - 1)] if parks else (), motion))
+            parks.append(park_operation(setup, seen, name, [p.id for p in parks[-1:]], motion))
     if not parks:
         return list(rest)
-    count, last = len(parks), str(len(parks) - 1)
-    waits = [replace(o, after=tuple(str(int(e) + count) for e in o.after)) for o in rest]
-    return [*parks, *(replace(o, after=(last, *o.after)) if o.robot else o for o in waits)]
+    return [*parks, *(replace(o, after=(parks[-1].id, *o.after)) if o.robot else o for o in rest)]
 
 
 def _park_path(setup: Setup, seen: Observation, robot: str, motion: Motion | None) -> MovePath | Blocked | None:
@@ -166,10 +162,10 @@ def _park_path(setup: Setup, seen: Observation, robot: str, motion: Motion | Non
 def park_operation(
     setup: Setup, seen: Observation, robot: str, after: Sequence[str], motion: Motion | None
 ) -> Operation:
-    """Return the operation that parks an arm, after those at some indices, as text."""
+    """Return the operation that parks an arm, after those with some ids."""
     path = _park_path(setup, seen, robot, motion)
     return Operation(
-        id="", primitive="park", component=robot, robot=robot, resources=(robot,), after=tuple(after),
+        id=new_id(), primitive="park", component=robot, robot=robot, resources=(robot,), after=tuple(after),
         reason=Reason(kind="parked", text="out of the beam"),
         seconds=path.seconds if isinstance(path, MovePath) else PARK_SECONDS,
     )  # fmt: skip

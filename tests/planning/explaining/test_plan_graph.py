@@ -20,8 +20,8 @@ SECONDS = st.integers(0, 40).map(lambda n: n / 4)
 def op(index: int, seconds: float, resources: tuple[str, ...] = (), after: tuple[int, ...] = ()) -> Operation:
     robot = next((r for r in resources if r.startswith("arm")), None)
     return Operation(
-        id="", primitive="move" if robot else "set", component=f"c{index}", robot=robot, resources=resources,
-        after=tuple(str(e) for e in after), reason=Reason(kind="changed"), seconds=seconds,
+        id=f"a{index}", primitive="move" if robot else "set", component=f"c{index}", robot=robot, resources=resources,
+        after=tuple(f"a{e}" for e in after), reason=Reason(kind="changed"), seconds=seconds,
     )  # fmt: skip
 
 
