@@ -37,11 +37,15 @@ def electrons_of(arrivals: Iterable[Arrival], part: Part, stray: float = 0.0) ->
     sensor, exposure = sensor_of(part), part.value("exposure", "ms", 1.0)
     per_power = (sensor.pitch * 1e-3) ** 2 * exposure
     room = stray * 1e-6 * per_power * electrons(ROOM, efficiency(part))
-    total = np.full((sensor.size[1], sensor.size[0]), room, dtype=np.float32)
+    total: Electrons | None = None
     for wavelength, found in groupby(sorted(arrivals, key=lambda a: a.wavelength), key=lambda a: a.wavelength):
         light = irradiance(tuple(found), sensor.y, sensor.z, np.float32)
         light *= np.float32(per_power * electrons(wavelength, efficiency(part)))
-        total += light
+        total = light if total is None else total + light  # of most cameras there is one: pictures are large
+    if total is None:
+        return np.full((sensor.size[1], sensor.size[0]), room, dtype=np.float32)
+    if room:
+        total += np.float32(room)
     return total
 
 

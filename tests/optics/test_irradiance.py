@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -66,6 +67,14 @@ def test_it_is_the_square_of_the_sum_of_all_fields(yaw: float, left: float) -> N
     assert np.abs(found - wanted).max() < 1e-9 * wanted.max()
     coarse = irradiance(beams, on, Y, Z, np.float32)
     assert coarse.dtype == np.float32 and np.abs(coarse - wanted).max() < 1e-4 * wanted.max()
+
+
+@pytest.mark.parametrize("bend", [1e-7, 1e-5, 2e-4, 1e-3])
+def test_a_picture_in_single_precision_is_as_good_where_a_beam_is_bent_a_little_across(bend: float) -> None:
+    """As lenses that lean bend it: what is told by few products, by more, and pixel by pixel."""
+    beams = [replace(b, curvature=b.curvature + bend * (1 + 0.3j) * np.array([[0, 1], [1, 0]])) for b in crossed()]
+    wanted = summed(beams, screen(0.0))
+    assert np.abs(irradiance(beams, screen(0.0), Y, Z, np.float32) - wanted).max() < 5e-5 * wanted.max()
 
 
 def test_beams_that_are_skew_have_pictures_that_are() -> None:
