@@ -9,10 +9,11 @@ A restoration is `apply --align` of a commit. It succeeds where the bench is as 
 again, the camera has 95 % of the recorded light against the laser's own monitor, the spot is within 5 um where a goal
 of the state puts it by its axes, the differential shift is within 1 um, and it took no longer than 1.15 times its
 bound. The shift is half the way of the spot from one side of crossed to the other; after E2-1 and E1-1 it is measured
-in E2-3 and E1-3, built again from there. There p2 is put down until it is seen tilted to 0.03 deg, at the first time and
-after a restoration: it repeats to 0.05 deg, which is 0.2 um of the shift, most of what `pico budget --repeats` says that
-placing parts scatters it by. Where no axis reaches the spot, it is where the placement of parts puts it: those farther
-off than 2.49 standard deviations of that, both axes taken together, are counted; one in 22 is by chance.
+in E2-3 and E1-3, built again from there. There p2 is put down until it is seen tilted to 0.03 deg, before and after a
+restoration: its seat repeats to 0.05 deg, 0.2 um of the shift. Without a stage that centres it the first lens
+does as much, by 0.1 mm; `pico budget --repeats` tells that, and nothing of it is noise. Where no axis reaches the spot,
+it is where the placement of parts puts it: those farther off than 2.49 standard deviations of that, both axes taken
+together, are counted; one in 22 is by chance.
 
 The bound is reckoned before anything moves, from the bench as it is seen and the state that is wanted. Travel: the
 least time that the arm needs for these moves in any order, its hand and its parking included, or the slowest motor.

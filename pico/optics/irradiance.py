@@ -2,8 +2,9 @@
 
 The field of each wave is exp of a polynomial of second order in the detector's coordinates y and z, so the product of
 two is as well. But for its term in y z that is a column times a row, so a picture of millions of pixels is a sum of
-outer products, and costs as much as one exponential a pixel only where a beam is turned much or skew. A narrow line of a
-source's spectrum is one more such product; of a wide one the degree of coherence is taken pixel by pixel.
+outer products, as few as make it, and costs as much as one exponential a pixel only where a beam is turned or skew by
+more than a little. A narrow line of a source's spectrum is one more such product; of a wide one the degree of coherence
+is taken pixel by pixel.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ _DARK = 45.0
 _FLAT = 1e-5
 """A term in y z that stays below this changes nothing."""
 _BENT = 0.1
-"""A term in y z that stays below this is a few products, too, for who counts in single precision: those of its series."""
+"""A term in y z that stays below this is a few products, too, in single precision: those of its series."""
 _FEW, _SAMPLES, _ALIKE = 4, 32, 1e-7
 """Of more products than this it is told which matter, at how many points of an axis, and the share below which one does
 not."""
@@ -142,7 +143,7 @@ def _outer(
 ) -> None:  # fmt: skip
     """Add the real part of the sum of terms, times exp(r' q r / 2) and a `factor` (len(dz), len(dy)), r = (dy, dz)."""
     skew, most = q[0, 1], float(abs(q[0, 1]) * np.abs(dy).max() * np.abs(dz).max())
-    apart = factor is not None and most > _FLAT or most > (_BENT if part.dtype == np.float32 else _FLAT)
+    apart = most > (_BENT if part.dtype == np.float32 and factor is None else _FLAT)
     column = 0 if apart else 0.5 * q[1, 1] * dz**2
     row = 0 if apart else 0.5 * q[0, 0] * dy**2
     kind: Any = np.complex64 if part.dtype == np.float32 else np.complex128
