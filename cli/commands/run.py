@@ -109,7 +109,7 @@ def _alone(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mappin
     PicoError where it must not begin so now."""
     alone = said or (recipe.unattended is not None and not _attended(session))
     if alone:
-        recipes.require_unattended(recipe, arguments)
+        session.tell(recipes.require_unattended(recipe, arguments))
     return alone
 
 

@@ -42,7 +42,31 @@ def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     from pico.model.observation import left_standing
 
     found = goes_on(opened)
-    return found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
+    cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
+    return (*unattended(opened), *cut)
+
+
+def unattended(opened: Opened) -> tuple[Diagnostic, ...]:
+    """Return what an unattended run is held to that goes on, or how the edge left the bench of one by itself."""
+    terms = opened.wait(opened.edge.unattended())
+    if terms is None:
+        return ()
+    name, left = terms.recipe.partition("@")[0], terms.left
+    if left is None:
+        text = f"{name} runs unattended until {terms.until} at the latest, up to class {terms.laser_class}"
+        ends = f"the bench is then left {', '.join(terms.end)}" if terms.end else ""
+        return (warning("unattended", text, detail=ends),)
+    if not left.why:
+        return ()
+    reached = f"the bench was left {', '.join(left.reached)}" if left.reached else ""
+    hint = "`pico run --resume --unattended` goes on with it"
+    return (warning("unattended", f"{name} ended: {left.why}", detail=reached, hint=hint), *left.wrong)
+
+
+def not_left(opened: Opened) -> bool:
+    """Return whether the process of an unattended run was killed, and nobody brought about its end state yet."""
+    terms = opened.wait(opened.edge.unattended())
+    return terms is not None and terms.left is not None and not terms.left.reached and bool(terms.left.wrong)
 
 
 def _interrupted(opened: Opened) -> tuple[Diagnostic, ...]:

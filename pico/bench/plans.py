@@ -291,15 +291,6 @@ class Plans:
         found = planning.measure(setup, seen, wanted, motion=motion, goals=goals, **self.start_of(seen))
         return self.judged(found, seen)
 
-    def parking(self) -> Plan:
-        """Return the plan that parks the arms that were stopped on their way with an empty hand; it has no operations
-        where none was."""
-        from pico import planning
-
-        seen = self._seen()
-        found = planning.park(self.opened.setup, seen, motion=DeferredMotion(self.opened.setup), **self.start_of(seen))
-        return self.judged(found, seen)
-
     def setting(self, values: Mapping[str, Value]) -> Plan:
         """Return the plan that brings tunables to values exactly, by address (`p1.angle`), side by side as far as their
         motors can; nothing else is set or moved."""

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.bench.cut_short import not_left
 from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
@@ -126,12 +127,13 @@ class Recovery:
             self.opened.suit(_document(memory, last))
 
     def settle(self) -> None:
-        """Record what became of operations that a killed run had begun, though there is nothing left to move.
+        """Record what became of operations that a killed run had begun, though there is nothing left to move, and have
+        the bench left as an unattended one states whose process was killed.
 
         Raises PicoError for what only a person can tell.
         """
         edge = self.opened.edge
-        if edge.memory is not None and edge.memory.unsettled():
+        if (edge.memory is not None and edge.memory.unsettled()) or not_left(self.opened):
             self.opened.wait(edge.release(self.opened.wait(edge.acquire("pico apply", self.opened.lock_timeout))))
 
     def open_questions(self) -> list[Diagnostic]:

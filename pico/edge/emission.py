@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 from pico.backends.device import Began, Capabilities
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge import armings
+from pico.model.arming import LaserClass
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
 from pico.model.setup import Setup
 from pico.optics.audit.lasers import laser_class
 from pico.planning.checks.beams import shutter_of
-from pico.planning.checks.emission import lets_out, licensed, may_shine, refused, uncovers, why_not
+from pico.planning.checks.emission import above, lets_out, licensed, may_shine, refused, uncovers, why_not
 from pico.policy import arming
 
 if TYPE_CHECKING:
@@ -28,10 +29,14 @@ Looking = Callable[[], Awaitable[Observation]]
 
 
 class Guarded:
-    """A device that lets light out only by a licence; where no plan asks for it (`bare`) only after the beam audit."""
+    """A device that lets light out only by a licence, of no higher class than `most` where nobody is there; where no
+    plan asks for it (`bare`) only after the beam audit."""
 
-    def __init__(self, setup: Setup, inner: Executing, look: Looking, bare: Callable[[], bool]) -> None:
-        self._setup, self._inner, self._look, self._bare = setup, inner, look, bare
+    def __init__(
+        self, setup: Setup, inner: Executing, look: Looking, bare: Callable[[], bool],
+        most: Callable[[], LaserClass | None],
+    ) -> None:  # fmt: skip
+        self._setup, self._inner, self._look, self._bare, self._most = setup, inner, look, bare, most
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that lets light out and must not fails, and nothing moves."""
@@ -39,6 +44,8 @@ class Guarded:
             return await self._inner.execute(operation, key, began)
         seen = await self._look()
         wrong: Sequence[Diagnostic] = refused(self._setup, seen, [operation])
+        if not wrong and (most := self._most()) is not None:
+            wrong = above(self._setup, seen, [operation], most)
         if not wrong and self._bare():
             wrong = _unsafe(self._setup, seen, operation)
         if wrong:

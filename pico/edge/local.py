@@ -19,7 +19,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge import own_lab
 from pico.edge.kept_lab import KeptLab
 from pico.edge.lease import BenchLock, utc_now
-from pico.edge.protocol import Holder, Job, Lease, OwnLab
+from pico.edge.protocol import RECIPE, UNATTENDED, Holder, Job, Lease, OwnLab
 from pico.edge.remembering import Remembering
 from pico.edge.started import StartedRuns
 from pico.model.measurement import Measurement
@@ -39,9 +39,11 @@ if TYPE_CHECKING:
     from pico.edge.running import Running
     from pico.edge.shutting import Shutting
     from pico.edge.teleoperating import Teleoperating
+    from pico.edge.unattended import Alone
     from pico.model.arming import Arming
     from pico.model.trace.report import RunReport
     from pico.model.trace.run import RunOutcome
+    from pico.model.trace.unattended import Left, Terms
     from pico.runs.journal import Journal
     from pico.teleop.frames import Answer, Frame
     from pico.twin.snapshot import Snapshot
@@ -75,6 +77,7 @@ class LocalEdge:
         self.settled: tuple[SettledOperation, ...] = ()
         self._lock, self.now = BenchLock(root, clock), clock
         self._lasers: Shutting | None = None
+        self._releasing = asyncio.Lock()
         self._minded = frozenset[tuple[str, str]]()
         self._able: tuple[Device, Capabilities] | None = None
         self._lease: Lease | None = None
@@ -87,6 +90,7 @@ class LocalEdge:
         self._running: Running | None = None
         self._open: OpenRun | None = None
         self._obeying: asyncio.Task[None] | None = None
+        self._alone: Alone | None = None
         self._remembers = Remembering(root, clock)
 
     async def describe(self) -> Capabilities:
@@ -205,6 +209,46 @@ class LocalEdge:
             await asyncio.sleep(OBEYS)
         return False
 
+    # where nobody is there
+
+    @property
+    def alone(self) -> Alone:
+        """What holds an unattended run to its terms."""
+        from pico.edge.unattended import Alone
+
+        if self._alone is None:
+            self._alone = Alone(self)
+        return self._alone
+
+    async def hold(self, terms: Terms) -> Left | None:
+        """Hold an unattended run to its terms; see `pico.edge.protocol.Edge`."""
+        require_attached(self.root)
+        return await self.alone.hold(terms)
+
+    async def goes_on(self, recipe: str) -> None:
+        """Hear that the client of an unattended run goes on."""
+        self.alone.goes_on(recipe)
+
+    async def leave(self, recipe: str, moves: bool) -> Left:
+        """Bring about the end state of an unattended run; see `pico.edge.protocol.Edge`."""
+        return await self.alone.leave(recipe, moves=moves)
+
+    async def unattended(self) -> Terms | None:
+        """Return the terms of an unattended run; see `pico.edge.protocol.Edge`."""
+        known = self._alone is not None or (bench_folder(self.root) / UNATTENDED).exists()
+        return self.alone.known() if known else None
+
+    def moving(self) -> bool:
+        """Return whether something is under way."""
+        return self._running is not None or bool(self._under_way)
+
+    async def end_of(self, holder: str) -> None:
+        """Bring what a holder has under way to its safe end, and take the bench back from it."""
+        if (lease := self._lease) is not None and lease.holder == holder:
+            await self.halt()
+            await self._ended()
+            await self.release(lease)
+
     async def _shut_over(self, seen: Observation | None = None) -> None:
         """See `pico.edge.shutting.Shutting.shut_over`; nothing is shut here while nobody has the bench."""
         if self._attempts is None:
@@ -266,7 +310,7 @@ class LocalEdge:
             surveying = Surveying(self.setup, aligning, self.device, lambda: self._stopping, self._heard)
             doing = Teleoperating(self.setup, surveying, self.device, lambda: self._stopping, self._heard)
             self._steering = doing
-            guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None)
+            guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None, self.alone.most)
             self._attempts, self._lease = Attempts(self.journal, guarded, lease.token), lease
             seen = await self.observe()
             self.settled = settle(self.setup, self.journal, seen, lease.token)
@@ -282,8 +326,9 @@ class LocalEdge:
 
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
-        if self._lease is not None and lease.token == self._lease.token:
-            await self._leave()
+        async with self._releasing:
+            if self._lease is not None and lease.token == self._lease.token:
+                await self._leave()
 
     async def _leave(self) -> None:
         if self._open is not None:
@@ -384,6 +429,8 @@ class LocalEdge:
         """Take the bench for a run, at its speed; raises PicoError where its plan is not for this bench."""
         from pico.execution.checks import require_applicable
 
+        if self._alone is not None:
+            self._alone.goes_on(job.holder.removeprefix(f"{RECIPE} "))
         usual, _ = self._usual or (self.setup, None)
         able = replace(await self.describe(), lab_digest=usual.at_speed(job.speed).digest())
         require_applicable(job.plan, able)
@@ -624,6 +671,8 @@ class LocalEdge:
 
     async def close(self) -> None:
         """Bring what is under way to its safe end, give the bench back, let go of the journal."""
+        if self._alone is not None:
+            await self._alone.close()
         self._interrupt()
         await self._ended()
         if self._lease is not None:

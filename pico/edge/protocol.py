@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from pico.model.arming import Arming
     from pico.model.trace.report import RunReport
     from pico.model.trace.run import RunOutcome
+    from pico.model.trace.unattended import Left, Terms
     from pico.runs.memory import Memory
     from pico.twin.snapshot import Snapshot
 
@@ -66,6 +67,10 @@ RECORDING = "recording"
 """For which a bench is taken, and what, where a script has an open run."""
 RECIPE = "pico run"
 """For which a bench is taken, and for which recipe, where one runs."""
+
+
+UNATTENDED = "unattended.json"
+"""The file of a bench in which stands what an unattended run is held to."""
 
 
 @record
@@ -142,6 +147,30 @@ class Edge(Protocol):
     async def disarm(self, laser: str, by: str) -> bool:
         """End what arms a laser, at once and whoever has the bench, who shuts it. Return whether it is shut; else it
         will be, by who has the bench next. Needs no lease."""
+        ...
+
+    # where nobody is there
+
+    async def hold(self, terms: Terms) -> Left | None:
+        """Hold an unattended run to its terms until it is left: no laser emits as of a higher class, and at its latest
+        end, or where its client is gone or says nothing for long, it is ended, and the bench brought to its end state.
+        Return how the edge left the bench if it ended that run before. Raises PicoError (exit code LOCKED) where one is
+        held."""
+        ...
+
+    async def goes_on(self, recipe: str) -> None:
+        """Say that the client of a run that is held is there, and goes on. Raises PicoError (exit code INTERRUPTED)
+        where the edge ended it; nothing is started for it then, either."""
+        ...
+
+    async def leave(self, recipe: str, moves: bool) -> Left:
+        """Bring about the end state of a run that is held, unless the edge did so; return how the bench is left. Where
+        nothing `moves` any more, for somebody interrupted it, arms stay where they are, and the run may be taken up."""
+        ...
+
+    async def unattended(self) -> Terms | None:
+        """Return the terms of the unattended run that goes on, or of the last that was not ended by its client as it
+        states; None for none."""
         ...
 
     # looking

@@ -1,4 +1,5 @@
-"""Lasers whose arming is over are shut, by whoever has the bench, as operations that the journal has."""
+"""Lasers whose arming is over are shut, by whoever has the bench, as operations that the journal has; so is what the end
+of an unattended run wants."""
 
 from __future__ import annotations
 
@@ -12,6 +13,7 @@ from pico.edge import emission
 from pico.edge.about import about_run
 from pico.edge.armings import forget
 from pico.edge.running import new_run_id
+from pico.edge.unattended import Alone
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
@@ -26,6 +28,11 @@ class Emitting(Protocol):
 
     @property
     def journal(self) -> Journal: ...
+
+    @property
+    def alone(self) -> Alone:
+        """What holds an unattended run to its terms."""
+        ...
 
     async def observe(self) -> Observation: ...
 
@@ -53,13 +60,25 @@ class Shutting:
 
     async def shut_over(self, seen: Observation | None) -> None:
         """Shut the lasers whose arming is over, and of what is `seen` those that shine without one; one that can't be
-        is tried again, by whoever has the bench next."""
+        is tried again, by whoever has the bench next. Who takes the bench also brings about the end state of an
+        unattended run that is due."""
         edge = self._edge
         async with self._one_at_a_time:
             bare = emission.unlicensed(edge.setup, seen) if seen is not None else {}
             for laser, why in (bare | emission.over(edge.setup, edge.root, edge.now())).items():
                 if not await self._shut(laser, why):
                     return
+            if seen is not None and edge.alone.due():
+                await self._end()
+
+    async def _end(self) -> None:
+        """Shut lasers and put out lamps as an unattended run states that ends now, or whose process was killed."""
+        edge, done = self._edge, list[Operation]()
+        for operation in edge.alone.tidies(edge.setup, await edge.observe()):
+            if await self._done(operation):
+                done.append(operation)
+                self._told = (*self._told, edge.alone.told(operation))
+        edge.alone.tidied(tuple(done))
 
     def told(self) -> tuple[Diagnostic, ...]:
         """Return, once, which lasers were shut, and why."""
@@ -70,19 +89,24 @@ class Shutting:
         edge = self._edge
         operation = emission.shutting(edge.setup, await edge.observe(), laser, why)
         if operation is not None:
-            under_way = edge.run_under_way()
-            run = under_way or await self._tidying(operation)
-            result = await edge.perform(operation, f"{run}/{operation.id}.{edge.now()}/1")
-            if under_way is None:
-                edge.journal.end_run(run, "done" if result.outcome == "done" else "failed", {result.outcome: 1})
-            if result.outcome != "done":
+            if not await self._done(operation):
                 return False
             self._told = (*self._told, emission.told(laser, why))
         forget(edge.root, laser)
         return True
 
+    async def _done(self, operation: Operation) -> bool:
+        """Have an operation done, in the run under way or in one of its own; return whether it was."""
+        edge = self._edge
+        under_way = edge.run_under_way()
+        run = under_way or await self._tidying(operation)
+        result = await edge.perform(operation, f"{run}/{operation.id}.{edge.now()}/1")
+        if under_way is None:
+            edge.journal.end_run(run, "done" if result.outcome == "done" else "failed", {result.outcome: 1})
+        return result.outcome == "done"
+
     async def _tidying(self, operation: Operation) -> str:
-        """Begin a run of one operation that shuts a laser, and return its id."""
+        """Begin a run of one operation that tidies up, and return its id."""
         edge = self._edge
         able = await edge.describe()
         plan = emission.shut_plan(edge.setup, await edge.observe(), operation, able)

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from datetime import datetime
+from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.expressions import ExpressionError
-from pico.model.arming import LaserClass, within
 from pico.model.measurement import number_of
+from pico.model.trace.unattended import Left, Terms
 from pico.model.vocabulary import numbers_of, values_of
-from pico.recipes.recipe import LAMPS_OFF, PARKED, SHUT, Recipe, Stop, Unattended
+from pico.planning.checks.emission import above, emits_alone
+from pico.recipes.recipe import Recipe, Stop, Unattended
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.model.plan import Plan
     from pico.recipes.doing import Doing
-
-LAMP = "illumination"
-"""The tunable of what lights the table."""
 
 
 def local_now() -> datetime:
@@ -48,16 +46,14 @@ class Guard:
 
     def allow(self, plan: Plan) -> None:
         """Raise PicoError (exit code DENIED) for a plan that lets light out which must not be; nothing of it is run."""
-        from pico.planning.checks.emission import let_out
-
-        out = let_out(self.bench.setup, self.bench.observe(), plan.operations)
-        if found := [one for name, of in out.items() for one in self._emits(name, of)]:
+        if found := above(self.bench.setup, self.bench.observe(), plan.operations, self.stated.laser_class):
             raise PicoError(found, ExitCode.DENIED)
 
     def judge(self, doing: Doing, step: str) -> None:
         """Raise PicoError where the run is to stop before a step: once, for what tidies up goes on."""
         if self.stopped or "finally." in step:
             return
+        self.bench.wait(self.bench.edge.goes_on(doing.recipe))
         try:
             found = [*self._late(), *self._lasers(), *self._goals(), *self._conditions(doing, step)]
         except PicoError as exc:
@@ -76,20 +72,8 @@ class Guard:
         return [replace(found, hint="with somebody there, at a terminal and without --unattended, it runs at any time")]
 
     def _lasers(self) -> list[Diagnostic]:
-        rows = self.bench.lasers.rows()
-        return [found for row in rows if row.emits for found in self._emits(row.laser, row.laser_class)]
-
-    def _emits(self, laser: str, of: LaserClass) -> list[Diagnostic]:
-        """Return why a laser must not emit as of a class where nobody is there."""
-        if not within(of, self.stated.laser_class):
-            return [
-                _stop(f"{laser} emits as class {of}; the recipe states {self.stated.laser_class} at the most", laser)
-            ]
-        licence = (self.bench.observe().licences or {}).get(laser)
-        if licence is not None and licence.by and not licence.unattended:
-            hint = f"`pico laser arm {laser} --unattended`"
-            return [replace(_stop(f"{licence.by} armed {laser} as one who is there", laser), hint=hint)]
-        return []
+        seen, rows, most = self.bench.observe(), self.bench.lasers.rows(), self.stated.laser_class
+        return [d for row in rows if row.emits for d in emits_alone(seen, row.laser, row.laser_class, most)]
 
     def _goals(self) -> list[Diagnostic]:
         wanted = {stop.lost: stop for stop in self.stated.stops if stop.lost}
@@ -141,47 +125,32 @@ class Guard:
                           if isinstance(values.get(w), float))  # fmt: skip
         return [replace(_stop(stop.text), detail=known, source=stop.source)]
 
-    # how the bench is left
+    # held to it by the edge
 
-    def leave(self, doing: Doing) -> tuple[tuple[str, ...], tuple[Diagnostic, ...]]:
-        """Bring the bench to the end state that is stated; return what holds now, in words, and what does not."""
+    def hold(self, recipe: str, doing: Doing) -> None:
+        """Have the edge hold a run of a recipe (`NAME@ID`) to what it states, whatever becomes of this process; where
+        it is taken up again what its end had shut is opened as it was. Raises PicoError."""
+        stated = self.stated
+        terms = Terms(
+            recipe=recipe, laser_class=stated.laser_class, until=self._until(), every=stated.every, end=stated.end
+        )  # fmt: skip
+        left = self.bench.wait(self.bench.edge.hold(terms))
+        for address, value in sorted((left.was if left else {}).items()):
+            doing.run(self.bench.plans.setting({address: value}))
+
+    def _until(self) -> str:
+        now = local_now()
+        ends = now.replace(hour=self.stated.ends.hour, minute=self.stated.ends.minute, second=0, microsecond=0)
+        ends += timedelta(days=ends <= now)
+        return f"{ends.astimezone(UTC):%Y-%m-%dT%H:%M:%SZ}"
+
+    def leave(self, recipe: str, *, moves: bool) -> Left:
+        """Have the edge bring about the end state; see `pico.edge.protocol.Edge.leave`."""
         self.stopped = True
-        reached, wrong = list[str](), list[Diagnostic]()
-        ways = {SHUT: self._shut, LAMPS_OFF: self._dark, PARKED: self._park}
-        for name, way in ways.items():
-            if name not in self.stated.end:
-                continue
-            try:
-                way(doing)
-                reached.append(name)
-            except PicoError as exc:
-                text = f"the bench is not left `{name}`: {exc.diagnostics[0].summary}"
-                wrong.append(error("unattended", text, hint=exc.diagnostics[0].hint))
-        return tuple(reached), tuple(wrong)
-
-    def _shut(self, doing: Doing) -> None:
-        for row in self.bench.lasers.rows():
-            if row.emits:
-                address, dark = (f"{row.gate}.shutter", "closed") if row.gate else (f"{row.laser}.emission", False)
-                doing.run(self.bench.plans.setting({address: dark}))
-        if left := [row.laser for row in self.bench.lasers.rows() if row.emits]:
-            raise PicoError(
-                error("unattended", f"{', '.join(left)} may emit still", hint=f"`pico laser disarm {left[0]}`")
-            )
-
-    def _dark(self, doing: Doing) -> None:
-        seen = self.bench.observe().known_values
-        for name in sorted(self.bench.setup.lab.inventory):
-            if LAMP in self.bench.setup.type_of(name).tunables and seen.get(name, {}).get(LAMP) is not False:
-                doing.run(self.bench.plans.setting({f"{name}.{LAMP}": False}))
-
-    def _park(self, doing: Doing) -> None:
-        doing.run(self.bench.plans.parking())
-        robots = self.bench.setup.lab.robots
-        for name, robot in sorted(self.bench.observe().robots.items()):
-            if robot.holding or not robots[name].is_parked(robot.joints):
-                held = f" and holds {robot.holding}" if robot.holding else ""
-                raise PicoError(error("unattended", f"{name} stands where it stopped{held}", hint="`pico recover`"))
+        try:
+            return self.bench.wait(self.bench.edge.leave(recipe, moves))
+        except PicoError as exc:
+            return Left(wrong=tuple(exc.diagnostics))
 
 
 def guard_of(bench: Bench, recipe: Recipe, arguments: Mapping[str, Any]) -> Guard:

@@ -10,6 +10,7 @@ from typing import Any, Literal
 from pico.diagnostics import SourceRange
 from pico.expressions import Kind
 from pico.model.arming import LaserClass
+from pico.model.trace.unattended import ENDS
 from pico.recipes.terms import Term
 
 MOST_ITEMS = 10_000
@@ -17,9 +18,6 @@ MOST_ITEMS = 10_000
 MOST_TURNS = 10_000
 """Turns that a recipe takes in all its loops together; more are a loop that runs away."""
 
-SHUT, PARKED, LAMPS_OFF = "shut", "parked", "lamps off"
-ENDS = (SHUT, PARKED, LAMPS_OFF)
-"""How a bench may be left: no laser emits; arms are parked; what lights the table is off."""
 EVERY = 600.0
 """After how long what stops a run is measured again [s], where a recipe does not say."""
 

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map
 from pico.recipes.doing import Doing
@@ -106,11 +106,18 @@ class Recipes:
         known = {path: step.told for path, step in (log.steps if log else {}).items() if step.told is not None}
         return foresee(self.bench, recipe, arguments, known)
 
-    def require_unattended(self, recipe: Recipe, arguments: Mapping[str, Any]) -> None:
-        """Raise PicoError (exit code DENIED) where a recipe must not begin now with nobody there."""
+    def require_unattended(self, recipe: Recipe, arguments: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
+        """Return what is to be known of a recipe that begins now with nobody there; raises PicoError (exit code DENIED)
+        where it must not."""
+        from pico.edge.link.opening import served_fidelity
         from pico.recipes.guarding import guard_of
 
         guard_of(self.bench, recipe, arguments).require_start()
+        if served_fidelity(self.bench.root):
+            return ()
+        text = "only this process holds it to what it states: killed, it leaves the bench as it is to the next one"
+        hint = f"a bench that is served outlives it: `python -m pico.edge.link.server {self.bench.root.name}`"
+        return (warning("unattended", text, hint=hint),)
 
     def begin(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Log:
         """Begin a run of a recipe with the values of all its parameters."""

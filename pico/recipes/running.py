@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.edge.unattended import ended
+from pico.model.trace.unattended import Left
 from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
 from pico.recipes.guarding import Guard, guard_of
@@ -55,21 +57,33 @@ def run_recipe(
 ) -> Outcome:  # fmt: skip
     """Run a recipe with the arguments of its log, which may tell of a part that was done; never raises PicoError, which
     is in the outcome. Where nobody is there it begins only as the recipe states, stops as it states, and leaves the
-    bench so; an interruption leaves it as it is."""
+    bench so, which its edge brings about even where this process dies."""
     if not doing.unattended:
         return _Run(bench, recipe, log, doing, watching).run()
+    name = f"{recipe.name}@{log.about.id}"
     try:
         guard = guard_of(bench, recipe, log.about.arguments)
         guard.require_start()
+        doing = replace(doing, attended=False, allow=guard.allow, every=guard.stated.every)
+        guard.hold(name, replace(doing, recipe=name, step="unattended"))
     except PicoError as exc:
-        return Outcome(log.about.id, "failed", diagnostics=tuple(exc.diagnostics), exit_code=ExitCode.DENIED)
-    doing = replace(doing, attended=False, allow=guard.allow, every=guard.stated.every)
-    found = _Run(bench, recipe, log, doing, watching, guard).run()
-    if found.outcome == "interrupted":
-        return found
-    left, wrong = guard.leave(replace(doing, recipe=f"{recipe.name}@{log.about.id}", step="unattended"))
-    code = found.exit_code or (ExitCode.ERROR if wrong else ExitCode.DONE)
-    return replace(found, left=left, diagnostics=(*found.diagnostics, *wrong), exit_code=code)
+        code = exc.exit_code or ExitCode.ERROR
+        return Outcome(log.about.id, "failed", diagnostics=tuple(exc.diagnostics), exit_code=code)
+    moves = False
+    try:
+        found = _Run(bench, recipe, log, doing, watching, guard).run()
+        moves = found.outcome != "interrupted"
+    finally:
+        left = guard.leave(name, moves=moves)
+    return _left(found, left)
+
+
+def _left(found: Outcome, left: Left) -> Outcome:
+    """Return how a run ended with how it left the bench, which the edge may have done before its end."""
+    code = found.exit_code or (ExitCode.ERROR if left.wrong else ExitCode.DONE)
+    if left.why:
+        found, code = replace(found, diagnostics=(ended(left),)), ExitCode.EXPECTATION
+    return replace(found, left=left.reached, diagnostics=(*found.diagnostics, *left.wrong), exit_code=code)
 
 
 class _Until(Exception):

@@ -13,9 +13,9 @@ from typing import Any
 
 from pico.manifest.schema import DRAFT
 from pico.manifest.text.kinds import API, NAME
+from pico.model.trace.unattended import ENDS
 from pico.recipes import parameters, reading, unattended
 from pico.recipes.reading_steps import BESIDE, OF
-from pico.recipes.recipe import ENDS
 from pico.recipes.registry import CONTROL, own, step_file
 from pico.resources import schemas_dir
 

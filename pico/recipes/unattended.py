@@ -13,9 +13,10 @@ from pico.diagnostics import did_you_mean, error
 from pico.manifest.text.tree import List, Map, Node, Scalar
 from pico.manifest.wording import shown
 from pico.model.arming import LaserClass
+from pico.model.trace.unattended import ENDS
 from pico.model.vocabulary import measured_in, numbers_of
 from pico.recipes.reader import NOTHING, Reader, scalar_texts
-from pico.recipes.recipe import ENDS, EVERY, Act, Call, Name, Step, Stop, Unattended, blocks
+from pico.recipes.recipe import EVERY, Act, Call, Name, Step, Stop, Unattended, blocks
 from pico.recipes.registry import step_file
 from pico.recipes.scope import Scope
 

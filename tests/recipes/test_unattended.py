@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
-from dataclasses import replace
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +13,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pico.bench.bench import Bench
-from pico.diagnostics import ExitCode, PicoError, error
+from pico.bench.cut_short import told_first
+from pico.diagnostics import ExitCode
+from pico.edge.shutting import Shutting
+from pico.model.arming import Licence
+from pico.model.observation import Observation
+from pico.model.operation import Operation
+from pico.planning.checks.emission import emits_alone
 from pico.recipes import guarding
 from pico.recipes.recipe import Unattended
 from pico.recipes.recipes import Recipes
-from pico.recipes.running import Outcome
+from pico.recipes.running import Outcome, Watching
 
 HEAD = "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: night, lab: shel}\n"
 STATED = """unattended:
@@ -46,19 +51,22 @@ def bench(case_study: Path, tmp_path: Path) -> Iterator[Bench]:
 
 
 @pytest.fixture
-def night(monkeypatch: pytest.MonkeyPatch) -> list[datetime]:
-    """The clock on the wall: the last one counts."""
+def night(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[datetime]:
+    """The clock on the wall, of the recipe and of the edge: the last one counts."""
     times = [datetime(2026, 11, 24, 23, 0)]
     monkeypatch.setattr(guarding, "local_now", lambda: times[-1])
+    monkeypatch.setattr(bench.edge, "now", lambda: f"{times[-1].astimezone(UTC):%Y-%m-%dT%H:%M:%SZ}")
     return times
 
 
-def run(bench: Bench, text: str, **how: Any) -> Outcome:
+def run(bench: Bench, text: str, watching: Watching = Watching(), **how: Any) -> Outcome:  # noqa: B008
     path = bench.root.parent / "night.yaml"
     path.write_text(HEAD + text)
     recipes = Recipes(bench)
     recipe = recipes.read(str(path))
-    return recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})), unattended=True, **how)
+    return recipes.run(
+        recipe, recipes.begin(recipe, recipes.arguments(recipe, {})), watching, unattended=True, **how
+    )  # fmt: skip
 
 
 def value(bench: Bench, address: str) -> Any:
@@ -168,13 +176,52 @@ def test_a_lost_goal_stops_it(bench: Bench, night: list[datetime], monkeypatch: 
 def test_an_end_that_is_not_reached_is_an_error(
     bench: Bench, night: list[datetime], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def stuck(*_: object) -> None:
-        raise PicoError(error("x", "it sticks"))
+    async def stuck(shutting: Shutting, operation: Operation) -> bool:
+        return False
 
-    monkeypatch.setattr(guarding.Guard, "_shut", stuck)
+    monkeypatch.setattr(Shutting, "_done", stuck)
     found = run(bench, STATED + STEPS)
     assert found.outcome == "done" and found.exit_code == ExitCode.ERROR and found.left == ("lamps off", "parked")
-    assert "not left `shut`: it sticks" in found.diagnostics[0].summary
+    assert "laser may emit still" in found.diagnostics[0].summary and found.diagnostics[0].hint
+
+
+def test_the_edge_ends_it_at_its_latest_end_whatever_its_client_does_and_it_can_go_on(
+    bench: Bench, night: list[datetime], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judged = guarding.Guard.judge
+
+    def busy(guard: guarding.Guard, doing: Any, step: str) -> None:
+        if step == "2":  # the client is busy with this step beyond the hours, and sees nothing of the clock
+            night.append(datetime(2026, 11, 25, 6, 0, 1))
+            while (terms := bench.wait(bench.edge.unattended())) is None or terms.left is None:
+                pass
+            night.append(datetime(2026, 11, 25, 23, 0))
+        judged(guard, doing, step)
+
+    monkeypatch.setattr(guarding.Guard, "judge", busy)
+    found = run(bench, STATED + STEPS)
+    assert (found.outcome, found.exit_code) == ("interrupted", ExitCode.EXPECTATION)
+    assert "2026-11-25T06:00:00Z" in found.diagnostics[0].summary and found.left == ("shut", "lamps off", "parked")
+    assert value(bench, "laser.shutter") == "closed"
+    assert "night ended: it was to end" in told_first(bench, bench.observe())[0].summary
+
+    monkeypatch.setattr(guarding.Guard, "judge", judged)
+    recipes = Recipes(bench)
+    log = recipes.unended()
+    again = recipes.run(recipes.taken_up(log), log, unattended=True)
+    assert again.outcome == "done" and again.before == 1 and value(bench, "laser.shutter") == "closed"
+    opened = [r for r in bench.edge.memory.records() if r.kind == "intent" and r.data["component"] == "laser"]  # type: ignore[union-attr]
+    assert [r.data["arguments"].get("to") for r in opened if r.data["primitive"] == "set"][-2:] == ["open", "closed"]
+
+
+def test_what_interrupts_it_shuts_it_too_and_moves_no_arm(bench: Bench, night: list[datetime]) -> None:
+    def stop(path: str, *_: object) -> None:
+        if path == "2":
+            raise KeyboardInterrupt
+
+    found = run(bench, STATED + STEPS, watching=Watching(ended=stop))
+    assert (found.outcome, found.exit_code) == ("interrupted", ExitCode.INTERRUPTED)
+    assert "shut" in found.left and value(bench, "laser.shutter") == "closed" and value(bench, "hwp.angle") != 20
 
 
 @pytest.mark.parametrize(("was", "now", "line", "column", "said"), [
@@ -211,17 +258,10 @@ def test_a_recipe_that_states_nothing_is_refused_where_nobody_is_there(bench: Be
     )
 
 
-def test_a_laser_that_a_person_armed_to_be_there_does_not_emit_for_nobody(bench: Bench, night: list[datetime]) -> None:
-    from pico.model.arming import Licence
-
-    guard = guarding.Guard(bench, Unattended("3R", night[0].time(), datetime(2026, 1, 1, 6).time()), {})
-    seen = bench.observe()
-    for by, unattended, allowed in (("", None, True), ("Ada", True, True), ("Ada", None, False)):
-        licence = Licence(laser_class="3R", by=by, unattended=unattended)
-        guard.bench = _Seen(replace(seen, licences={"laser": licence}))  # type: ignore[assignment]
-        assert (not guard._emits("laser", "3R")) == allowed
-
-
-class _Seen:
-    def __init__(self, seen: Any) -> None:
-        self.observe = lambda: seen
+@pytest.mark.parametrize(("by", "unattended", "allowed"), [("", None, True), ("Ada", True, True), ("Ada", None, False)])
+def test_a_laser_that_a_person_armed_to_be_there_does_not_emit_for_nobody(
+    by: str, unattended: bool | None, allowed: bool
+) -> None:
+    licence = Licence(laser_class="3R", by=by, unattended=unattended)
+    seen = Observation(backend="sim", observed_at="", time=0.0, components={}, licences={"laser": licence})
+    assert (not emits_alone(seen, "laser", "3R", "3R")) == allowed

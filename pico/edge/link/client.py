@@ -22,6 +22,7 @@ from pico.model.pose import Pose
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
 from pico.model.trace.run import RunOutcome
+from pico.model.trace.unattended import Left, Terms
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.teleop.frames import Answer, Frame
 from pico.vision.calibration import calibration_from_json
@@ -47,7 +48,7 @@ def _value(name: str, data: bytes) -> Any:
 
 ANSWER = 60.0
 """Seconds in which an edge answers what it does not have to move for."""
-LASTING = frozenset({"execute", "start", "report", "finish", "cancel", "halt", "stop", "adopt"})
+LASTING = frozenset({"execute", "start", "report", "finish", "cancel", "halt", "stop", "adopt", "leave"})
 """Calls that last as long as something moves, or waits for the bench."""
 
 
@@ -202,6 +203,7 @@ class RemoteEdge:
     def __init__(self, path: Path, root: Path | None = None) -> None:
         self._path, self._line = path, Line(path, root)
         self._held: dict[int, asyncio.StreamWriter] = {}
+        self._kept: dict[str, asyncio.StreamWriter] = {}
 
     async def _connect(self) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         try:
@@ -260,6 +262,28 @@ class RemoteEdge:
         found: bool = await self._call("disarm", laser, by)
         return found
 
+    async def hold(self, terms: Terms) -> Left | None:
+        """Hold an unattended run to its terms; it is ended there where this process dies."""
+        left, self._kept[terms.recipe] = await self._kept_open("hold", terms)
+        found: Left | None = left
+        return found
+
+    async def goes_on(self, recipe: str) -> None:
+        """Say that the client of an unattended run goes on."""
+        await self._call("goes_on", recipe)
+
+    async def leave(self, recipe: str, moves: bool) -> Left:
+        """Bring about the end state of an unattended run."""
+        found: Left = await self._call("leave", recipe, moves)
+        if (writer := self._kept.pop(recipe, None)) is not None:
+            writer.close()
+        return found
+
+    async def unattended(self) -> Terms | None:
+        """Return the terms of an unattended run."""
+        found: Terms | None = await self._call("unattended")
+        return found
+
     async def observe(self) -> Observation:
         """Look, and return what was seen."""
         found: Observation = await self._call("observe")
@@ -282,16 +306,21 @@ class RemoteEdge:
         return await self._lease("acquire", holder, wait)
 
     async def _lease(self, name: str, *arguments: Any) -> Lease:
+        lease, writer = await self._kept_open(name, *arguments)
+        self._held[lease.token] = writer
+        found: Lease = lease
+        return found
+
+    async def _kept_open(self, name: str, *arguments: Any) -> tuple[Any, asyncio.StreamWriter]:
+        """Return what a call gives, with its connection, whose end says that this process is gone."""
         asked = self._line.written(name, *arguments)
         reader, writer = await self._connect()
         try:
             writer.write(asked)
-            lease: Lease = _value(name, await reader.readline())
+            return _value(name, await reader.readline()), writer
         except BaseException:
             writer.close()
             raise
-        self._held[lease.token] = writer
-        return lease
 
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
@@ -378,6 +407,7 @@ class RemoteEdge:
 
     async def close(self) -> None:
         """Give back what was taken; the edge itself goes on."""
-        for writer in self._held.values():
+        for writer in (*self._held.values(), *self._kept.values()):
             writer.close()
         self._held.clear()
+        self._kept.clear()

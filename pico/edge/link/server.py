@@ -79,10 +79,11 @@ class Server:
         assert task is not None
         self._clients.add(task)
         leases: list[Lease] = []
+        runs: list[str] = []
         try:
             data = await reader.readline()
             while data:
-                answering = asyncio.create_task(self._answer(data, writer, leases))
+                answering = asyncio.create_task(self._answer(data, writer, leases, runs))
                 more = asyncio.create_task(reader.readline())  # who waits for an answer says nothing, or is gone
                 await asyncio.wait([answering, more], return_when=asyncio.FIRST_COMPLETED)
                 if not answering.done():
@@ -95,16 +96,21 @@ class Server:
             self._clients.discard(task)
             for lease in leases:
                 await self._edge.release(lease)
+            for run in runs:
+                await self._edge.alone.gone(run)
             writer.close()
 
-    async def _answer(self, data: bytes, writer: asyncio.StreamWriter, leases: list[Lease]) -> None:
+    async def _answer(
+        self, data: bytes, writer: asyncio.StreamWriter, leases: list[Lease], runs: list[str]
+    ) -> None:  # fmt: skip
         with suppress(ConnectionError):
-            async for document in self._answers(data, leases):
+            async for document in self._answers(data, leases, runs):
                 writer.write(wire.line(document))
                 await writer.drain()
 
-    async def _answers(self, data: bytes, leases: list[Lease]) -> AsyncIterator[dict[str, Any]]:
-        """Yield the lines that answer a call."""
+    async def _answers(self, data: bytes, leases: list[Lease], runs: list[str]) -> AsyncIterator[dict[str, Any]]:
+        """Yield the lines that answer a call; what it takes for this client is in `leases`, and the unattended `runs`
+        that it holds."""
         try:
             name, arguments = wire.read_call(data)
             if self._ending and name not in READING and not name.startswith("memory"):
@@ -117,6 +123,8 @@ class Server:
             found = await self._called(name, arguments)
             if isinstance(found, Lease):
                 leases.append(found)
+            if name == "hold":
+                runs.append(arguments[0].recipe)
             yield {"value": as_json(found)}
         except PicoError as exc:
             yield wire.failure(exc)

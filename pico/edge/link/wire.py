@@ -23,6 +23,7 @@ from pico.model.record import as_json
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
 from pico.model.trace.run import RunOutcome
+from pico.model.trace.unattended import Left, Terms
 from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.teleop.frames import Answer, Frame
 from pico.twin.placement import Placement
@@ -40,6 +41,10 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "armings": ((), tuple[Kept, ...]),
     "arm": ((Arming,), Arming),
     "disarm": ((str, str), bool),
+    "hold": ((Terms,), Left | None),
+    "goes_on": ((str,), None),
+    "leave": ((str, bool), Left),
+    "unattended": ((), Terms | None),
     "observe": ((), Observation),
     "look": ((), dict[str, Any]),
     "peek": ((str, str), Measurement),
@@ -84,7 +89,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
 }
 """Every call that there is: the types of its arguments, and of its value or of each `next` one."""
 STREAMS = frozenset({"events"})
-TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "resolve"}) | (
+TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "hold", "resolve"}) | (
     {call for call in CALLS if call.startswith("world.")}
     - {"world.placements", "world.true_cameras", "world.true_arms"}
 )

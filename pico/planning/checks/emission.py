@@ -161,6 +161,25 @@ def uncovered(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
     return refused(setup, seen, [op for op in operations if not lets_out(setup, op)])
 
 
+def above(setup: Setup, seen: Observation, operations: Sequence[Operation], most: LaserClass) -> list[Diagnostic]:
+    """Return an error for each laser that operations let light out of, and must not where nobody is there."""
+    out = let_out(setup, seen, operations)
+    return [one for name, of in out.items() for one in emits_alone(seen, name, of, most)]
+
+
+def emits_alone(seen: Observation, laser: str, of: LaserClass, most: LaserClass) -> list[Diagnostic]:
+    """Return why a laser must not emit as of a class where nobody is there, and `most` is the highest that was
+    stated."""
+    if not within(of, most):
+        text = f"{laser} emits as class {of}; the recipe states {most} at the most"
+        return [error("unattended", text, address=laser)]
+    licence = (seen.licences or {}).get(laser)
+    if licence is None or not licence.by or licence.unattended:
+        return []
+    text, hint = f"{licence.by} armed {laser} as one who is there", f"`pico laser arm {laser} --unattended`"
+    return [error("unattended", text, hint=hint, address=laser)]
+
+
 def require_licensed(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> None:
     """Raise PicoError (exit code DENIED) where operations let light out of a laser and nobody lets it."""
     if found := refused(setup, seen, operations):
