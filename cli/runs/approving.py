@@ -38,7 +38,7 @@ def approve(
     ):
         return code
     if not plan.operations:
-        bench.recovery.settle()
+        session.tell(bench.recovery.settle())
         return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
     if code := declined(session, bench, plan, auto_approve):
         return code

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.bench.cut_short import not_left
+from pico.bench.cut_short import not_left, unattended
 from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
@@ -126,15 +126,17 @@ class Recovery:
         if not self.opened.asked and (last := memory.last()):
             self.opened.suit(_document(memory, last))
 
-    def settle(self) -> None:
+    def settle(self) -> tuple[Diagnostic, ...]:
         """Record what became of operations that a killed run had begun, though there is nothing left to move, and have
-        the bench left as an unattended one states whose process was killed.
+        the bench left as an unattended one states whose process was killed; return how it is left then.
 
         Raises PicoError for what only a person can tell.
         """
         edge = self.opened.edge
-        if (edge.memory is not None and edge.memory.unsettled()) or not_left(self.opened):
+        was_not_left = not_left(self.opened)
+        if was_not_left or (edge.memory is not None and edge.memory.unsettled()):
             self.opened.wait(edge.release(self.opened.wait(edge.acquire("pico apply", self.opened.lock_timeout))))
+        return unattended(self.opened) if was_not_left else ()
 
     def open_questions(self) -> list[Diagnostic]:
         """Return an error for each operation that only a person can tell the end of."""

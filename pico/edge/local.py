@@ -11,7 +11,7 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import require_attached
+from pico.attachment import bench_folder, require_attached
 from pico.backends.device import Capabilities, Device
 from pico.backends.devices import opener
 from pico.backends.world import World

@@ -1,5 +1,5 @@
-"""Lasers whose arming is over are shut, by whoever has the bench, as operations that the journal has; so is what the end
-of an unattended run wants."""
+"""Lasers whose arming is over are shut, by whoever has the bench, as operations that the journal has; so is what an
+unattended run left open."""
 
 from __future__ import annotations
 

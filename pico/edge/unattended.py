@@ -41,7 +41,7 @@ LAMP = "illumination"
 LOOKS = 0.2
 """Seconds between two looks at whether a run is over by its terms."""
 SILENCE = 660.0
-"""Seconds in which a client has at least to say that it goes on, while nothing is under way; see `Terms.every`."""
+"""Seconds in which a client has to say that it goes on, where its terms do not leave it longer (`Terms.every`)."""
 GRACE = 60.0
 """So much longer may it take than its terms say [s], and so long may the bench take to get free at the end."""
 KILLED = "its process was killed"

@@ -101,8 +101,8 @@ def test_a_process_of_its_own_that_is_killed_is_told_of_and_whatever_takes_the_b
         first, why, *_ = told_first(bench, bench.observe())
         assert "night ended: its process was killed" in first.summary and "not left shut" in why.summary
         assert emits(bench)  # looking changes nothing
-        bench.recovery.settle()
-        assert not emits(bench)
+        (said,) = bench.recovery.settle()
+        assert not emits(bench) and "left shut, lamps off" in said.detail
         again = left_of(bench)
         assert again.reached == ("shut", "lamps off") and again.was["laser.shutter"] == "open"
         assert bench.wait(bench.edge.hold(terms())) == again  # taken up: it may open what its end had shut
