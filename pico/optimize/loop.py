@@ -336,10 +336,12 @@ class _Walk:
     def _worse(self, first: Tried, sigmas: float) -> bool:
         """Whether it is worse now than it began, by more than so many standard deviations."""
         last = self.tried[-1]
-        if last is first or self.here == _point(self.problem, first) or self.fault or not self._believed(first.result):
+        if last is first or self.here == _point(self.problem, first) or self.fault:
             return False
-        if not self._believed(last.result):
+        if not self._believed(last.result):  # wherever it began: nothing says that it is better here
             return True
+        if not self._believed(first.result):
+            return False
         noise = math.hypot(self.problem.noise(last.result), self.problem.noise(first.result))
         return self.problem.cost(last.result) > self.problem.cost(first.result) + sigmas * noise
 

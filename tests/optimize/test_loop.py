@@ -257,7 +257,8 @@ def test_a_best_that_is_gone_when_it_is_measured_again_is_not_met() -> None:
     assert not ended.met and ended.why.endswith("but there was no light any more at the best")
 
 
-def test_what_began_while_the_beam_was_lost_does_not_end_worse_than_there() -> None:
+@pytest.mark.parametrize("last", [15, 99])
+def test_what_began_while_the_beam_was_lost_does_not_end_worse_than_there(last: int) -> None:
     """Light is found elsewhere, dim, and is lost again: where it began it was bright all the time."""
     problem = replace(PEAK, variables=tuple(replace(v, start=s) for v, s in zip(BOX, (0.4, -0.2), strict=True)))
 
@@ -266,11 +267,11 @@ def test_what_began_while_the_beam_was_lost_does_not_end_worse_than_there() -> N
     def read(point: Point, number: int) -> dict[str, float]:
         nonlocal count
         count += 1
-        return {} if count < 9 or 9 < count <= 15 else bump(point)
+        return {} if count < 9 or 9 < count <= last else bump(point)
 
     found, asks = driven(problem, "peak", read, Limits(measurements=60), acquire="spiral")
     assert asks[-1].point == problem.start and not found.met
-    assert found.last and found.last["pd.power"] > 0.8
+    assert last == 99 or (found.last and found.last["pd.power"] > 0.8)
 
 
 HIGH_ONES = ["peak", "nelder_mead", "rcds", "cobyqa", "cma_es"]
