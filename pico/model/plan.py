@@ -98,8 +98,9 @@ class Blocking:
     """A constraint that keeps a plan from being: of what is `kind`, on component `of`, because of `by`.
 
     `bodies`: `of` and `by` can't stand where they would meet; `fingers`: those around `of` would touch `by`; `storage`:
-    `of` must be in a place for storage while it is on its way; `stays`: what stays, keep-outs and edges are where `of`
-    or the fingers around it would be; `reach`: no arm picks or places `of` there; `path`: arms have no free path.
+    `of` must be in a place for storage while it is on its way; `stays`: what stays, keep-outs, edges or the rim of a
+    slot are where `of` or the fingers around it would be; `reach`: no arm picks or places `of` there, or its cable is
+    too short; `path`: arms have no free path.
     """
 
     kind: BlockingKind

@@ -126,7 +126,8 @@ def _errored(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def compile_moves(request: Request, situation: Situation) -> Compiled:
     """Return the moves of arms and people, with the parks at the end."""
-    from pico.planning.explaining.refusal import explain, proof, storage_note
+    from pico.planning.explaining.proof import proof, standing_proof
+    from pico.planning.explaining.refusal import explain, storage_note
     from pico.planning.ordering.solve import OrderedMoves, OrderingProblem, solve
 
     movers, obstacles, put_off = actors(request, situation)
@@ -135,7 +136,8 @@ def compile_moves(request: Request, situation: Situation) -> Compiled:
     impossible = check_target(request.setup, movers, obstacles, request.source, alone=request.alone)
     impossible += check_tethers(request.setup, movers, request.source)
     if impossible:
-        return Compiled(diagnostics=(*put_off, *impossible))
+        blocking = standing_proof(request.setup, movers, obstacles, request.motion)
+        return Compiled(diagnostics=(*put_off, *impossible), blocking=blocking)
     others = () if request.alone else asides(request, situation, movers)
     if request.alone:
         movers = tuple(replace(m, stages=False) for m in movers)

@@ -46,7 +46,10 @@ class Best:
 
 
 class Lab:
-    """The components of a small lab, their spots, and what each move needs empty, as bits of spots."""
+    """The components of a small lab, their spots, and what each move needs empty, as bits of spots. `paths`: whether
+    arms are asked for their paths."""
+
+    paths = False
 
     def __init__(self, case: Case) -> None:
         self.case, self.setup, self.prices = case, case.setup, True
@@ -97,15 +100,17 @@ class Lab:
         return self._stand[i, p]
 
     def _standing(self, i: int, p: int) -> int | None:
-        spot, lab = self.spots[i][p], self.setup.lab
+        spot = self.spots[i][p]
         alone = World(self.setup, self.case.seen, self.case.wanted)
         alone.poses = {}
-        if alone.place_faults(self.names[i], spot.pose, spot.slot):
-            return None
-        enough = max(lab.margins.body - EPSILON, 0.0)
-        mask = self._near(i, spot.base, enough)
+        return None if alone.place_faults(self.names[i], spot.pose, spot.slot) else self.around(i, p)
+
+    def around(self, i: int, p: int) -> int:
+        """Return `stand`, whether or not a component may stand there at all."""
+        spot, lab = self.spots[i][p], self.setup.lab
+        mask = self._near(i, spot.base, max(lab.margins.body - EPSILON, 0.0))
         if spot.slot:
-            mask |= self._near(i, mouth(lab.slots[spot.slot]), -EPSILON)
+            mask |= self._near(i, mouth(lab.slots[spot.slot]), 0.0)
         return mask | self._covered(i, p)
 
     def _covered(self, i: int, p: int) -> int:
@@ -114,7 +119,7 @@ class Lab:
         for j, spots in enumerate(self.spots):
             for q, s in enumerate(spots if j != i else ()):
                 slot = slot_used(self.setup, self.names[j], s.pose)
-                if slot and mouth(self.setup.lab.slots[slot]).gap(shape) < -EPSILON:
+                if slot and mouth(self.setup.lab.slots[slot]).gap(shape) <= 0.0:
                     mask |= 0 if p in self.goals[i] and q in self.goals[j] else self.bit(j, q)
         return mask
 
@@ -149,6 +154,10 @@ class Lab:
             for zone in zones:
                 mask |= self._near(i, zone, enough, lowest)
             yield mask
+
+    def goes(self, i: int, places: dict[int, int], p: int, hold: int, parks: bool) -> bool:
+        """Whether an arm has a path for a component to a spot."""
+        return True
 
     def moves(self, places: dict[int, int], who: tuple[int, ...]) -> Iterator[tuple[int, int]]:
         """Yield the moves that are possible now: a component, and the spot that it goes to."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
@@ -56,11 +56,12 @@ def check_target(
     ends = {o.name: Standpoint(o.name, o.shape, False) for o in obstacles}
     ends |= {m.name: Standpoint(m.name, goal_shape(m, m.goal), True) for m in movers}
     grid = Grid.of({name: end.shape for name, end in ends.items()})
+    others = {m.name: m for m in movers}
     found: list[Diagnostic] = []
     told: set[frozenset[str]] = set()
     for mover in movers:
         found += _where(setup, mover, source)
-        for other in _overlaps(setup, mover, grid):
+        for other in _overlaps(setup, mover, grid, others):
             if frozenset((mover.name, other)) not in told:
                 told.add(frozenset((mover.name, other)))
                 found.append(_overlap(setup, mover, ends[other], grid, source, alone))
@@ -72,16 +73,32 @@ def goal_shape(mover: Mover, place: Place) -> Shape:
     return placed(mover.geometry.footprint, place.pose)
 
 
-def _overlaps(setup: Setup, mover: Mover, grid: Grid[str]) -> list[str]:
-    """Return what is in the way of the mover at its goal: nothing if a turn of the part in its slot avoids it."""
+def _overlaps(setup: Setup, mover: Mover, grid: Grid[str], others: Mapping[str, Mover]) -> list[str]:
+    """Return what is in the way of the mover at its goal, however the others are turned in their slots: nothing if a
+    turn of the part in its own avoids it."""
     margin = setup.lab.margins.body
     fewest: list[str] | None = None
-    for goal in mover.goals:
-        hits = sorted(n for n in grid.conflicts(goal_shape(mover, mover.places[goal]), margin) if n != mover.name)
+    places = [mover.places[goal] for goal in mover.goals]
+    for place in [p for p in places if _in_bounds(setup, mover, p)] or places:
+        shape = goal_shape(mover, place)
+        near = sorted(n for n in grid.near(shape, margin) if n != mover.name)
+        hits = [n for n in near if _always_meets(shape, margin, grid.shapes[n], others.get(n))]
         if not hits:
             return []
         fewest = fewest or hits
     return fewest or []
+
+
+def _always_meets(shape: Shape, margin: float, stands: Shape, other: Mover | None) -> bool:
+    """Whether a shape comes too near to what stands there, or to a mover at every place where it may end."""
+    ends = [goal_shape(other, other.places[g]) for g in other.goals] if other else [stands]
+    return all(conflict(shape, end, margin) for end in ends)
+
+
+def _in_bounds(setup: Setup, mover: Mover, place: Place) -> bool:
+    shape = goal_shape(mover, place)
+    on_table = setup.lab.beside_table(place.slot) or overhang(setup.lab.table, shape) <= 0
+    return on_table and not _forbidden(setup, mover, shape)
 
 
 def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], source: Source, alone: bool) -> Diagnostic:
@@ -194,7 +211,8 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
     shape, name, spot = goal_shape(mover, mover.goal), mover.name, _spot(mover.goal)
     address = f"{name}.pose"
     blame = located(source, mover)
-    out = 0.0 if setup.lab.beside_table(mover.goal.slot) else overhang(setup.lab.table, shape)
+    turns = any(_in_bounds(setup, mover, mover.places[g]) for g in mover.goals)
+    out = 0.0 if turns or setup.lab.beside_table(mover.goal.slot) else overhang(setup.lab.table, shape)
     if out > 0:
         width, depth = setup.lab.table.size
         inside = moved(shape, min(max(shape.x, shape.radius), width - shape.radius) - shape.x, 0.0)
@@ -204,7 +222,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
             hint=f"the table goes from x = 0 to {width:g} and from y = 0 to {depth:g}", address=address,
             source=located(source, mover, axis),
         ))  # fmt: skip
-    for zone in _forbidden(setup, mover, shape):
+    for zone in () if turns else _forbidden(setup, mover, shape):
         why = setup.lab.keep_out[zone].reason
         found.append(error(
             "impossible", f"{name} cannot stand at {spot}: it would reach into keep-out {zone}",

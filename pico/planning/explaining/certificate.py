@@ -13,19 +13,21 @@ from typing import Literal
 
 from pico.model.plan import Blocking
 from pico.model.plan import BlockingKind as Kind
-from pico.planning.ordering.conflicts import Conflicts, Way, sum_of
+from pico.motion.types import Blocked, MovePath, StandingObject
+from pico.planning.ordering.conflicts import Conflicts, Spot, Way, sum_of
+from pico.planning.ordering.paths import NoPath
 from pico.planning.ordering.relaxed import relaxation
-from pico.planning.ordering.search import Expansions, SearchEffort, search
+from pico.planning.ordering.search import Expansions, OrderedMove, SearchEffort, search
 from pico.planning.parts.movers import Hold, Mover, Place
 from pico.staging.feedback import Limit
 from pico.staging.feedback import solve as fewest_staged
 
 WORK = 60_000
 """Configurations looked at in all for one certificate."""
+PATHS = 80
+"""Paths asked for in all for one certificate."""
 LIMIT = Limit(solves=15, nodes=500)
 """How hard to look for a proof that storage with room for all would not do."""
-FEW = 40
-"""So many constraints are told where nobody knows whether fewer would do."""
 EACH = 6000
 """Configurations looked at for one constraint."""
 QUICK = SearchEffort(weight=2.0, limit=200, commit=True, slots=3)
@@ -36,69 +38,108 @@ Verdict = Literal["possible", "impossible", "unknown"]
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """Constraints that no order keeps. `minimal`: it is proven that without any one of them there is an order that
-    keeps the rest."""
+    """Whether it is `proven` that no order brings movers home, and constraints that no order keeps, without any one of
+    which there is one that keeps the rest: None where these were not found within the limit of the search."""
 
-    blocking: tuple[Blocking, ...]
-    minimal: bool
+    proven: bool
+    blocking: tuple[Blocking, ...] | None = None
 
 
-def certified(table: Conflicts, core: Sequence[int]) -> Certificate | None:
+@dataclass(slots=True)
+class Work(Expansions):
+    """What may be spent on one certificate: configurations, and paths to be asked for (None: asked for none)."""
+
+    paths: int | None = None
+
+
+def certified(table: Conflicts, core: Sequence[int]) -> Certificate:
     """Return which constraints keep the movers of `core` (all of them where it is empty) from getting home, with
-    nobody else on the table but what stays; None where that is not proven within the limit of the search."""
+    nobody else on the table but what stays."""
     who = tuple(core) or tuple(range(len(table.movers)))
-    work = Expansions(WORK)
+    work = Work(WORK, PATHS)
     kept = list(_constraints(table, who))
     if judged(table, who, kept, work) != "impossible":
-        return None
+        return Certificate(False)
     for kind in dict.fromkeys(c.kind for c in kept):
         less = [c for c in kept if c.kind != kind]
         kept = less if judged(table, who, less, work) == "impossible" else kept
-    minimal = True
     for one in tuple(kept):
-        if work.left <= 0:
-            minimal = False
-            break
         less = [c for c in kept if c != one]
         verdict = judged(table, who, less, work)
-        if verdict == "impossible":
-            kept = less
-        minimal = minimal and verdict != "unknown"
-    if not minimal and len(kept) > FEW:
-        return None
-    return Certificate(tuple(sorted(kept, key=lambda c: (c.kind, c.of, c.by))), minimal)
+        if verdict == "unknown":
+            return Certificate(True)
+        kept = less if verdict == "impossible" else kept
+    return Certificate(True, tuple(sorted(kept, key=lambda c: (c.kind, c.of, c.by))))
 
 
 def stored_would_do(table: Conflicts, names: Iterable[str]) -> bool:
     """Whether everybody might get home if only these had room in storage."""
     who, had = range(len(table.movers)), set(names)
     kept = [c for c in _constraints(table, tuple(who)) if c.kind != "storage" or c.of not in had]
-    return judged(table, tuple(who), kept, Expansions(EACH)) != "impossible"
+    return judged(table, tuple(who), kept, Work(EACH)) != "impossible"
 
 
-def judged(table: Conflicts, who: Sequence[int], kept: Iterable[Blocking], work: Expansions) -> Verdict:
-    """Return whether the movers `who` can get home by themselves where only the constraints `kept` count."""
-    work.left -= 20 + 5 * len(who)
+def judged(table: Conflicts, who: Sequence[int], kept: Iterable[Blocking], work: Work) -> Verdict:
+    """Return whether the movers `who` can get home by themselves where only the constraints `kept` count: possible
+    only where there is a path for each move of which the path counts, too. What has none is forbidden in `table`."""
+    while True:
+        eased = Eased(table, who, kept)
+        verdict, steps = _ordered(eased, work)
+        if verdict != "possible" or work.paths is None:
+            return verdict
+        step = next(_without_path(eased, steps, work), None)
+        if step is None:
+            return "possible" if work.paths > 0 else "unknown"
+        eased.forbid_in_full(step)
+
+
+def _ordered(eased: Eased, work: Work) -> tuple[Verdict, tuple[OrderedMove, ...]]:
+    work.left -= 20 + 5 * len(eased.movers)
     if work.left <= 0:
-        return "unknown"
-    eased = Eased(table, who, kept)
+        return "unknown", ()
     relaxed = fewest_staged(relaxation(eased), LIMIT)
     if relaxed.options is None and relaxed.proven:
-        return "impossible"
-    if search(eased, QUICK).steps is not None:
-        return "possible"
+        return "impossible", ()
+    if quick := search(eased, QUICK).steps:
+        return "possible", quick
     share = Expansions(min(EACH, work.left))
     before = share.left
     found = search(eased, THOROUGH, work=share)
     work.left -= before - share.left
-    return "possible" if found.steps is not None else "impossible" if found.exhausted else "unknown"
+    if found.steps is not None:
+        return "possible", found.steps
+    return ("impossible" if found.exhausted else "unknown"), ()
+
+
+def _without_path(eased: Eased, steps: Sequence[OrderedMove], work: Work) -> Iterator[NoPath]:
+    """Yield the steps that have no path though it counts, all arms being parked before, and the last of an arm after
+    which it can't park."""
+    motion, places = eased.motion, [0] * len(eased.movers)
+    last: dict[str, tuple[OrderedMove, MovePath]] = {}
+    for step in steps:
+        mover, robot = eased.movers[step.mover], step.hold.robot
+        if motion and robot and eased.path_counts(step):
+            work.paths = (work.paths or 0) - 1
+            start, goal = (mover.places[p].pose for p in (step.start, step.goal))
+            found = motion.move(robot, mover.name, start, goal, step.hold.yaw, eased.standing(places), None)
+            if isinstance(found, Blocked):
+                yield NoPath(step, found, eased.spot_of(found, places, step))
+            else:
+                last[robot] = step, found
+        places[step.mover] = step.goal
+        if work.paths is not None and work.paths <= 0:
+            return
+    for robot, (step, path) in last.items() if motion else ():
+        parked = motion.park(robot, path.end, eased.standing(places)) if motion else None
+        if isinstance(parked, Blocked):
+            yield NoPath(step, parked, eased.spot_of(parked, places, step))
 
 
 def _constraints(table: Conflicts, who: Sequence[int]) -> Iterator[Blocking]:
     """Yield every constraint on these movers, those first that are to be dropped first."""
     names = [table.movers[i].name for i in who]
     yield from (Blocking(kind="storage", of=name) for name in names)
-    yield from (Blocking(kind="path", of=name) for name in names if table.blocked_paths or table.blocked_holds)
+    yield from (Blocking(kind="path", of=name) for name in names if table.motion)
     for i in who:
         others = dict.fromkeys(name for hold, place in _ends(table, i) for name in _near_fingers(table, i, place, hold))
         yield from (Blocking(kind="fingers", of=table.movers[i].name, by=name) for name in others)
@@ -161,6 +202,27 @@ class Eased(Conflicts):
 
     def _in_the_air(self, i: int, place: int) -> bool:
         return place >= len(self._full.movers[self._who[i]].places)
+
+    def path_counts(self, step: OrderedMove) -> bool:
+        """Whether a step needs a free path: not to or from the air, and not where that constraint is not kept."""
+        floats = any(self._in_the_air(step.mover, p) for p in (step.start, step.goal))
+        return not floats and self._has("path", self.movers[step.mover].name)
+
+    def standing(self, places: Sequence[int]) -> dict[str, StandingObject]:
+        """Return everything that stands on the table where the movers are at `places`."""
+        on_table = ((self.movers[n], p) for n, p in enumerate(places) if not self._in_the_air(n, p))
+        found = {name: o.standing for name, o in self.obstacles.items()}
+        return found | {m.name: StandingObject(m.places[p].pose, m.geometry) for m, p in on_table}
+
+    def spot_of(self, blocked: Blocked, places: Sequence[int], step: OrderedMove) -> Spot | None:
+        """Return the spot of the mover that is in the way of a step, if one is."""
+        n = self._numbers.get(blocked.obstacle or "")
+        return None if n is None or n == step.mover else (n, places[n])
+
+    def forbid_in_full(self, no: NoPath) -> None:
+        """Exclude a move that has no path from the tables that were eased."""
+        i, spot = self._who[no.step.mover], no.spot and (self._who[no.spot[0]], no.spot[1])
+        self._full.forbid(i, no.step.start, no.step.goal, no.step.hold, spot)
 
     def _only(self, mask: int, i: int, kind: Kind) -> int:
         """Translate a mask of the full table, but for what is not kept."""

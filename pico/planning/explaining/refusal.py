@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, error
 from pico.geometry import fits
 from pico.model.plan import Blocking
 from pico.motion.types import Blocked
 from pico.planning.checks.target import Source, located
-from pico.planning.explaining.certificate import Certificate, certified, stored_would_do
+from pico.planning.explaining.certificate import stored_would_do
+from pico.planning.explaining.proof import Proof, stuck_of
 from pico.planning.explaining.reasons import body_overlap
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
@@ -20,53 +21,48 @@ from pico.planning.parts.phrases import listed
 from pico.staging.feedback.digraph import some_cycle
 
 
-@dataclass(frozen=True, slots=True)
-class Proof:
-    """What is enough to make a refused problem impossible where what is right stays (`own`), and where most of it may
-    be moved aside (`widest`)."""
-
-    own: Certificate | None
-    widest: Certificate | None
-
-    @property
-    def blocking(self) -> tuple[Blocking, ...] | None:
-        """The constraints that no order keeps."""
-        found = self.widest or self.own
-        return found.blocking if found else None
-
-
-def proof(refused: Refusal) -> Proof:
-    """Return what proves a refusal, as far as that is proven within the limit of the search."""
-    own, widest = (
-        certified(one.table, one.core) if one is not None and one.proven else None for one in (refused, refused.widest)
-    )
-    return Proof(own, widest)
-
-
 def explain(refused: Refusal, source: Source, proven: Proof | None = None) -> list[Diagnostic]:
     """Return the errors that say why the movers of a refused problem can't all reach their goals."""
+    found = _explained(refused, source, proven)
+    doubt = proven.doubt if proven else ""
+    return [replace(found[0], detail="\n".join(t for t in (found[0].detail, doubt) if t)), *found[1:]]
+
+
+def _explained(refused: Refusal, source: Source, proven: Proof | None) -> list[Diagnostic]:
     if len(refused.core) == 1:
         alone = [_alone(refused, refused.core[0], source)]
         wide = refused.widest
         if wide and len(wide.core) == 1 and not wide.table.movers[wide.core[0]].right:
             alone.append(_alone(wide, wide.core[0], source))  # even where what stands in the way may be moved
         return [one for n, one in enumerate(alone) if one.address not in {a.address for a in alone[:n]}]
-    if refused.blocked and not refused.core:
-        return [_no_path(refused.table, refused.blocked[-1], source)]
+    own = proven.own.blocking if proven else None
+    if (last := _last_path(refused, own)) is not None:
+        return [_no_path(refused.table, last, source)]
     movers = refused.table.movers
-    stuck = list(refused.core) or [i for i, m in enumerate(movers) if refused.closest[i] not in m.finished]
-    own = proven.own.blocking if proven and proven.own else None
+    stuck = stuck_of(refused)
     if own is not None:
         stuck = [i for i, m in enumerate(movers) if m.name in _named(own)]
     found = _ring(refused.table, stuck, refused, source, own)
-    aside = sorted(_named(proven.widest.blocking) - {m.name for m in movers}) if proven and proven.widest else []
+    widest = proven.widest.blocking if proven and proven.widest else None
+    aside = sorted(_named(widest or ()) - {m.name for m in movers})
     if aside:
         found = replace(found, detail=f"{found.detail}\nto move {listed(aside, 'or')} aside would not help")
     return [found]
 
 
+def _last_path(refused: Refusal, own: Sequence[Blocking] | None) -> NoPath | None:
+    """Return the last path that was blocked, where that alone is what is known: of who has no path, or of anybody."""
+    if own is None:
+        return refused.blocked[-1] if refused.blocked and not refused.core else None
+    named = {c.of for c in own if c.kind == "path"} if len(own) == 1 else set()
+    return next((b for b in reversed(refused.blocked) if refused.table.movers[b.step.mover].name in named), None)
+
+
 def _named(blocking: Sequence[Blocking]) -> set[str]:
     return {name for c in blocking for name in (c.of, c.by)} - {""}
+
+
+PASSAGE = "make room where the arms pass, or choose other places"
 
 
 def storage_note(answer: OrderedMoves) -> list[Diagnostic]:
@@ -163,22 +159,30 @@ def _ring(
     arcs = {(a, b): text for a in stuck for b in stuck if a != b and (text := before(table, a, b))}
     ring = some_cycle({a: [b for b in stuck if (a, b) in arcs] for a in stuck}) or []
     stored = {c.of for c in blocking or () if c.kind == "storage"}
+    paths = {table.movers[b.step.mover].name: b.blocked.text for b in refused.blocked}
+    by_path = {c.of for c in blocking if c.kind == "path"} if blocking is not None else set(paths)
+    ring = [] if by_path else ring
     ring = ring if blocking is None or {table.movers[i].name for i in ring} == stored else []
     names = [table.movers[i].name for i in (ring or stuck)]
     lines = [arcs[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)]
-    lines = lines or [line for c in blocking or () for line in _lines(table, c, arcs)] or sorted(arcs.values())
-    lines += [_storage_line(table, i) for i in (ring or stuck) if blocking is None or table.movers[i].name in stored]
+    told = blocking if blocking is not None else [Blocking(kind="path", of=name) for name in names if name in paths]
+    lines = lines or [line for c in told for line in _lines(table, c, arcs, paths)] or sorted(arcs.values())
+    lines += [
+        _storage_line(table, i, paths if table.movers[i].name in by_path else {}) for i in (ring or stuck)
+        if blocking is None or table.movers[i].name in stored
+    ]  # fmt: skip
     if ring:
         summary = f"{listed(names)} block one another in a ring that no storage slot breaks"
     elif blocking is not None and not stored:
         summary = f"{listed(names)} are in one another's way in any order, and storage would not help"
-    elif refused.proven:
+    elif refused.proven or blocking is not None:
         summary = f"{listed(names)} can't all reach their places in any order"
     else:
         summary = f"found no order in which {listed(names)} reach their places, within the limit of the search"
     first = names[0] if names else ""
+    hint = PASSAGE if by_path else _room(table, names, refused.slots, blocking)
     return error(
-        "impossible", summary, detail="\n".join(lines), hint=_room(table, names, refused.slots, blocking),
+        "impossible", summary, detail="\n".join(lines), hint=hint,
         address=f"{first}.pose", source=located(source, table.movers[stuck[0]]) if stuck else None,
     )  # fmt: skip
 
@@ -197,8 +201,10 @@ def _room(table: Conflicts, names: Sequence[str], slots: int, blocking: Sequence
     return f"free {enough}, or leave more room between them"
 
 
-def _lines(table: Conflicts, c: Blocking, arcs: Mapping[tuple[int, int], str]) -> list[str]:
-    """Return a constraint in words; what lacks in storage is told by itself."""
+def _lines(
+    table: Conflicts, c: Blocking, arcs: Mapping[tuple[int, int], str], paths: Mapping[str, str]
+) -> list[str]:  # fmt: skip
+    """Return a constraint in words, a path with what was in its way; what lacks in storage is told by itself."""
     known = [text for pair, text in sorted(arcs.items()) if {table.movers[i].name for i in pair} == {c.of, c.by}]
     if c.kind == "bodies":
         return known or [f"{c.of} and {c.by} have no room to pass one another"]
@@ -206,7 +212,7 @@ def _lines(table: Conflicts, c: Blocking, arcs: Mapping[tuple[int, int], str]) -
         "fingers": f"the fingers around {c.of} would touch {c.by}",
         "stays": f"what stays is where {c.of}, or the fingers around it, would be",
         "reach": f"no arm reaches {c.of} in every hold",
-        "path": f"arms have no free path for {c.of}",
+        "path": f"arms have no free path for {c.of}" + (f": {paths[c.of]}" if c.of in paths else ""),
     }
     return [told[c.kind]] if c.kind in told else []
 
@@ -229,8 +235,8 @@ def before(table: Conflicts, a: int, b: int) -> str:
     return f"{first.name} must leave before {second.name} arrives ({how})"
 
 
-def _storage_line(table: Conflicts, i: int) -> str:
-    """Return why a component can't be put down in storage meanwhile."""
+def _storage_line(table: Conflicts, i: int, paths: Mapping[str, str]) -> str:
+    """Return why a component can't be put down in storage meanwhile; `paths`: what was in the way of arms."""
     mover = table.movers[i]
     if table.setup.lab.inventory[mover.name].stage == "never":
         return f"{mover.name}: stage: never"
@@ -246,7 +252,9 @@ def _storage_line(table: Conflicts, i: int) -> str:
     if not held:
         why = _first_reach(table, i, free, mover)
         return f"{mover.name}: the free slots {listed(slots)} are {why}"
-    return f"{mover.name}: {listed(slots)} would take it, but others need {'it' if len(slots) == 1 else 'them'} too"
+    needed = f"{listed(slots)} would take it, but others need {'it' if len(slots) == 1 else 'them'} too"
+    pathless = f"arms have no free path to {listed(slots, 'or')}, or none from there"
+    return f"{mover.name}: {pathless if mover.name in paths else needed}"
 
 
 def _no_room(table: Conflicts, i: int) -> str:

@@ -16,6 +16,7 @@ from pico.geometry import (
     conflict,
     finger_height,
     finger_zones,
+    fits,
     outline,
     overhang,
     placed,
@@ -26,6 +27,7 @@ from pico.model.catalog import Footprint
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.model.setup import Setup
+from pico.motion.reach import check_tether
 from pico.motion.types import Blocked, Motion
 from pico.planning.parts.movers import Hold, Mover, Obstacle, with_storage
 from pico.planning.parts.spots import with_spots
@@ -161,6 +163,8 @@ class Conflicts:
             return None
         if slot is not None and self.static.conflicts(self._mouths.shapes[slot], 0.0):
             return None
+        if slot is not None and not fits(lab.slots[slot], mover.geometry.footprint):
+            return None
         if place in mover.staging and self.covered_in_use(i, place):
             return None
         return self.near_body(i, place)
@@ -250,11 +254,11 @@ class Conflicts:
         return sum_of(m for m in masks if m)
 
     def unreachable(self, i: int, place: int, hold: Hold) -> Blocked | None:
-        """Return why the robot of a hold can't pick or place mover `i` at `place`."""
-        if self.motion is None or hold.robot is None:
-            return None
-        mover = self.movers[i]
-        return self.motion.reach(hold.robot, mover.name, mover.places[place].pose, hold.yaw)
+        """Return why the robot of a hold can't pick or place mover `i` at `place`, or its cable keeps it from there."""
+        name, pose = self.movers[i].name, self.movers[i].places[place].pose
+        if place and (short := check_tether(self.setup, name, pose)):
+            return short
+        return self.motion.reach(hold.robot, name, pose, hold.yaw) if self.motion and hold.robot else None
 
     def ways(self, i: int, start: int, goal: int) -> tuple[Way, ...]:
         """Return how mover `i` can go from one place to another, the preferred way first; none where what stays

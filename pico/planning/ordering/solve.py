@@ -17,7 +17,14 @@ from pico.planning.ordering.travel import ArmTour, toured
 from pico.planning.parts.movers import Mover, Obstacle
 
 PATH_ROUNDS = 200
-"""How often the search may start again because a path was blocked."""
+"""How often the search may start again because a path was blocked; as often again in all where more may be moved."""
+
+
+@dataclass(slots=True)
+class PathRounds:
+    """How often the search may still start again, in several attempts."""
+
+    left: int = PATH_ROUNDS
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +54,8 @@ class OrderedMoves:
 class Refusal:
     """Why there is no order: movers that can't all reach their goals whatever the others do (`core`, proven), or none
     known; the configuration that came closest; the paths that were blocked on the way. `slots`: how many free slots
-    would do, if that is all that lacks. `widest`: why there is none either where most of what is right may be moved."""
+    would do, if that is all that lacks. `widest`: why there is none either where most of what is right may be moved.
+    `paths_ended`: the search ended because so many paths were blocked."""
 
     table: Conflicts
     core: tuple[int, ...]
@@ -56,6 +64,7 @@ class Refusal:
     blocked: tuple[NoPath, ...] = ()
     slots: int = 0
     widest: Refusal | None = None
+    paths_ended: bool = False
 
 
 @dataclass(slots=True)
@@ -83,24 +92,24 @@ class OrderingProblem:
 def solve(problem: OrderingProblem) -> OrderedMoves | Refusal:
     """Return an order of moves, or why there is none. Parts are put down on the free table only where slots do not
     suffice, and what is right is moved only where there is no other way."""
-    first = attempt(problem)
+    first, rounds = attempt(problem, PathRounds()), PathRounds()
     if isinstance(first, OrderedMoves):
         return first
     if any(region.staging for region in problem.setup.lab.regions.values()):
         problem = replace(problem, on_table=True)
-        second = attempt(problem)
+        second = attempt(problem, rounds)
         if isinstance(second, OrderedMoves):
             return second
     widest: Refusal | None = None
     for names in _asides(problem, first):
-        answer = attempt(problem.widened(names))
+        answer = attempt(problem.widened(names), rounds)
         if isinstance(answer, OrderedMoves):
             return answer
         widest = answer
     return replace(first, widest=widest)
 
 
-def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
+def attempt(problem: OrderingProblem, rounds: PathRounds) -> OrderedMoves | Refusal:
     """Return an order for exactly these movers, every path of it checked, or why there is none."""
     table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
     blocked: list[NoPath] = []
@@ -118,8 +127,9 @@ def attempt(problem: OrderingProblem) -> OrderedMoves | Refusal:
         if isinstance(paths, Paths):
             return OrderedMoves(table, tour, paths, found.least, found.slots)
         blocked.append(paths)
-        if len(blocked) > PATH_ROUNDS:
-            return Refusal(table, (), found.closest or start, False, tuple(blocked))
+        rounds.left -= 1
+        if rounds.left < 0:
+            return Refusal(table, (), found.closest or start, False, tuple(blocked), paths_ended=True)
         if _by_itself(table, paths):
             table.forbid_hold(paths.step.mover, paths.step.hold)
         else:

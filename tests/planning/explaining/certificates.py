@@ -23,7 +23,7 @@ class Eased:
     is in the air, for those that need no storage."""
 
     def __init__(self, lab: Lab, who: tuple[int, ...], still: tuple[int, ...], kept: Collection[Blocking]) -> None:
-        self.lab, self.who, self.kept = lab, who, kept
+        self.lab, self.who, self.still, self.kept = lab, who, still, kept
         self.there = sum(lab.bit(i, 0) for i in still)
         self.air = {i: len(lab.spots[i]) for i in who}
 
@@ -54,7 +54,9 @@ class Eased:
         if p == self.air[i]:
             return not self.has("storage", i)
         mask = self.lab.stand(i, p)
-        return mask is not None and not self.counted(mask, i, taken, "bodies", p)
+        if mask is None and (p not in self.lab.goals[i] or self.has("stays", i)):
+            return False
+        return not self.counted(self.lab.around(i, p), i, taken, "bodies", p)
 
     def moves(self, state: Places) -> Iterator[tuple[int, int]]:
         lab = self.lab
@@ -67,8 +69,18 @@ class Eased:
             for p in range(1, self.air[i] + 1):
                 if p != state[n] and self.stands(i, p, taken):
                     then = self.free(i, p, taken)
-                    if any(now[k] and then[k] for k in held):
+                    if any(now[k] and then[k] and self.goes(n, k, state, p) for k in held):
                         yield n, p
+
+    def goes(self, n: int, hold: int, state: Places, p: int) -> bool:
+        """Whether a component gets to a spot in a hold, where its path counts, and everybody is home then only if the
+        arm can park after it. Raises Undecided after many questions."""
+        i = self.who[n]
+        if not self.lab.paths or not self.has("path", i) or self.air[i] in (p, state[n]) or not self.lab.by_arm[i]:
+            return True
+        there = {j: q for j, q in zip(self.who, state, strict=True) if q != self.air[j]} | dict.fromkeys(self.still, 0)
+        parks = not self.left((*state[:n], p, *state[n + 1 :]))
+        return self.lab.goes(i, there, p, hold, parks)
 
     def free(self, i: int, p: int, taken: int) -> list[bool]:
         """Return for each hold whether the fingers have room."""

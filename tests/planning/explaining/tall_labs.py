@@ -8,6 +8,7 @@ import random
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 from brute_labs import Lab, Undecided
 from certificates import faults
@@ -29,7 +30,7 @@ from pico.motion.types import MovePath, StandingObject
 from pico.planning import plan
 
 SIZE = (1200.0, 900.0)
-CONFIGURATIONS, QUESTIONS = 60_000, 150
+CONFIGURATIONS, QUESTIONS = 60_000, 600
 ARMS = {
     "gantry": {"arm1": Robot(model="gantry", mount=Mount(x=0, y=0))},
     "xarm7": {"arm1": Robot(mount=Mount(x=480, y=760, yaw=-90))},
@@ -43,7 +44,7 @@ def tall_case(seed: int) -> tuple[Case, str]:
     robots = rng.choice(sorted(ARMS))
     high = rng.choice((250.0, 250.0, 330.0, 380.0))
     kinds = {f"type_{i}": _type(rng, f"type_{i}") for i in range(3)}
-    mouth = random.Random(f"mouths of {seed}").choice((10.0, 10.0, 10.0, 22.0))
+    mouth = random.Random(f"mouths of {seed}").choice((10.0, 10.0, 10.0, 22.5))
     if mouth > 10:  # wider than a thin part, so that others may cover it
         thin = kinds["type_2"].geometry
         kinds["type_2"] = replace(kinds["type_2"], geometry=replace(thin, footprint=Footprint(disc=9.0)))
@@ -118,6 +119,7 @@ class TallLab(Lab):
     def __init__(self, case: Case, motion: ArmMotion) -> None:
         self.motion = motion
         self._rooms: dict[tuple[int, int], list[int]] = {}
+        self._asked: dict[object, bool] = {}
         super().__init__(case)
 
     def arms(self, i: int) -> list[tuple[str, float]]:
@@ -145,68 +147,85 @@ class TallLab(Lab):
         for (robot, yaw), mask in zip(self.arms(i), self.rooms(i, p), strict=True):
             yield -1 if self.motion.reach(robot, self.names[i], self.spots[i][p].pose, yaw) else mask
 
+    paths = True
+
+    def goes(self, i: int, places: dict[int, int], p: int, hold: int, parks: bool) -> bool:
+        """Whether an arm, parked before, has a path for a component to a spot in one of its holds, and (`parks`) parks
+        after it. Raises Undecided after many questions."""
+        key = (i, places[i], p, hold, parks, tuple(sorted((j, q) for j, q in places.items() if j != i)))
+        if key not in self._asked:
+            if len(self._asked) >= QUESTIONS:
+                raise Undecided
+            self._asked[key] = self._path(i, places, p, hold, parks)
+        return self._asked[key]
+
+    def _path(self, i: int, places: dict[int, int], p: int, hold: int, parks: bool) -> bool:
+        kind = {n: self.setup.type_of(n).geometry for n in self.names}
+        name, start, goal = self.names[i], self.spots[i][places[i]].pose, self.spots[i][p].pose
+        standing = {
+            self.names[j]: StandingObject(self.spots[j][q].pose, kind[self.names[j]]) for j, q in places.items()
+        }
+        robot, yaw = self.arms(i)[hold]
+        path = self.motion.move(robot, name, start, goal, yaw, standing)
+        if not parks or not isinstance(path, MovePath):
+            return isinstance(path, MovePath)
+        after = standing | {name: StandingObject(goal, kind[name])}
+        return isinstance(self.motion.park(robot, path.end, after), MovePath)
+
+    def made(self, i: int, places: dict[int, int], p: int) -> bool:
+        """Whether some arm brings a component to a spot, and parks."""
+        taken = sum(self.bit(j, q) for j, q in places.items())
+        rooms = zip(self.holds(i, places[i]), self.holds(i, p), strict=True)
+        free = [hold for hold, (a, b) in enumerate(rooms) if not (a | b) & taken]
+        return not self.by_arm[i] or any(self.goes(i, places, p, hold, parks=True) for hold in free)
+
 
 def way_out(case: Case, motion: ArmMotion) -> str:
     """Return the moves that bring a lab to its state, each begun and ended with all arms parked; empty where there are
-    none. Raises Undecided where it takes too many questions to find that out."""
+    none, which may show for one or two of the parts alone. Raises Undecided where it takes too many questions to find
+    that out."""
     lab = TallLab(case, motion)
     still = tuple(i for i in range(len(lab.names)) if lab.right(i) and not lab.by_arm[i])
     who = tuple(i for i in range(len(lab.names)) if i not in still)
+    for group in (*combinations(who, 1), *combinations(who, 2)):
+        if len(group) < len(who) and not all(lab.right(i) for i in group):
+            try:
+                if _way(TallLab(case, motion), group, still) is None:
+                    return ""
+            except Undecided:
+                continue
+    return _way(lab, who, still) or ""
+
+
+def _way(lab: TallLab, who: tuple[int, ...], still: tuple[int, ...]) -> str | None:
+    """Return the moves that bring some parts home, with nobody else there but those that stay."""
     start = (0,) * len(who)
     heap: list[tuple[float, int, int, tuple[int, ...], str]] = [(float(lab._left(who, start)), 0, 0, start, "")]
-    seen, asked, pushed, told = set[tuple[int, ...]](), dict[object, bool](), 0, ""
+    came: dict[tuple[int, ...], tuple[int, int, tuple[int, ...]]] = {}
+    seen, pushed = set[tuple[int, ...]](), 0
     while heap:
-        _, _, cost, state, told = heapq.heappop(heap)
+        _, key, cost, state, told = heapq.heappop(heap)
         if state in seen:
             continue
-        if told and not _done(lab, who, still, told, asked, motion):
-            continue
+        if key:
+            i, p, before = came[key]
+            if not lab.made(i, dict(zip(who, before, strict=True)) | dict.fromkeys(still, 0), p):
+                continue
         seen.add(state)
         if not lab._left(who, state):
-            return told
-        places = dict(zip(who, state, strict=True)) | dict.fromkeys(still, 0)
-        for i, p in lab.moves(places, who):
+            return told or "nothing to do"
+        for i, p in lab.moves(dict(zip(who, state, strict=True)) | dict.fromkeys(still, 0), who):
             after = tuple(p if j == i else q for j, q in zip(who, state, strict=True))
             if after not in seen:
                 pushed += 1
+                came[pushed] = i, p, state
                 guess = cost + 1 + 3 * lab._left(who, after)
-                where = ",".join(f"{j}:{q}" for j, q in places.items())
-                heapq.heappush(heap, (guess, pushed, cost + 1, after, f"{told}{i}>{p} {where};"))
-        if len(seen) > CONFIGURATIONS or len(asked) > QUESTIONS:
+                heapq.heappush(
+                    heap, (guess, pushed, cost + 1, after, f"{told}{lab.names[i]} to {lab.spots[i][p].pose}; ")
+                )
+        if len(seen) > CONFIGURATIONS:
             raise Undecided
-    return ""
-
-
-def _done(
-    lab: TallLab, who: tuple[int, ...], still: tuple[int, ...], told: str, asked: dict[object, bool], motion: ArmMotion
-) -> bool:
-    """Whether some arm makes the last of the moves, and parks."""
-    last = told.rsplit(";", 2)[-2]
-    if last not in asked:
-        move, where = last.split(" ")
-        i, p = map(int, move.split(">"))
-        places = {int(j): int(q) for j, q in (pair.split(":") for pair in where.split(","))}
-        asked[last] = _made(lab, i, places, p, motion)
-    return asked[last]
-
-
-def _made(lab: TallLab, i: int, places: dict[int, int], p: int, motion: ArmMotion) -> bool:
-    if not lab.by_arm[i]:
-        return True
-    kind = {n: lab.setup.type_of(n).geometry for n in lab.names}
-    taken = sum(lab.bit(j, q) for j, q in places.items())
-    standing = {lab.names[j]: StandingObject(lab.spots[j][q].pose, kind[lab.names[j]]) for j, q in places.items()}
-    name, start, goal = lab.names[i], lab.spots[i][places[i]].pose, lab.spots[i][p].pose
-    now, then = lab.holds(i, places[i]), lab.holds(i, p)
-    for (robot, yaw), a, b in zip(lab.arms(i), now, then, strict=True):
-        if (a | b) & taken:
-            continue
-        path = motion.move(robot, name, start, goal, yaw, standing)
-        if isinstance(path, MovePath):
-            after = standing | {name: StandingObject(goal, kind[name])}
-            if isinstance(motion.park(robot, path.end, after), MovePath):
-                return True
-    return False
+    return None
 
 
 @dataclass(frozen=True)
@@ -253,13 +272,9 @@ def _left(made: Plan) -> list[str]:
 
 def _reasons(case: Case, made: Plan, motion: ArmMotion) -> tuple[list[str], list[str]]:
     """Return what is wrong with the reason of a refusal, and what nobody knows of it."""
-    errors = [d.summary for d in made.diagnostics if d.severity == "error"]
-    if all(" cannot stand at " in e or "does not fit" in e for e in errors):
-        return [], []
     if made.blocking is None:
-        return [], ["no certificate"]
-    if any(c.kind == "path" for c in made.blocking):
-        return [], ["a certificate with paths"]
+        why = any("the limit of" in d.detail or "its limit of" in d.detail for d in made.diagnostics)
+        return ([], ["no certificate"]) if why else (["no certificate, and no word why"], [])
     try:
         return [f"false reason: {f}" for f in faults(TallLab(case, motion), made.blocking)], []
     except Undecided:

@@ -15,6 +15,8 @@ from pico.model.lab import Margins, Slot
 from pico.model.plan import Blocking
 from pico.model.pose import Pose
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
+from pico.planning.explaining.certificate import Certificate
+from pico.planning.explaining.proof import Proof
 
 ROW = {"a": (300, 300), "b": (364, 300), "c": (428, 300)}
 
@@ -102,3 +104,47 @@ def test_a_part_that_its_own_fingers_hit_is_refused_after_one_look_at_each_hold(
     assert "a finger of arm1 would hit a by 13.0 mm" in found.summary and "slot" not in found.hint
     assert arm.asked == 2
     assert made.blocking == (Blocking(kind="path", of="a"),)
+
+
+class Crowded(Narrow):
+    """An arm that everything on the table is in the way of but what stands alone."""
+
+    def move(
+        self, robot: str, component: str, start: Pose, goal: Pose, grasp_yaw: float,
+        standing: Mapping[str, StandingObject], joints: Joints | None = None,
+    ) -> MovePath | Blocked:  # fmt: skip
+        self.asked += 1
+        others = sorted(n for n in standing if n.partition("@")[0] != component)
+        if not others:
+            return MovePath(robot, component, (Segment("transit", (0.0, 7.0), ((0.0,), (0.0,)), 50.0),))
+        name = others[int(goal.x + goal.y + grasp_yaw) % len(others)]
+        return Blocked("collision", f"it would hit {name} by 12.0 mm", "transit", name, 12.0)
+
+
+def test_what_arms_have_no_path_for_is_not_blamed_on_storage() -> None:
+    """However many paths are asked for: there is a certificate of paths, or a word that says why there is none."""
+    setup = bench({"a": "block", "b": "block"}, {f"s{n}": Slot(x=60 + 80 * n, y=60) for n in range(4)})
+    seen, wanted = see(setup, {"a": (200, 300), "b": (500, 300)}), want({"a": (500, 300), "b": (200, 300)})
+    made = planned(setup, seen, wanted, Crowded())
+    (found,) = made.diagnostics
+    assert "path" in found.detail and "need them too" not in found.detail and "slot" not in found.hint
+    if made.blocking is None:
+        assert "the limit of the search" in found.detail
+    else:
+        assert "path" in {c.kind for c in made.blocking}
+
+
+def test_a_refusal_without_certificate_says_what_is_not_proven(monkeypatch: pytest.MonkeyPatch) -> None:
+    setup = bench({"a": part(stage="never"), "b": part(stage="never")})
+    seen, wanted = see(setup, {"a": (200, 300), "b": (400, 300)}), want({"a": (400, 300), "b": (200, 300)})
+    assert planned(setup, seen, wanted).blocking is not None
+    monkeypatch.setattr("pico.planning.explaining.certificate.WORK", 1)
+    made = planned(setup, seen, wanted)
+    told = "there is no order, but which constraints are enough was not found within the limit of the search"
+    assert made.blocking is None and made.diagnostics[0].detail.endswith(told)
+    known, unknown = Certificate(True, (Blocking(kind="path", of="a"),)), Certificate(False)
+    assert Proof(unknown, None, "200 blocked paths").doubt == (
+        "this is no proof that there is no order: the search ended at its limit of 200 blocked paths"
+    )
+    assert "moves aside what is right" in Proof(known, unknown, "configurations").doubt
+    assert Proof(known, known, "configurations").doubt == Proof(known, None, "configurations").doubt == ""

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from certificates import faults
+from checker import check
 from planning_benches import bench, part, planned, see, want
+from random_labs import Case
 
 from pico.diagnostics import Position, SourceRange
-from pico.model.lab import Box2, KeepOut, Margins, Slot
-from pico.model.plan import Plan
+from pico.model.lab import Box2, KeepOut, Margins, Slot, Tether
+from pico.model.plan import Blocking, Plan
+from pico.model.robot import Gripper, Mount, Robot
 
 
 def test_an_overlap_names_both_the_depth_and_the_nearest_free_place() -> None:
@@ -82,6 +86,44 @@ def test_nobody_is_told_to_move_what_is_bolted() -> None:
     seen = see(setup, {"a": (200, 420), "laser": (520, 420)})
     (found,) = planned(setup, seen, want({"a": (505, 420), "laser": (520, 420)})).diagnostics
     assert found.hint == "nearest free place along x is x = 458"
+
+
+VACUUM = {"arm1": Robot(mount=Mount(x=400, y=500), gripper=Gripper(fingers="none"))}
+
+
+def test_parts_may_be_turned_in_their_slots_to_have_room_beside_one_another() -> None:
+    slots = {"s1": Slot(x=100, y=100), "s2": Slot(x=165, y=100), "edge": Slot(x=700, y=40)}
+    setup = bench({"a": "rail", "b": "rail", "c": "rail"}, slots, robots=VACUUM)
+    seen = see(setup, {"a": (300, 300), "b": (500, 300), "c": (300, 200)})
+    wanted = want({"a": "s1", "b": "s2", "c": (300, 200)})
+    made = planned(setup, seen, wanted)
+    assert made.diagnostics == () and check(setup, seen, wanted, made) == []
+    beside = bench({"a": "rail"}, {"s1": Slot(x=40, y=100)}, robots=VACUUM)  # 120 mm along x, 60 mm along y
+    assert not planned(beside, see(beside, {"a": (300, 300)}), want({"a": "s1"})).errored
+    narrow = bench({"a": "rail"}, {"s1": Slot(x=20, y=100)}, robots=VACUUM)
+    (found,) = planned(narrow, see(narrow, {"a": (300, 300)}), want({"a": "s1"})).diagnostics
+    assert found.summary == "a cannot stand at (20, 100, 0°) (s1): it would stick out 40 mm over the table's edge"
+
+
+def test_goals_that_can_not_be_carry_what_they_break_and_no_more() -> None:
+    lamp = {"lamp": KeepOut(area=Box2(x=(600, 700), y=(100, 200)), z=(50, 90))}
+    parts = {"a": "block", "b": "block", "c": "block", "cam": part(tether=Tether(anchor=(400, 0), length=400))}
+    slots = {"s1": Slot(x=60, y=60), "tight": Slot(x=160, y=60, fits=40)}
+    setup = bench(parts, slots, keep_out=lamp)
+    start = {"a": (100, 400), "b": (200, 400), "c": (300, 400), "cam": (400, 300)}
+    for goals, blocking in (
+        ({"a": (505, 420), "b": (520, 420)}, Blocking(kind="bodies", of="a", by="b")),
+        ({"a": (320, 410)}, Blocking(kind="stays", of="a")),
+        ({"a": (790, 300)}, Blocking(kind="stays", of="a")),
+        ({"a": (650, 150)}, Blocking(kind="stays", of="a")),
+        ({"a": "tight"}, Blocking(kind="stays", of="a")),
+        ({"cam": (700, 450)}, Blocking(kind="reach", of="cam")),
+    ):
+        seen, wanted = see(setup, start), want({**start, **goals})
+        made = planned(setup, seen, wanted)
+        assert made.blocking == (blocking,), goals
+        if blocking.kind != "reach":  # the checker knows no cables
+            assert faults(Case(setup, seen, wanted), made.blocking or ()) == []
 
 
 def test_every_impossible_goal_is_told_at_once() -> None:
