@@ -1,8 +1,10 @@
 """Checks and runs recipes made at random: `python benchmarks/random_recipes.py --recipes 200 --broken 100`.
 
-`--recipes`: right ones (`tests/recipes/generating.py`), each checked, which must move nothing, and run on the simulated
-bench of the case study; none may come to a mistake of types, names or capabilities. `--broken`: as many with one
-mistake each, which the check must tell at its line. Then recipes that run away, which must end within their budget.
+`--recipes`: right ones (`tests/recipes/generating.py`), each checked and foreseen, which must move nothing, and run on
+the simulated bench of the case study; none may come to a mistake of types, names or capabilities. A tag that is given
+twice must be told before, as far as a recipe is known in advance, and what is told so must come true. `--broken`: as
+many with one mistake each, which the check must tell at its line. Then recipes that run away, which must end within
+their budget.
 Prints the counts; the exit code is 1 where anything was wrong.
 """
 
@@ -17,12 +19,15 @@ import time
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "recipes")]
 
 from generating import HEAD, HELPER, MISTAKES, Maker, mistaken  # noqa: E402
+
+if TYPE_CHECKING:
+    from pico.recipes.ahead import Foreseen
 
 RUNAWAY: Mapping[str, str] = {
     "a loop that never ends": '- while: "1 < 2"\n  most: 10000\n  steps: [{let: {a: "1"}}]\n',
@@ -76,16 +81,35 @@ class Trying:
         recipes = Recipes(self.bench)
         return recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
 
+    def foresee(self, name: str, text: str) -> Foreseen | None:
+        """Return what is known in advance of a recipe, None of one that is not right; that moves nothing, either."""
+        from pico.recipes.recipes import Recipes
+
+        recipe, found = self.check(name, text)
+        if found or recipe is None:
+            return None
+        before, recipes = self.bench.observe().components, Recipes(self.bench)
+        ahead = recipes.ahead(recipe, recipes.arguments(recipe, {}))
+        if self.bench.observe().components != before:
+            self.wrong(name, "to foresee it moved something")
+        return ahead
+
     def right(self, seed: int) -> None:
         name = f"made{seed}"
-        found = self.run(name, Maker(seed, name).recipe())
-        if found is None:
+        text = Maker(seed, name).recipe()
+        ahead = self.foresee(name, text)
+        found = self.run(name, text)
+        if found is None or ahead is None:
             self.count["refused"] += 1
-        elif mistaken(found):
+            return
+        if mistaken(found):
             self.wrong(name, found)
-        else:
-            how = found.outcome if found.outcome == "done" else found.diagnostics[0].code
-            self.count[f"ended as {how}"] += 1
+        how = found.outcome if found.outcome == "done" else found.diagnostics[0].code
+        if ahead.diagnostics and how == "done":
+            self.wrong(name, f"it was told to fail, and did not: {ahead.diagnostics}")
+        if ahead.whole and how == "exists":
+            self.wrong(name, f"a name that is given twice was not told before: {found.diagnostics}")
+        self.count[f"ended as {how}{', which was told before' if ahead.diagnostics else ''}"] += 1
 
     def broken(self, seed: int) -> None:
         mistake = [*MISTAKES][seed % len(MISTAKES)]

@@ -157,7 +157,19 @@ class Recipes:
             if word in (None, log.about.name) or log.about.id.startswith(str(word)):
                 return Recipes(self.bench, log.about.texts).read(log.about.path), log
         text = f"no recipe {'was run here' if word is None else f'or run of one is called `{word[:40]}`'}"
-        raise PicoError(error("run", text, hint="`pico run RECIPE`"))
+        raise PicoError(self._elsewhere(word) or error("run", text, hint="`pico run RECIPE`"))
+
+    def _elsewhere(self, word: str | None) -> Diagnostic | None:
+        """Return what is wrong where a recipe was run on another bench, whose runs commits have brought here."""
+        carried = [run for run, commit in self.bench.history.runs() if commit is not None and run.cause.recipe]
+        names = {run.id: str(run.cause.recipe).partition("@")[0] for run in carried}
+        brought = [run for run, name in names.items() if word in (None, name) or run.startswith(str(word))]
+        if not brought:
+            return None
+        name = names[brought[0]]
+        text = f"{name} was run on another bench: what it returned is in the log there (`.pico/recipes`), in no commit"
+        hint = f"there `pico runs plot --recipe {name}`; its runs are here: `pico runs show {brought[0]}`"
+        return error("run", text, hint=hint)
 
     def taken_up(self, log: Log) -> Recipe:
         """Return the recipe of a run that was cut short; raises PicoError where it was edited since. Where its file is
