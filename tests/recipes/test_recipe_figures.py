@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -86,6 +87,10 @@ def test_a_run_is_drawn_as_it_was(shel: Path) -> None:
             curves_of(again.figures["turned"], {**(found.returns or {}), "seen": [1.0, float("nan")]}, "r")
         with pytest.raises(PicoError, match="no recipe"):
             Recipes(bench).ran("other")
+    subprocess.run(["git", "clone", "-q", str(shel), str(shel.parent / "clone")], check=True)
+    with Bench.open(shel.parent / "clone") as elsewhere, pytest.raises(PicoError, match="log there") as caught:
+        Recipes(elsewhere).ran("turned")
+    assert f"`pico runs show {outcome.runs[0]}`" in str(caught.value)
 
 
 def test_what_was_cut_short_returned_nothing(shel: Path) -> None:
