@@ -12,8 +12,9 @@ import numpy as np
 from pico.model.simulated import SensorErrors
 from pico.optics.beam_table import decibel, efficiency, electrons
 from pico.optics.light import Arrival, irradiance
+from pico.optics.noise import Electrons
 from pico.optics.part import Part, side
-from pico.optics.sensor import Counts, Electrons, Sensor, frame
+from pico.optics.sensor import Counts, Sensor, frame
 
 _GRID = 401
 ROOM = 550.0

@@ -16,17 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.model.simulated import SensorErrors
+from pico.optics.noise import Electrons, shot, unlit
 
-Electrons = NDArray[np.float32]
 Counts = NDArray[np.uint16]
 Exposed = Callable[[int, int], Electrons]
 """Gives the mean photo-electrons (last - first, width) of the rows from first to last."""
 
 BAND = 64
 """Rows that are made at once."""
-NORMAL = 40.0
-"""From this mean on, Poisson counts are drawn as x^2 - 1/8, x normal about sqrt(mean - 1/8) with variance 1/4: mean and
-variance are exact (Anscombe's transform turned round), and the skewness is half as much again as Poisson's."""
 BLACK = 64.0
 """Where a type does not say it, the counts of a frame without light."""
 
@@ -87,7 +84,7 @@ def frame(
         if wrong.fringes or wrong.non_uniformity:
             mean *= response(sensor, wrong, first, last)
         if dark or wrong.hot_pixels:
-            mean = mean + dark_electrons(sensor, wrong, exposure, first, last)
+            mean += dark_electrons(sensor, wrong, exposure, first, last)
         _read(sensor, mean, gain, np.random.Generator(np.random.SFC64(child)), out[first:last])
 
     starts = range(0, up, BAND)
@@ -98,28 +95,17 @@ def frame(
 
 def _read(sensor: Sensor, mean: Electrons, gain: float, draw: np.random.Generator, out: Counts) -> None:
     """Write the counts of mean electrons into `out`."""
-    electrons = shot(mean, draw)
-    electrons += np.float32(sensor.read_noise) * draw.standard_normal(mean.shape, dtype=np.float32)
+    per = sensor.electrons_per_count(gain)
+    counts = unlit(sensor.read_noise / per, sensor.black, sensor.full_scale).draw(0, mean.size, draw)
+    electrons = shot(mean.ravel(), draw)
+    lit = np.flatnonzero(electrons > 0)
+    electrons = electrons[lit]
+    electrons += np.float32(sensor.read_noise) * draw.standard_normal(len(lit), dtype=np.float32)
     np.minimum(electrons, np.float32(sensor.full_well * 1.2), out=electrons)  # a pixel overflows
-    electrons *= np.float32(1 / sensor.electrons_per_count(gain))
+    electrons *= np.float32(1 / per)
     electrons += np.float32(sensor.black + 0.5)
-    np.clip(electrons, 0, sensor.full_scale, out=electrons)
-    out[...] = electrons  # cut off: the half above rounds
-
-
-def shot(mean: Electrons, draw: np.random.Generator) -> Electrons:
-    """Return photo-electrons drawn for their mean, Poisson: exactly where they are few, see `NORMAL`."""
-    bright = mean >= NORMAL
-    if not bright.any():
-        return draw.poisson(mean).astype(np.float32) if mean.any() else mean.copy()
-    root = np.sqrt(np.maximum(mean, NORMAL) - np.float32(1 / 8))
-    root += np.float32(0.5) * draw.standard_normal(mean.shape, dtype=np.float32)
-    root *= root
-    root -= np.float32(1 / 8)
-    if not bright.all():
-        few = ~bright
-        root[few] = draw.poisson(mean[few])
-    return root
+    counts[lit] = np.clip(electrons, 0, sensor.full_scale, out=electrons)  # cut off: the half above rounds
+    out[...] = counts.reshape(mean.shape)
 
 
 def response(sensor: Sensor, errors: SensorErrors, first: int, last: int) -> Electrons:

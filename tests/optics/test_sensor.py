@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 from pico.kernels.frame import Frame
 from pico.kernels.pipeline import parsed, run
 from pico.model.simulated import SensorErrors
-from pico.optics.sensor import NORMAL, Sensor, frame, shot
+from pico.optics.noise import NORMAL, STEP, shot, unlit
+from pico.optics.sensor import Sensor, frame
 
 SENSOR = Sensor((400, 300), 3.45, name="cam", read_noise=2.5, dark_current=1.0, black=64.0)
 ALL = SensorErrors(non_uniformity=0.01, hot_pixels=1e-4, fringes=0.03, flicker=0.01)
@@ -45,14 +48,55 @@ def test_electrons_have_mean_and_variance_of_their_mean(mean: float) -> None:
     assert drawn.min() >= 0
 
 
-def test_few_electrons_are_drawn_as_poisson_has_them() -> None:
-    drawn = shot(np.full(200_000, 2.0, dtype=np.float32), np.random.Generator(np.random.SFC64(2)))
-    expected, chi = np.exp(-2.0), 0.0
-    for k in range(8):
-        seen = float((drawn == k).mean())
-        chi += 200_000 * (seen - expected) ** 2 / expected
-        expected *= 2.0 / (k + 1)
-    assert chi < 30  # 8 degrees of freedom
+def chi_squared(seen: np.ndarray, expected: np.ndarray) -> float:
+    """Return chi-squared of counts, less its degrees of freedom, in its standard deviations; rare ones count as one."""
+    often = expected >= 10
+    seen, expected = (np.append(row[often], row[~often].sum()) for row in (seen, expected))
+    freedom = len(expected) - 1
+    return float((((seen - expected) ** 2 / np.maximum(expected, 1)).sum() - freedom) / np.sqrt(2 * freedom))
+
+
+@pytest.mark.parametrize("mean", [0.01, STEP - 0.001, STEP, 1.19, 2.0, 7.3, NORMAL - 0.01])
+def test_few_electrons_are_drawn_as_poisson_has_them(mean: float) -> None:
+    count, number = 1_000_000, np.arange(90)
+    drawn = shot(np.full(count, mean, dtype=np.float32), np.random.Generator(np.random.SFC64(2))).astype(int)
+    chance = np.exp(number * np.log(mean) - mean - [math.lgamma(n + 1) for n in number])
+    assert chi_squared(np.bincount(drawn, minlength=90), count * chance) < 4
+
+
+def test_pixels_draw_by_themselves_what_is_lit_about_them() -> None:
+    mean = np.tile(np.array([0.0, 0.1, 3.0, 39.0, 41.0, 900.0], dtype=np.float32), 100_000)
+    drawn = shot(mean.reshape(1000, -1), np.random.Generator(np.random.SFC64(3))).reshape(-1, 6).astype(float)
+    assert drawn.mean(axis=0) == pytest.approx(mean[:6], abs=5 * np.sqrt(900 / 100_000))
+    assert drawn[:, 0].max() == 0
+    assert np.abs(np.corrcoef(drawn[:, 1:].T) - np.eye(5)).max() < 5 / np.sqrt(100_000)
+
+
+@pytest.mark.parametrize(("noise", "black"), [(0.95, 64.0), (0.2, 64.0), (3.7, 64.3), (30.0, 20.0), (0.0, 64.0)])
+def test_what_no_electron_has_reached_reads_black_level_and_read_noise(noise: float, black: float) -> None:
+    count = 4_000_000
+    drawn = unlit(noise, black, 4095).draw(0, count, np.random.Generator(np.random.SFC64(4)))
+    edges = (np.arange(400) + 0.5 - black) / max(noise, 1e-9) / math.sqrt(2)
+    chance = np.diff([0.0, *((1 + math.erf(x)) / 2 for x in edges)])
+    assert chi_squared(np.bincount(drawn, minlength=400), count * chance) < 4
+    far = int((np.abs(drawn - black) > 5 * noise + 0.5).sum())  # what a cell of the look-up would cut off
+    assert far <= 20 if noise else far == 0
+
+
+def test_pixels_side_by_side_and_one_above_the_other_know_nothing_of_each_other() -> None:
+    dark = flat(0.05) - flat(0.05).mean()
+    for apart in (1, 2, 3, 4, 64 * 400, 65 * 400):
+        row = dark.ravel()
+        assert abs(np.mean(row[apart:] * row[:-apart])) / row.var() < 5 / np.sqrt(row.size)
+
+
+@pytest.mark.parametrize("electrons", [0.0, 0.3, 5.0, 39.0, 45.0])
+def test_faint_light_has_the_mean_and_variance_of_electrons_and_read_noise(electrons: float) -> None:
+    counts, per = flat(electrons), SENSOR.electrons_per_count(0.0)
+    mean = electrons + 0.01  # with what it fills by itself
+    variance = (mean + 2.5**2) / per**2 + 1 / 12
+    assert counts.mean() == pytest.approx(64 + mean / per, abs=5 * np.sqrt(variance / counts.size))
+    assert counts.var() == pytest.approx(variance, rel=5 * np.sqrt(3 / counts.size))
 
 
 def test_a_dark_frame_has_black_level_and_read_noise() -> None:
