@@ -8,6 +8,9 @@ import sys
 from pathlib import Path
 
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # neither a process that a test starts compiles everything anew
+os.environ.setdefault(
+    "OPENBLAS_NUM_THREADS", "1"
+)  # as the command has it: on a busy machine threads wait for one another
 
 import pytest
 from asked_once import ASKING, once

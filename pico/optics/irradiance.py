@@ -10,7 +10,7 @@ is taken pixel by pixel.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -134,19 +134,19 @@ def _add(
         lines = [(complex(degree((line,), delta)), line.slope(delta) * away) for line in narrow]
         _outer(part, [(w * by, s + more) for w, s in terms for by, more in lines], q, dy, dz)
     if wide := tuple(line for line in spectrum if line not in narrow):
-        _outer(part, terms, q, dy, dz, degree(wide, delta + away[0] * dy + away[1] * dz[:, None]))
+        _outer(part, terms, q, dy, dz, lambda z: degree(wide, delta + away[0] * dy + away[1] * z[:, None]))
 
 
 def _outer(
     part: NDArray[np.floating], terms: Sequence[Term], q: NDArray[np.complex128], dy: Axis, dz: Axis,
-    factor: NDArray[np.complex128] | None = None,
+    factor: Callable[[Axis], NDArray[np.complex128]] | None = None,
 ) -> None:  # fmt: skip
-    """Add the real part of the sum of terms, times exp(r' q r / 2) and a `factor` (len(dz), len(dy)), r = (dy, dz)."""
+    """Add the real part of the sum of terms, times exp(r' q r / 2) and, for the rows of some dz, a `factor` (rows,
+    len(dy)), r = (dy, dz)."""
     skew, most = q[0, 1], float(abs(q[0, 1]) * np.abs(dy).max() * np.abs(dz).max())
     apart = most > (_BENT if part.dtype == np.float32 and factor is None else _FLAT)
     column = 0 if apart else 0.5 * q[1, 1] * dz**2
     row = 0 if apart else 0.5 * q[0, 0] * dy**2
-    kind: Any = np.complex64 if part.dtype == np.float32 else np.complex128
     first = np.stack([w * np.exp(s[1] * dz + column) for w, s in terms], axis=1)
     second = np.stack([np.exp(s[0] * dy + row) for _, s in terms])
     if not apart and factor is None:
@@ -161,19 +161,25 @@ def _outer(
         for start in range(0, len(dz), _BAND):
             part[start : start + _BAND] += left[start : start + _BAND] @ right
         return
-    first, second = first.astype(kind), second.astype(kind)
-    found = first @ second
-    if factor is not None:
-        found = found * factor.astype(kind)
-    if not apart:
-        part += found.real
-        return
-    real = np.float32 if part.dtype == np.float32 else np.float64
-    size = 0.5 * q[1, 1].real * dz[:, None] ** 2 + skew.real * dz[:, None] * dy + 0.5 * q[0, 0].real * dy**2
-    turned = 0.5 * q[1, 1].imag * dz[:, None] ** 2 + skew.imag * dz[:, None] * dy + 0.5 * q[0, 0].imag * dy**2
-    if np.abs(turned).max() > _FLAT:
-        found = found * np.exp(1j * turned)
-    part += np.exp(size.astype(real)) * found.real
+    left = np.hstack([first.real, first.imag]).astype(part.dtype)
+    real = np.vstack([second.real, -second.imag]).astype(part.dtype)
+    imaginary = np.vstack([second.imag, second.real]).astype(part.dtype)
+    far = np.array([np.abs(dy).max(), np.abs(dz).max()])
+    turns = apart and far @ np.abs(q.imag) @ far > _FLAT
+    for rows in (slice(start, start + _BAND) for start in range(0, len(dz), _BAND)):
+        made = left[rows] @ real
+        if turns or factor is not None:
+            by: Any = 1.0 if factor is None else factor(dz[rows])
+            by = by * np.exp(1j * _quadratic(q.imag, dy, dz[rows])) if turns else by
+            made = made * np.real(by).astype(part.dtype) - left[rows] @ imaginary * np.imag(by).astype(part.dtype)
+        if apart:
+            made *= np.exp(_quadratic(q.real, dy, dz[rows]).astype(part.dtype))
+        part[rows] += made
+
+
+def _quadratic(q: NDArray[np.float64], dy: Axis, dz: Axis) -> NDArray[np.float64]:
+    """Return r' q r / 2 at r = (dy, dz), (len(dz), len(dy))."""
+    return np.asarray(0.5 * q[1, 1] * dz[:, None] ** 2 + q[0, 1] * dz[:, None] * dy + 0.5 * q[0, 0] * dy**2)
 
 
 def _calm(terms: Sequence[Term], q: NDArray[np.complex128], dy: Axis, dz: Axis) -> bool:
