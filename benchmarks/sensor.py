@@ -19,7 +19,7 @@ from pico.model.simulated import SensorErrors
 from pico.optics.beam import Beam, Wave
 from pico.optics.gaussian import from_waist
 from pico.optics.irradiance import Screen, irradiance
-from pico.optics.sensor import Sensor, frame
+from pico.optics.sensing.sensor import Sensor, frame
 
 WRONG = SensorErrors(non_uniformity=0.01, hot_pixels=1e-5, fringes=0.03, flicker=0.01)
 

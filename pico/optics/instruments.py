@@ -12,9 +12,9 @@ import numpy as np
 from pico.model.simulated import SensorErrors
 from pico.optics.beam_table import decibel, efficiency, electrons
 from pico.optics.light import Arrival, irradiance
-from pico.optics.noise import Electrons
 from pico.optics.part import Part, side
-from pico.optics.sensor import Counts, Sensor, frame
+from pico.optics.sensing.noise import Electrons
+from pico.optics.sensing.sensor import Counts, Sensor, frame
 
 _GRID = 401
 ROOM = 550.0
@@ -54,7 +54,7 @@ def camera_frame(
     arrivals: Iterable[Arrival], part: Part, *, stray: float = 0.0, errors: SensorErrors | None = None, seed: int = 1,
     number: int = 0,
 ) -> Counts:  # fmt: skip
-    """Return the frame (up, across) of a camera, row 0 at the top; see `pico.optics.sensor.frame`."""
+    """Return the frame (up, across) of a camera, row 0 at the top; see `pico.optics.sensing.sensor.frame`."""
     mean = electrons_of(arrivals, part, stray)
     return frame(
         sensor_of(part), lambda first, last: mean[first:last], exposure=part.value("exposure", "ms", 1.0),

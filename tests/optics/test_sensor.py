@@ -10,8 +10,8 @@ import pytest
 from pico.kernels.frame import Frame
 from pico.kernels.pipeline import parsed, run
 from pico.model.simulated import SensorErrors
-from pico.optics.noise import NORMAL, STEP, shot, unlit
-from pico.optics.sensor import Sensor, frame
+from pico.optics.sensing.noise import NORMAL, STEP, shot, unlit
+from pico.optics.sensing.sensor import Sensor, frame
 
 SENSOR = Sensor((400, 300), 3.45, name="cam", read_noise=2.5, dark_current=1.0, black=64.0)
 ALL = SensorErrors(non_uniformity=0.01, hot_pixels=1e-4, fringes=0.03, flicker=0.01)

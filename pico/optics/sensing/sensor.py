@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.model.simulated import SensorErrors
-from pico.optics.noise import Electrons, shot, unlit
+from pico.optics.sensing.noise import Electrons, shot, unlit
 
 Counts = NDArray[np.uint16]
 Exposed = Callable[[int, int], Electrons]
