@@ -14,6 +14,7 @@ from pico.edge.protocol import RECIPE, RECORDING, STEERING
 
 if TYPE_CHECKING:
     from pico.model.observation import Observation
+    from pico.model.trace.dose import Dose
     from pico.runs.journal import RunRecord
 
 
@@ -43,7 +44,15 @@ def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
 
     found = goes_on(opened)
     cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
-    return (*unattended(opened), *cut)
+    doses = opened.wait(opened.edge.doses())
+    return (*unattended(opened), *cut, *(note for one in doses for note in _dose(one)))
+
+
+def _dose(one: Dose) -> Iterator[Diagnostic]:
+    now = f"{one.power:.3g} mW fall on it now" if one.power else ""
+    if one.spent or one.power or one.budget is not None:
+        left = "" if one.left is None else f"; {one.left:.4g} mJ are left"
+        yield Diagnostic("note", "dose", f"{one.said}{left}", detail=now, address=one.component)
 
 
 def unattended(opened: Opened) -> tuple[Diagnostic, ...]:

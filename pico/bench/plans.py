@@ -178,7 +178,7 @@ class Plans:
         stale. Of a step of an open run nobody reads that, and its edge judges it again anyway."""
         if self.opened.recording is not None and (plan.asked or plan.target.title):
             return plan
-        plan = with_audit(self.opened, plan, seen)
+        plan = self._within_dose(with_audit(self.opened, plan, seen), seen)
         told, lost = self._of_light(plan, seen)
         if told or lost:
             plan = replace(plan, spoils=lost or None, diagnostics=(*plan.diagnostics, *told)).sealed()
@@ -191,6 +191,16 @@ class Plans:
 
             _require_sense(check_rules(self.opened.folder.manifests))
         return judged(self.opened.setup, plan, seen)
+
+    def _within_dose(self, plan: Plan, seen: Observation) -> Plan:
+        """Return the plan, with what is wrong where it would give a sample more light than it may have."""
+        setup = self.opened.setup
+        if not plan.operations or not any(part.dose_budget for part in setup.lab.inventory.values()):
+            return plan
+        from pico.policy.dose import refused
+
+        wrong = refused(setup, seen, self.opened.wait(self.opened.edge.doses()), plan.operations)
+        return replace(plan, diagnostics=(*plan.diagnostics, *wrong)).sealed() if wrong else plan
 
     def _of_light(
         self, plan: Plan, seen: Observation

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.edge.aligning import Stopping
     from pico.edge.armings import Kept
-    from pico.edge.attempts import Attempts
+    from pico.edge.attempts import Attempts, Executing
     from pico.edge.open_run import OpenRun
     from pico.edge.protocol import Asking
     from pico.edge.recovery import SettledOperation
@@ -41,6 +41,8 @@ if TYPE_CHECKING:
     from pico.edge.teleoperating import Teleoperating
     from pico.edge.unattended import Alone
     from pico.model.arming import Arming
+    from pico.model.plan import Plan
+    from pico.model.trace.dose import Dose
     from pico.model.trace.report import RunReport
     from pico.model.trace.run import RunOutcome
     from pico.model.trace.unattended import Left, Terms
@@ -311,7 +313,8 @@ class LocalEdge:
             doing = Teleoperating(self.setup, surveying, self.device, lambda: self._stopping, self._heard)
             self._steering = doing
             guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None, self.alone.most)
-            self._attempts, self._lease = Attempts(self.journal, guarded, lease.token), lease
+            counting = self._counting(guarded)
+            self._attempts, self._lease = Attempts(self.journal, counting, lease.token), lease
             seen = await self.observe()
             self.settled = settle(self.setup, self.journal, seen, lease.token)
             if asked := open_questions(self.journal.unsettled()):
@@ -323,6 +326,30 @@ class LocalEdge:
             raise
         self._obeying = asyncio.create_task(self._obey(lease, idle=not run))
         return lease
+
+    def _counting(self, inner: Executing) -> Executing:
+        """Return what does the same, and counts the light on samples where there are any."""
+        if not any(part.sample for part in self.setup.lab.inventory.values()):
+            return inner
+        from pico.edge.dose import Dosing
+
+        return Dosing(self.setup, self.root, inner, self.observe)
+
+    async def doses(self) -> tuple[Dose, ...]:
+        """Return what the samples of the bench had; see `pico.edge.protocol.Edge`."""
+        if not any(part.sample for part in self.setup.lab.inventory.values()):
+            return ()
+        from pico.edge.dose import read
+
+        return read(self.root).until(self.setup, await self.observe()).doses(self.setup)
+
+    async def _require_dose(self, plan: Plan, seen: Observation) -> None:
+        """Raise PicoError (exit code DENIED) where a plan would give a sample more light than it may have."""
+        if doses := await self.doses():
+            from pico.policy.dose import refused
+
+            if wrong := refused(self.setup, seen, doses, plan.operations):
+                raise PicoError(wrong, ExitCode.DENIED)
 
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
@@ -411,6 +438,7 @@ class LocalEdge:
             seen = await self.observe()
             require_current(self.setup, job.plan, seen)
             require_allowed(self.setup, job.plan, seen)
+            await self._require_dose(job.plan, seen)
             await self._shut_over(seen)
             if not job.within:
                 self._begin(job, run, await self.describe(), lease)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.edge.armings import Kept
     from pico.model.arming import Arming
+    from pico.model.trace.dose import Dose
     from pico.model.trace.report import RunReport
     from pico.model.trace.run import RunOutcome
     from pico.model.trace.unattended import Left, Terms
@@ -171,6 +172,11 @@ class Edge(Protocol):
     async def unattended(self) -> Terms | None:
         """Return the terms of the unattended run that goes on, or of the last that was not ended by its client as it
         states; None for none."""
+        ...
+
+    async def doses(self) -> tuple[Dose, ...]:
+        """Return how much light each sample of the bench has had until now, and may have. A plan, or an operation, that
+        would give one more is refused (exit code DENIED)."""
         ...
 
     # looking

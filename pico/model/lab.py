@@ -150,7 +150,8 @@ class Part:
     end beams (or is not), whatever its type says. `restore`: how tunables of this one are restored, where that is
     otherwise than its type says, such as `{tip: {kind: align, trim: 12, goal: centred}}`. `measured`: of parameters and
     calibrations of its own when and how well they were measured: `{focal_length: {at: 2026-11-20, sigma: 0.2 mm}}`.
-    `sample`: which one it holds (`WSe2-041`): no plan to a state moves it unless it is named."""
+    `sample`: which one it holds (`WSe2-041`): no plan to a state moves it unless it is named. `dose_budget`: how much
+    light that may have in all [mJ]."""
 
     type: str
     marker: int | None = None
@@ -167,8 +168,11 @@ class Part:
     restore: Mapping[str, Restore] | None = None
     measured: Mapping[str, Known] | None = None
     sample: str | None = None
+    dose_budget: float | None = None
 
     def __post_init__(self) -> None:
+        if self.dose_budget is not None and (not self.sample or self.dose_budget <= 0):
+            raise ValueError("a `dose_budget` is above 0 mJ, and of a part with a `sample`")
         if (self.home is None) == (self.pose is None):
             raise ValueError("a part has exactly one of `home` (a slot) and `pose` (fixed)")
 

@@ -19,6 +19,8 @@ AUDIT = "beam-audit"
 """The code of what the beam audit tells: a plan is denied for it, though nothing physical is in its way."""
 UNARMED = "unarmed"
 """The same of light that nobody lets out."""
+DOSE = "dose"
+"""The same of light that a sample must not have any more."""
 
 
 @record
@@ -155,7 +157,7 @@ class Plan:
     @property
     def exit_code(self) -> ExitCode:
         """Why the plan can't be run, or DONE."""
-        if any(d.severity == "error" and d.code not in (AUDIT, UNARMED) for d in self.diagnostics):
+        if any(d.severity == "error" and d.code not in (AUDIT, UNARMED, DOSE) for d in self.diagnostics):
             return ExitCode.IMPOSSIBLE
         return ExitCode.DENIED if self.errored or self.denied else ExitCode.DONE
 

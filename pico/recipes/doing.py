@@ -93,7 +93,13 @@ class Doing:
         return require_done(report).measurements
 
     def pause(self, seconds: float) -> None:
-        """Let time pass on the bench's clock [s]: a simulated one passes at once."""
+        """Let time pass on the bench's clock [s]: a simulated one passes at once. Raises PicoError (exit code DENIED)
+        where a sample would have too much light by then."""
+        from pico.policy.dose import over
+
+        doses = self.bench.wait(self.bench.edge.doses()) if seconds > 0 else ()
+        if wrong := [found for one in doses if one.power > 0 for found in over(one, one.power * seconds, seconds)]:
+            raise PicoError(wrong, ExitCode.DENIED)
         while seconds > 0:
             part = min(seconds, self.every)
             if self.bench.wait(self.bench.edge.describe()).simulated:

@@ -19,6 +19,7 @@ from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.pose import Pose
+from pico.model.trace.dose import Dose
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
 from pico.model.trace.run import RunOutcome
@@ -282,6 +283,11 @@ class RemoteEdge:
     async def unattended(self) -> Terms | None:
         """Return the terms of an unattended run."""
         found: Terms | None = await self._call("unattended")
+        return found
+
+    async def doses(self) -> tuple[Dose, ...]:
+        """Return how much light each sample has had."""
+        found: tuple[Dose, ...] = await self._call("doses")
         return found
 
     async def observe(self) -> Observation:

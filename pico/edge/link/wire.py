@@ -20,6 +20,7 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.pose import Pose
 from pico.model.record import as_json
+from pico.model.trace.dose import Dose
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
 from pico.model.trace.run import RunOutcome
@@ -45,6 +46,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "goes_on": ((str,), None),
     "leave": ((str, bool), Left),
     "unattended": ((), Terms | None),
+    "doses": ((), tuple[Dose, ...]),
     "observe": ((), Observation),
     "look": ((), dict[str, Any]),
     "peek": ((str, str), Measurement),

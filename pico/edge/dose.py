@@ -1,0 +1,94 @@
+"""The light that the samples of a bench have had: counted by the edge from operation to operation, by the name of the
+sample, in `dose.json` beside its journal."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.attachment import bench_folder
+from pico.backends.device import Began
+from pico.disk import write_whole
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult
+from pico.model.setup import Setup
+from pico.model.trace.dose import Dose
+from pico.policy import dose
+
+if TYPE_CHECKING:
+    from pico.edge.attempts import Executing
+
+SCHEMA = "pico.dose/v1"
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """What samples had at a time of the bench's clock (`at` [s]): `spent` [mJ], and the `power` [mW] on them, by their
+    names."""
+
+    at: float | None = None
+    spent: dict[str, float] = field(default_factory=dict)
+    power: dict[str, float] = field(default_factory=dict)
+
+    def until(self, setup: Setup, seen: Observation) -> Ledger:
+        """Return it brought up to what is seen now: since then each sample had the greater of both powers. A clock that
+        began anew, with another simulated world, counts nothing."""
+        held = dose.samples(setup)
+        now = {held[part]: power for part, power in dose.powers(setup, seen).items()}
+        seconds = max(0.0, seen.time - self.at) if self.at is not None else 0.0
+        more = {name: max(power, self.power.get(name, 0.0)) * seconds for name, power in now.items()}
+        spent = {**self.spent, **{name: self.spent.get(name, 0.0) + one for name, one in more.items()}}
+        return Ledger(seen.time, spent, now)
+
+    def doses(self, setup: Setup) -> tuple[Dose, ...]:
+        """Return what each sample of a bench has had, and gets."""
+        return tuple(
+            Dose(sample=sample, component=part, spent=self.spent.get(sample, 0.0), power=self.power.get(sample, 0.0),
+                 budget=setup.lab.inventory[part].dose_budget)
+            for part, sample in dose.samples(setup).items()
+        )  # fmt: skip
+
+
+def read(root: Path) -> Ledger:
+    """Return what the bench of the lab in `root` has counted; nothing where that can't be read."""
+    try:
+        found = json.loads(_file(root).read_text(encoding="utf-8"))
+        at, spent, power = float(found["at"]), found["spent"], found["power"]
+        return Ledger(at, {str(k): float(v) for k, v in spent.items()}, {str(k): float(v) for k, v in power.items()})
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return Ledger()
+
+
+def counted(setup: Setup, root: Path, seen: Observation) -> Ledger:
+    """Count until now, write that down, and return it; raises PicoError."""
+    ledger = read(root).until(setup, seen)
+    text = json.dumps({"schema": SCHEMA, "at": ledger.at, "spent": ledger.spent, "power": ledger.power}, indent=1)
+    write_whole(_file(root), f"{text}\n".encode(), folders=True)
+    return ledger
+
+
+class Dosing:
+    """A device that counts the light on samples, and does nothing that would give one more than its budget. What they
+    had in an operation stands in its result (`dose`, [mJ] by sample)."""
+
+    def __init__(self, setup: Setup, root: Path, inner: Executing, look: Callable[[], Awaitable[Observation]]) -> None:
+        self._setup, self._root, self._inner, self._look = setup, root, inner, look
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute an operation; one that gives a sample too much fails, and nothing is done."""
+        seen = await self._look()
+        before = counted(self._setup, self._root, seen)
+        alone: Any = replace(operation, start=0.0)
+        if wrong := dose.refused(self._setup, seen, before.doses(self._setup), [alone]):
+            return OperationResult(key=key, outcome="failed", error=wrong[0], ended=seen.time)
+        result = await self._inner.execute(operation, key, began)
+        after = counted(self._setup, self._root, await self._look())
+        had = {n: mj - before.spent.get(n, 0.0) for n, mj in after.spent.items() if mj > before.spent.get(n, 0.0)}
+        return replace(result, data={**result.data, "dose": had}) if had else result
+
+
+def _file(root: Path) -> Path:
+    return bench_folder(root) / "dose.json"

@@ -1,0 +1,28 @@
+"""The light that a sample has had, and may have."""
+
+from __future__ import annotations
+
+from pico.model.record import record
+
+
+@record
+class Dose:
+    """What the `sample` in a `component` has had [mJ], of a `budget` where it has one, and the `power` that falls on it
+    now [mW]."""
+
+    sample: str
+    component: str
+    spent: float
+    budget: float | None = None
+    power: float = 0.0
+
+    @property
+    def left(self) -> float | None:
+        """What it may have still [mJ]; None without a budget."""
+        return None if self.budget is None else max(0.0, self.budget - self.spent)
+
+    @property
+    def said(self) -> str:
+        """`WSe2-041 in holder1 has had 4.8 of its 5 mJ of light`."""
+        of = f" of its {self.budget:g} mJ" if self.budget is not None else " mJ"
+        return f"{self.sample} in {self.component} has had {self.spent:.4g}{of} of light"

@@ -1,0 +1,99 @@
+"""How much light falls on samples, as the tracer has it, and what would give one more than its budget: pure functions.
+
+The dose is the power of the beams that come to the part which holds the sample, times how long. Nobody knows how large
+the sample is: all of a beam counts. Within one operation the greater of the powers before and after it counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from pico.diagnostics import Diagnostic, error
+from pico.model.observation import Observation, with_value
+from pico.model.operation import Operation
+from pico.model.plan import DOSE
+from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.model.trace.dose import Dose
+from pico.planning.checks.emission import may_shine
+
+
+def samples(setup: Setup) -> dict[str, str]:
+    """Return the parts that hold a sample, each with which."""
+    return {name: part.sample for name, part in sorted(setup.lab.inventory.items()) if part.sample}
+
+
+def powers(setup: Setup, seen: Observation) -> dict[str, float]:
+    """Return the power [mW] of the beams that come to each part with a sample. A source of which nobody knows that it
+    is dark shines."""
+    from pico.optics.light import light_of
+
+    poses = {name: part.pose for name, part in seen.components.items() if part.pose is not None}
+    values = seen.known_values
+    found = dict.fromkeys(samples(setup), 0.0)
+    sources = [name for name in poses if name in setup.lab.inventory]
+    if not any(setup.type_of(n).optics.element == "source" and may_shine(setup, seen, n, values.get(n, {}))
+               for n in sources):  # fmt: skip
+        return found
+    light = light_of(setup, {n: p for n, p in poses.items() if n in setup.lab.inventory}, values)
+    for crossing in light.crossings:
+        if crossing.component in found:
+            found[crossing.component] += crossing.power
+    return found
+
+
+def refused(
+    setup: Setup, seen: Observation, doses: Sequence[Dose], operations: Sequence[Operation]
+) -> list[Diagnostic]:
+    """Return an error for each sample that operations would give more than its budget, with the numbers; not where
+    they let no more light on it than falls on it now, and end in the dark."""
+    limited = [one for one in doses if one.budget is not None]
+    if not limited:
+        return []
+    steps = list(_predicted(setup, seen, operations))
+    found = []
+    for one in limited:
+        mine = [(power[one.component], seconds) for power, seconds in steps]
+        first, last = one.power, (mine[-1][0] if mine else one.power)
+        dose, before = 0.0, first
+        for power, seconds in mine:
+            dose, before = dose + max(before, power) * seconds, power
+        darker = last == 0.0 and all(power <= first for power, _ in mine)
+        if not darker and max([first, *(power for power, _ in mine)]) > 0.0:
+            found += over(one, dose, sum(seconds for _, seconds in mine))
+    return found
+
+
+def over(one: Dose, dose: float, seconds: float) -> list[Diagnostic]:
+    """Return why a dose [mJ] in so many seconds is more than a sample may have; nothing where it is not."""
+    if one.budget is None or one.spent + dose <= one.budget:
+        return []
+    text = f"{one.said}; this would give it {dose:.4g} mJ more, in {seconds:.4g} s"
+    hint = "less light (a filter, a closed shutter), or less time; `dose_budget` of the part says what it may have"
+    return [error(DOSE, text, hint=hint, address=one.component)]
+
+
+def _predicted(
+    setup: Setup, seen: Observation, operations: Sequence[Operation]
+) -> Iterator[tuple[Mapping[str, float], float]]:
+    """Yield the powers on samples after each operation, in the order of their starts, and the seconds until it ends."""
+    now = 0.0
+    for op in sorted(operations, key=lambda o: o.start):
+        ends = max(now, op.start + op.seconds)
+        after = _after(seen, op)
+        seen = after if after is not None else seen
+        yield powers(setup, seen), ends - now
+        now = ends
+
+
+def _after(seen: Observation, op: Operation) -> Observation | None:
+    part = seen.components.get(op.component)
+    if part is None:
+        return None
+    if op.primitive == "set":
+        return with_value(seen, op.component, str(op.arguments["tunable"]), op.arguments["to"])
+    if op.kind.carries and "pose" in op.arguments.get("to", {}):
+        moved = replace(part, pose=Pose(**op.arguments["to"]["pose"]))
+        return replace(seen, components={**seen.components, op.component: moved})
+    return None
