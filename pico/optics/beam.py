@@ -107,15 +107,20 @@ def moments(beam: Beam) -> tuple[float, NDArray[np.float64]]:
     (i k / 2) A^-1 B times that.
     """
     k, inverse = beam.wave_number, np.linalg.inv(beam.wave_number * np.imag(beam.curvature))
-    total, first = 0.0, np.zeros(2)  # mW, mW mm
-    for one in beam.waves:
-        for other in beam.waves:
-            if one.group == other.group:
-                shift = one.shift - np.conj(other.shift)
-                overlap = (one.field @ np.conj(other.field)) * np.exp(-(k**2) * shift @ inverse @ shift / 4)
-                total += float(overlap.real)
-                first = first + np.real(0.5j * k * (inverse @ shift) * overlap)
-    return float(total), first / total if total else first
+    fields, shifts = _rows([w.field for w in beam.waves], 3), _rows([w.shift for w in beam.waves], 2)
+    groups = np.array([w.group for w in beam.waves])
+    apart = shifts[:, None] - shifts.conj()  # (n, n, 2)
+    bent = apart @ inverse
+    overlap = fields @ fields.conj().T * np.exp(-(k**2) / 4 * (bent * apart).sum(-1))
+    overlap[groups[:, None] != groups] = 0.0
+    total = float(overlap.real.sum())  # mW
+    first = np.real(0.5j * k * (bent * overlap[..., None]).sum((0, 1)))  # mW mm
+    return total, first / total if total else first
+
+
+def _rows(vectors: list[NDArray[np.complex128]], size: int) -> NDArray[np.complex128]:
+    """Return vectors as rows (n, size), n 0 where light is stopped."""
+    return np.array(vectors, dtype=np.complex128).reshape(-1, size)
 
 
 def forward(beam: Beam, distance: float) -> Beam:
@@ -125,12 +130,12 @@ def forward(beam: Beam, distance: float) -> Beam:
     stretch = gaussian.ONE + distance * beam.curvature
     inverse, size = np.linalg.inv(stretch), np.linalg.det(stretch)
     gouy = np.exp(-0.5j * _phase(beam.curvature, distance)) if size else 1.0
-    k = beam.wave_number
+    k, shifts = beam.wave_number, _rows([w.shift for w in beam.waves], 2)
+    turned = shifts @ inverse.T
+    phases = gouy * np.exp(-0.5j * k * distance * (shifts * turned).sum(-1))
     waves = tuple(
-        replace(w, field=w.field * gouy * np.exp(-0.5j * k * distance * (w.shift @ inverse @ w.shift)),
-                shift=inverse @ w.shift)
-        for w in beam.waves
-    )  # fmt: skip
+        Wave(w.field * phase, shift, w.group) for w, phase, shift in zip(beam.waves, phases, turned, strict=True)
+    )
     return replace(
         beam, at=beam.at + distance * beam.along, curvature=gaussian.forward(beam.curvature, distance), waves=waves,
         path=beam.path + beam.index * distance, length=beam.length + distance,
