@@ -28,19 +28,18 @@ from oracles.proven import prove  # noqa: E402
 from pico.history.examples.example import make_example  # noqa: E402
 from pico.manifest.load import load_files, load_folder  # noqa: E402
 from pico.model.observation import Observation, ObservedComponent, ObservedValue  # noqa: E402
-from pico.model.plan import Base, Plan, Target  # noqa: E402
+from pico.model.plan import Plan  # noqa: E402
 from pico.model.setup import Setup  # noqa: E402
 from pico.model.state import LabState, place_of  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
-from pico.planning import plan  # noqa: E402
-from pico.planning.actors import actors, asides  # noqa: E402
-from pico.planning.checks.target import no_source  # noqa: E402
+from pico.planning import PlanGoal, Planner  # noqa: E402
 from pico.planning.ordering.arm_times import timed  # noqa: E402
 from pico.planning.ordering.several_arms import work_of  # noqa: E402
 from pico.planning.ordering.solve import OrderedMoves, OrderingProblem, solve  # noqa: E402
 from pico.planning.ordering.travel import Clock  # noqa: E402
-from pico.planning.parts.situation import read_situation  # noqa: E402
-from pico.planning.request import Request  # noqa: E402
+from pico.planning.passes.actors import actors, asides  # noqa: E402
+from pico.planning.passes.comparison import compared  # noqa: E402
+from pico.planning.passes.draft import Draft  # noqa: E402
 
 MOST = 12
 """Up to so many moves are proven."""
@@ -58,17 +57,13 @@ class Case:
 
     def plan(self) -> Plan:
         """Return the plan."""
-        return plan(
-            self.setup, self.seen, self.wanted, motion=self.motion, backend="sim", fidelity="kinematic", base=Base(),
-            target=Target(),
-        )  # fmt: skip
+        return Planner(self.setup, self.motion, self.seen).plan(PlanGoal(self.wanted))
 
     def proof(self, python: str) -> str:
         """Return in words how soon the arms can be done with the moves of the plan, and when they are."""
-        request = Request(self.setup, self.seen, self.wanted, self.motion, no_source)
-        situation = read_situation(self.setup, self.seen, self.wanted)
-        movers, obstacles, _ = actors(request, situation)
-        others = asides(request, situation, movers)
+        draft = compared(Draft(self.setup, self.motion, self.seen, PlanGoal(self.wanted)))
+        movers, obstacles, _ = actors(draft)
+        others = asides(draft, movers)
         answer = solve(OrderingProblem(self.setup, self.seen, movers, tuple(obstacles), others, self.motion))
         if (
             not isinstance(answer, OrderedMoves)

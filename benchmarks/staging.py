@@ -102,9 +102,8 @@ def planned(instances: Sequence[dict[str, Any]]) -> int:
     from checker import check
     from disc_labs import disc_case
 
-    from pico.model.plan import Base, Target
     from pico.motion.arms import ArmMotion
-    from pico.planning import plan
+    from pico.planning import PlanGoal, Planner
 
     print(f"{'density':>7} {'n':>4} {'staged':>7} {'optimum':>8} {'equal':>6} {'proven':>7} {'faults':>7} "
           f"{'moves':>6} {'median s':>9} {'max s':>7}")  # fmt: skip
@@ -112,10 +111,7 @@ def planned(instances: Sequence[dict[str, Any]]) -> int:
     for density, n in sorted({(i["density"], i["n"]) for i in instances}):
         cell = [i for i in instances if (i["density"], i["n"]) == (density, n)]
         cases = [disc_case(i["radius"], 1000.0, i["start"], i["goal"]) for i in cell]
-        made = [timed(lambda c=c: plan(
-            c.setup, c.seen, c.wanted, motion=ArmMotion(c.setup), backend="sim", fidelity="kinematic", base=Base(),
-            target=Target(),
-        )) for c in cases]  # fmt: skip
+        made = [timed(lambda c=c: Planner(c.setup, ArmMotion(c.setup), c.seen).plan(PlanGoal(c.wanted))) for c in cases]
         staging, seconds = [p.staging for p, _ in made], [s for _, s in made]
         best = [i["min_staging"] for i in cell]
         equal = [s.count == b for s, b in zip(staging, best, strict=True)]

@@ -126,12 +126,10 @@ class Lasers:
         return self._opening(plans, given, armed)
 
     def _opening(self, plans: Plans, given: Arming, armed: Observation) -> Plan:
-        from pico import planning
-        from pico.motion.deferred import DeferredMotion
+        from pico.planning import arm_one
 
-        found = planning.arm_one(
-            self.opened.setup, armed, given.laser, motion=DeferredMotion(self.opened.setup), **plans.start_of(armed)
-        )
+        planner = plans.planner(armed)
+        found = planner.plan(arm_one(planner, given.laser))
         title = f"{given.laser} armed by {given.by} ({given.role}) up to class {given.laser_class} until {given.ends}"
         return plans.judged(replace(found, target=replace(found.target, title=title)).sealed(), armed)
 

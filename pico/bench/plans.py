@@ -17,10 +17,10 @@ from pico.model.diff import Change, diff_observed
 from pico.model.drift import drift_of
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
-from pico.model.plan import Base, Plan, Spoiled, Target
+from pico.model.plan import Plan, Spoiled, Target
 from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, asked
-from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json
+from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.policy.expired import expired
 from pico.vision.calibration import calibration_digest, made_at
@@ -30,9 +30,10 @@ if TYPE_CHECKING:
     from pico.manifest.load import Manifests
     from pico.motion.types import Motion
     from pico.optics.nominal.feeding import Right
+    from pico.planning import PlanGoal, Planner
     from pico.planning.explaining.explain import Explanation
     from pico.planning.optimizing import Turn
-    from pico.planning.request import Preference
+    from pico.planning.passes.goal import Preference
     from pico.planning.sought import Sought
     from pico.planning.surveying import Shots
 
@@ -66,6 +67,7 @@ class Plans:
         makes no sense; what is physically impossible is in the plan's diagnostics.
         """
         from pico.history.merge.doubts import require_settled
+        from pico.planning import PlanGoal
 
         _require_preference(prefer)
         folder, given = self.opened.folder, manifests
@@ -85,17 +87,17 @@ class Plans:
             commit=commit,
             only=tuple(sorted(targets)) or None,
             exclude=tuple(sorted(exclude)) or None,
-            state=wanted.as_json(),
             expect=wanted.expect or None,
             align=self.aligns(align) or None,
         )
+        goal = PlanGoal(
+            wanted, target, exact=exact, prefer=prefer, targets=tuple(targets), exclude=tuple(exclude),
+            source=manifests.source,
+        )  # fmt: skip
         seen = self.opened.observe()
         old = expired(self.opened.setup, made_at(folder.root), utc_now())
         told = (*cut_short(self.opened, seen), *_strangers(seen), *old, *manifests.told)
-        return self.to_state(
-            seen, wanted, target, told=told, calibration=calibration_digest(folder.root), exact=exact,
-            source=manifests.source, prefer=prefer, targets=targets, exclude=exclude,
-        )  # fmt: skip
+        return self.to_state(seen, goal, told=told, calibration=calibration_digest(folder.root))
 
     def aligns(self, asked: bool | None = None) -> bool:
         """Return whether a plan is to redo goals: as somebody asked, else as the policy of the lab says."""
@@ -109,18 +111,14 @@ class Plans:
         return manifests.require()[1]
 
     def to_state(
-        self, seen: Observation, wanted: LabState, target: Target, *, told: tuple[Diagnostic, ...] = (),
-        calibration: str | None = None, **options: Any,
+        self, seen: Observation, goal: PlanGoal, *, told: tuple[Diagnostic, ...] = (), calibration: str | None = None
     ) -> Plan:  # fmt: skip
-        """Return the plan from the bench as `seen` to a state, called `target`, and what the policy of the lab says.
+        """Return the plan from the bench as `seen` to a state, and what the policy of the lab says.
 
-        `told`: what is wrong with the manifests beside it; `options` are those of `pico.planning.plan`.
+        `told`: what is wrong with the manifests beside it.
         """
-        from pico.planning import plan
-
-        motion = DeferredMotion(self.opened.setup)
-        start, setup = self.start_of(seen), self.opened.setup
-        found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
+        planner, setup = self.planner(seen), self.opened.setup
+        found = planner.plan(goal)
         while seen.aligned and found.operations:
             from pico.bench.aligned import not_aligned_after
 
@@ -128,12 +126,22 @@ class Plans:
             if still.aligned == seen.aligned:
                 break
             seen = still  # what it makes stale has no last word on its tunables any more
-            found = plan(setup, seen, wanted, motion=motion, target=target, **start, **options)
+            found = replace(planner, seen=seen).plan(goal)
         if told or calibration:
             found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
-        return self.judged(self._realigned(found, seen, motion) if target.align else found, seen)
+        return self.judged(self._realigned(found, seen, planner.motion) if found.target.align else found, seen)
 
-    def _realigned(self, plan: Plan, seen: Observation, motion: Motion) -> Plan:
+    def planner(self, seen: Observation) -> Planner:
+        """Return what plans from this observation on, for where it is to run."""
+        from pico.planning import Planner
+
+        head, setup = self.opened.folder.head(), self.opened.setup
+        return Planner(
+            setup, DeferredMotion(setup), seen, self.opened.backend_name, self.opened.fidelity,
+            head.commit if head else None,
+        )  # fmt: skip
+
+    def _realigned(self, plan: Plan, seen: Observation, motion: Motion | None) -> Plan:
         """Return the plan with the goals sought at its end that are not aligned then, and with what its goal recorded
         of its light measured again."""
         if plan.errored:
@@ -165,13 +173,6 @@ class Plans:
         return tuple(
             (one.component, one.measurable) for address, one in sorted(recorded.items()) if source_of(address) in able
         )
-
-    def start_of(self, seen: Observation) -> dict[str, Any]:
-        """Return what a plan from this observation starts from, and on what it is to run."""
-        head = self.opened.folder.head()
-        state = live_state(self.opened.setup, seen).as_json()
-        base = Base(commit=head.commit if head else None, observed_at=seen.observed_at, state=state)
-        return {"backend": self.opened.backend_name, "fidelity": self.opened.fidelity, "base": base}
 
     def judged(self, plan: Plan, seen: Observation) -> Plan:
         """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
@@ -258,7 +259,7 @@ class Plans:
 
     def _still_let_out(self, plan: Plan) -> Plan:
         """Return a saved plan without the light that nobody lets out now, and what is said of that."""
-        from pico.planning.light import without_light
+        from pico.planning.passes.light import without_light
 
         return without_light(self.opened.setup, self.opened.observe(), plan) if plan.operations else plan
 
@@ -296,10 +297,9 @@ class Plans:
         their tunables stand. It has no operations where that is nothing."""
         from pico import planning
 
-        setup, seen = self.opened.setup, self._seen()
-        motion = DeferredMotion(setup)
-        found = planning.measure(setup, seen, wanted, motion=motion, goals=goals, **self.start_of(seen))
-        return self.judged(found, seen)
+        seen = self._seen()
+        planner = self.planner(seen)
+        return self.judged(planner.plan(planning.measure(planner, wanted, goals)), seen)
 
     def setting(self, values: Mapping[str, Value]) -> Plan:
         """Return the plan that brings tunables to values exactly, by address (`p1.angle`), side by side as far as their
@@ -308,17 +308,8 @@ class Plans:
             ((address, value),) = values.items()
             component, _, tunable = address.partition(".")
             return self.single(component, "set", {tunable: written(value)})
-        parts: dict[str, dict[str, Value]] = {}
-        for address, value in values.items():
-            component, _, tunable = address.partition(".")
-            parts.setdefault(component, {})[tunable] = value
         seen = self._seen()
-        live = live_state(self.opened.setup, seen)
-        changed = {
-            name: replace(live.components[name], values={**live.components[name].values, **own})
-            for name, own in parts.items() if name in live.components
-        }  # fmt: skip
-        return self._asked(seen, replace(live, components={**live.components, **changed}), values)
+        return self._asked(seen, with_values(live_state(self.opened.setup, seen), values), values)
 
     def moving(self, places: Mapping[str, str | Mapping[str, float]]) -> Plan:
         """Return the plan that takes parts to slots or poses (what is not named of one stays as observed), in an order
@@ -337,8 +328,10 @@ class Plans:
         return self._asked(seen, replace(live, components={**live.components, **changed}), places)
 
     def _asked(self, seen: Observation, wanted: LabState, named: Collection[str]) -> Plan:
-        target = Target(title=", ".join(named), only=tuple(sorted(named)), state=wanted.as_json())
-        return self.to_state(seen, wanted, target, exact=True, targets=tuple(named))
+        from pico.planning import PlanGoal
+
+        target = Target(title=", ".join(named), only=tuple(sorted(named)))
+        return self.to_state(seen, PlanGoal(wanted, target, exact=True, targets=tuple(named)))
 
     def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
         """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
@@ -363,14 +356,17 @@ class Plans:
     ) -> Plan:  # fmt: skip
         """Return the plan that brings light to a goal, by those that are sought `first` where it is dark; see
         `pico.bench.goals`. `took`: the seconds that it is reckoned with. Raises PicoError."""
-        from pico import planning
+        from pico.planning import optimize_one
+
+        seen = self.opened.observe()
+        planner, right = self.planner(seen), [*self._right(one, seen)] if absorb else []
+        return self._able(planner, optimize_one(planner, one, first=first, took=took, right=right))
+
+    def _able(self, planner: Planner, goal: PlanGoal) -> Plan:
+        """Return the plan to a goal that the bench can do, judged; raises PicoError where it can't."""
         from pico.execution.checks import require_able
 
-        setup, seen = self.opened.setup, self.opened.observe()
-        found = planning.optimize_one(
-            setup, seen, one, first=first, took=took, motion=DeferredMotion(setup),
-            right=[*self._right(one, seen)] if absorb else (), **self.start_of(seen),
-        )  # fmt: skip
+        found, seen = planner.plan(goal), planner.seen
         require_able(found, self.opened.wait(self.opened.edge.describe()))
         judged, told = self.judged(found, seen), cut_short(self.opened, seen)
         return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
@@ -380,10 +376,10 @@ class Plans:
         their tunables, at the best that they had measured; raises PicoError."""
         if not sought or plan.errored:
             return plan
-        from pico import planning
+        from pico.planning.realigning import again
 
         setup = self.opened.setup
-        found = self.judged(planning.again(setup, seen, plan, sought, motion=DeferredMotion(setup)), seen)
+        found = self.judged(again(setup, seen, plan, sought, motion=DeferredMotion(setup)), seen)
         return replace(found, diagnostics=tuple(dict.fromkeys(found.diagnostics))).sealed()
 
     def to_steer(self, component: str, tunable: str | None = None) -> Plan:
@@ -391,16 +387,10 @@ class Plans:
 
         Raises PicoError for what there is not, and what nobody can steer.
         """
-        from pico import planning
-        from pico.execution.checks import require_able
+        from pico.planning import teleoperate_one
 
-        setup, seen = self.opened.setup, self.opened.observe()
-        found = planning.teleoperate_one(
-            setup, seen, component, tunable, motion=DeferredMotion(setup), **self.start_of(seen)
-        )
-        require_able(found, self.opened.wait(self.opened.edge.describe()))
-        judged, told = self.judged(found, seen), cut_short(self.opened, seen)
-        return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
+        planner = self.planner(self.opened.observe())
+        return self._able(planner, teleoperate_one(planner, component, tunable))
 
     def _right(self, one: Sought, seen: Observation) -> Iterator[Right]:
         """Yield benches with the light that a goal is to have: as it was met last, and as the manifest has it, where
@@ -428,14 +418,10 @@ class Plans:
     def to_survey(self, seen: Observation, shots: Shots, dark: Sequence[str]) -> Plan:
         """Return the plan that reads `shots` and frames in the `dark` of cameras; see `pico.bench.mornings`. Raises
         PicoError."""
-        from pico import planning
-        from pico.execution.checks import require_able
+        from pico.planning import survey
 
-        setup = self.opened.setup
-        found = planning.survey(setup, seen, shots, dark, motion=DeferredMotion(setup), **self.start_of(seen))
-        require_able(found, self.opened.wait(self.opened.edge.describe()))
-        judged, told = self.judged(found, seen), cut_short(self.opened, seen)
-        return replace(judged, diagnostics=(*told, *judged.diagnostics)).sealed() if told else judged
+        planner = self.planner(seen)
+        return self._able(planner, survey(planner, shots, dark))
 
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError
@@ -451,27 +437,25 @@ class Plans:
         return tuple(c for c in drift_of(setup, seen, self.opened.state) if not c.tolerated and c.component in parts)
 
     def _one(self, seen: Observation, request: PrimitiveRequest) -> Plan:
-        from pico import planning
+        planner = self.planner(seen)
+        return self.judged(planner.plan(_goal_of(planner, request)), seen)
 
-        name, setup, options = request.component, self.opened.setup, self.start_of(seen)
-        if request.primitive == "set":
-            assert request.tunable is not None and request.value is not None
-            found = planning.set_one(setup, seen, name, request.tunable, request.value, **options)
-        elif request.primitive == "home":
-            assert request.tunable is not None
-            found = planning.home_one(setup, seen, name, request.tunable, **options)
-        elif request.measurable is not None:
-            wanted = [(name, request.measurable)]
-            found = planning.measure(setup, seen, wanted, motion=DeferredMotion(setup), **options)
-        elif request.slot is None and request.pose is None:
-            found = planning.do_one(
-                setup, seen, name, request.primitive, request.arguments, motion=DeferredMotion(setup), **options
-            )
-        else:
-            goal = request.slot or request.pose
-            assert goal is not None
-            found = planning.move_one(setup, seen, name, goal, motion=DeferredMotion(setup), **options)
-        return self.judged(found, seen)
+
+def _goal_of(planner: Planner, request: PrimitiveRequest) -> PlanGoal:
+    from pico import planning
+
+    name = request.component
+    if request.primitive == "set":
+        assert request.tunable is not None and request.value is not None
+        return planning.set_one(planner, name, request.tunable, request.value)
+    if request.primitive == "home":
+        assert request.tunable is not None
+        return planning.home_one(planner, name, request.tunable)
+    if request.measurable is not None:
+        return planning.measure(planner, [(name, request.measurable)])
+    if place := request.slot or request.pose:
+        return planning.move_one(planner, name, place)
+    return planning.do_one(planner, name, request.primitive, request.arguments)
 
 
 def written(value: object) -> str:

@@ -16,10 +16,10 @@ from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.primitive import primitive
-from pico.model.state import LabState, state_from_json
+from pico.model.state import LabState, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed
-from pico.runs.left_set import left_set, with_values
+from pico.runs.left_set import left_set
 
 if TYPE_CHECKING:
     from pico.model.setup import Setup
@@ -44,6 +44,7 @@ class Recovery:
         what brings about no state is left of it, such as a measurement.
         """
         from pico.execution.resume import renumbered
+        from pico.planning import PlanGoal
 
         memory = self._memory()
         refuse_in_use(self.opened)
@@ -64,7 +65,8 @@ class Recovery:
         target = began.target
         if began.asked and not (target.revision or target.title):
             target = replace(target, title=f"what run {last.run} was to lead to")
-        plan = Plans(self.opened).to_state(seen, wanted, target, targets=only or (), exclude=target.exclude or ())
+        goal = PlanGoal(wanted, target, targets=tuple(only or ()), exclude=target.exclude or ())
+        plan = Plans(self.opened).to_state(seen, goal)
         anew = {op.address for op in plan.operations if op.primitive == "optimize"}  # it aligns all the same
         sought = {key: op for key, op in sought.items() if op.address not in anew}
         plan = Plans(self.opened).with_goals_again(plan, seen, sought)
@@ -81,6 +83,8 @@ class Recovery:
         run began goes to where it stood before that. What nobody knew before it is left as it is; where something else
         has changed since, the plan is for what the run changed alone. Raises PicoError where no run has moved anything.
         """
+        from pico.planning import PlanGoal
+
         memory = self._memory()
         refuse_in_use(self.opened)
         moving = memory.moving()
@@ -101,15 +105,16 @@ class Recovery:
         numbers = all(tunable in self.opened.setup.type_of(component).tunables for component, tunable in done)
         taken = f", with {listed(held)} where it was picked" if held else ""
         target = Target(
-            title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run,
-            state=wanted.as_json(),
-        )  # fmt: skip
+            title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run
+        )
         targets = tuple(sorted(f"{component}.{tunable}" for component, tunable in done)) if numbers else only
-        return Plans(self.opened).to_state(looked, wanted, target, exact=numbers, targets=targets)
+        return Plans(self.opened).to_state(looked, PlanGoal(wanted, target, exact=numbers, targets=targets))
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, sets back what the last run had set for a measurement
         where only a script could go on with it, and changes nothing else."""
+        from pico.planning import PlanGoal
+
         refuse_in_use(self.opened)
         if memory := self.opened.edge.memory:
             self._as_before(memory)
@@ -118,8 +123,8 @@ class Recovery:
         before = left_set(memory, seen) if memory else {}
         wanted = with_values(wanted, before)
         title = f"the bench with empty hands{f', and {listed(sorted(before))} as before' if before else ''}"
-        target = Target(title=title, cause="recover", state=wanted.as_json())
-        return Plans(self.opened).to_state(seen, wanted, target)
+        target = Target(title=title, cause="recover")
+        return Plans(self.opened).to_state(seen, PlanGoal(wanted, target))
 
     def _as_before(self, memory: Memory) -> None:
         """Move the bench in the fidelity of the last run, unless somebody asked for another."""

@@ -248,22 +248,17 @@ class Alone:
             self._wrong(f"{', '.join(lit)} may be lit still")
 
     async def _park(self, terms: Terms, moves: bool) -> None:
-        from pico import planning
         from pico.edge.running import new_run_id
-        from pico.model.observation import live_state
-        from pico.model.plan import Base
         from pico.motion.deferred import DeferredMotion
+        from pico.planning import Planner, park
 
         edge, seen = self._edge, await self._edge.observe()
         robots = edge.setup.lab.robots
         away = [n for n, one in sorted(seen.robots.items()) if one.holding or not robots[n].is_parked(one.joints)]
         if away and moves:
             able = await edge.describe()
-            plan = planning.park(
-                edge.setup, seen, motion=DeferredMotion(edge.setup), backend=able.name, fidelity=able.fidelity,
-                base=Base(state=live_state(edge.setup, seen).as_json()),
-            )  # fmt: skip
-            plan = plan.for_recipe(terms.recipe, "unattended")
+            planner = Planner(edge.setup, DeferredMotion(edge.setup), seen, able.name, able.fidelity)
+            plan = planner.plan(park(planner)).for_recipe(terms.recipe, "unattended")
             if plan.operations:
                 await edge.report(await edge.start(Job(plan=plan, holder="the edge", wait=GRACE), new_run_id()))
             seen = await edge.observe()

@@ -7,7 +7,7 @@ after a part was re-mounted, homed or exchanged the same number is another angle
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final, Literal
 
 from pico.model.pose import Pose
@@ -213,3 +213,14 @@ def home_state(setup: Setup) -> LabState:
         for name, part in setup.lab.inventory.items()
     }
     return LabState(lab=setup.lab.name, components=components)
+
+
+def with_values(state: LabState, values: Mapping[str, Value]) -> LabState:
+    """Return a state with some tunables of components that it names at other values, by address."""
+    parts = dict(state.components)
+    for address, value in values.items():
+        component, _, tunable = address.partition(".")
+        if component in parts:
+            part = parts[component]
+            parts[component] = replace(part, values={**part.values, tunable: value})
+    return replace(state, components=parts)

@@ -1,8 +1,8 @@
-"""From the bench as it was seen to the state wanted: a plan, or why there is none."""
+"""From the bench as it was seen to what is wanted: a plan, or why there is none."""
 
-from pico.planning.compile import plan
+from pico.planning.passes.goal import PlanGoal
+from pico.planning.planner import Planner
 from pico.planning.single import (
-    again,
     arm_one,
     do_one,
     home_one,
@@ -16,6 +16,6 @@ from pico.planning.single import (
 )
 
 __all__ = [
-    "again", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "park", "plan", "set_one",
+    "PlanGoal", "Planner", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "park", "set_one",
     "survey", "teleoperate_one",
 ]  # fmt: skip

@@ -14,6 +14,7 @@ from pico.motion.types import Blocked, Motion
 from pico.planning.checks.emission import lets_out
 from pico.planning.parts.movers import standing_obstacles
 from pico.planning.parts.setdown import park_operation
+from pico.planning.passes.draft import Draft
 
 ASKED = Reason(kind="asked")
 SECONDS = 30.0
@@ -43,7 +44,7 @@ def _steerable(kind: Tunable) -> bool:
 
 
 def teleoperating(
-    setup: Setup, seen: Observation, component: str, tunables: tuple[str, ...], motion: Motion
+    setup: Setup, seen: Observation, component: str, tunables: tuple[str, ...], motion: Motion | None
 ) -> list[Operation]:
     """Return the operations in which a person steers a component.
 
@@ -75,7 +76,7 @@ def _bounds(kind: Tunable) -> list[float] | None:
     return [-kind.period / 2, kind.period / 2] if kind.period else None
 
 
-def _by_arm(setup: Setup, seen: Observation, component: str, motion: Motion) -> list[Operation]:
+def _by_arm(setup: Setup, seen: Observation, component: str, motion: Motion | None) -> list[Operation]:
     robot, yaw = _hand(setup, seen, component, motion)
     pose = seen.components[component].pose
     steer = Operation(
@@ -88,10 +89,10 @@ def _by_arm(setup: Setup, seen: Observation, component: str, motion: Motion) -> 
     return [steer, park_operation(setup, seen, robot, (steer.id,), motion)]
 
 
-def _hand(setup: Setup, seen: Observation, component: str, motion: Motion) -> tuple[str, float]:
+def _hand(setup: Setup, seen: Observation, component: str, motion: Motion | None) -> tuple[str, float]:
     """Return the first robot, with the direction in which its jaws close, that can take a component where it stands."""
     pose, grasp = seen.components[component].pose, setup.type_of(component).geometry.grasp
-    assert pose is not None  # the caller looked
+    assert pose is not None and motion is not None  # the caller looked, and arms are to move
     if not setup.movable(component) or grasp is None:
         text = f"no arm can move {component}: only a person can"
         raise PicoError(error("operator", text, address=component), ExitCode.IMPOSSIBLE)
@@ -113,19 +114,17 @@ def _hand(setup: Setup, seen: Observation, component: str, motion: Motion) -> tu
     raise PicoError(why or none, ExitCode.IMPOSSIBLE)
 
 
-def kept_dark(setup: Setup, operations: list[Operation]) -> tuple[list[Operation], list[Diagnostic]]:
-    """Return the operations without those that let light out again after an arm, and what is said of each: where a
-    part ends that a person steers nobody knows, so that nothing could be said of the light."""
-    steers = any(op.primitive == "teleoperate" and op.robot for op in operations)
-    shut = [op for op in operations if steers and lets_out(setup, op)]
-    told = [
+def kept_dark(draft: Draft) -> Draft:
+    """Return the plan without what lets light out again after an arm that a person steers, and with what is said of
+    each: where its part ends nobody knows, so that nothing could be said of the light."""
+    steers = any(op.primitive == "teleoperate" and op.robot for op in draft.operations)
+    shut = {op.id: op.component for op in draft.operations if steers and lets_out(draft.setup, op)}
+    kept = (op for op in draft.operations if op.id not in shut)
+    left = (replace(op, after=tuple(e for e in op.after if e not in shut)) for op in kept)
+    return replace(draft, operations=tuple(left)).told(*(
         warning(
-            "shut", f"{op.component} stays shut afterwards: where its light goes then is not known yet",
-            hint=f"`pico set {op.component} shutter=open` lets it out, after the beam audit",
-            address=f"{op.component}.shutter",
+            "shut", f"{name} stays shut afterwards: where its light goes then is not known yet",
+            hint=f"`pico set {name} shutter=open` lets it out, after the beam audit", address=f"{name}.shutter",
         )
-        for op in shut
-    ]  # fmt: skip
-    gone = {op.id for op in shut}
-    left = (replace(op, after=tuple(e for e in op.after if e not in gone)) for op in operations if op.id not in gone)
-    return [*left], told
+        for name in shut.values()
+    ))  # fmt: skip

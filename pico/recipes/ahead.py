@@ -207,11 +207,13 @@ class _Ahead:
 
     def to_made(self, given: Mapping[str, Any]) -> Plan | None:
         """Return the plan to a revision that the recipe will have made by then."""
+        from pico.planning import PlanGoal
+
         state = self.made.get(str(given.get("revision")))
         if state is None:
             return None
-        target = Target(revision=str(given["revision"]), state=state.as_json())
-        return self.later.plans.to_state(self.later.seen, state, target)
+        goal = PlanGoal(state, Target(revision=str(given["revision"])))
+        return self.later.plans.to_state(self.later.seen, goal)
 
 
 def _moves(step: Act) -> bool:

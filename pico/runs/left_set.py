@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.model.quantities import Value
@@ -11,7 +10,6 @@ from pico.runs.journal import operation_from_json
 
 if TYPE_CHECKING:
     from pico.model.observation import Observation
-    from pico.model.state import LabState
     from pico.runs.memory import Memory
 
 
@@ -48,14 +46,3 @@ def _differs(seen: Observation, address: str, value: Value) -> bool:
     component, _, tunable = address.partition(".")
     live = seen.known_values.get(component, {}).get(tunable)
     return live is not None and live != value
-
-
-def with_values(state: LabState, values: Mapping[str, Value]) -> LabState:
-    """Return a state with some tunables of components that it names at other values, by address."""
-    parts = dict(state.components)
-    for address, value in values.items():
-        component, _, tunable = address.partition(".")
-        if component in parts:
-            part = parts[component]
-            parts[component] = replace(part, values={**part.values, tunable: value})
-    return replace(state, components=parts)

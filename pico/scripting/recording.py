@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import signal
 import threading
-from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING, Any, Self
 
@@ -17,7 +16,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.protocol import RECIPE, RECORDING, Job
 from pico.edge.running import new_run_id
 from pico.model.observation import live_state
-from pico.model.plan import LabRef, Plan, Target
+from pico.model.plan import Plan, Target
 from pico.model.trace.report import RunReport
 from pico.model.trace.run import RunOutcome
 from pico.scripting.tables import Table
@@ -117,12 +116,11 @@ class Recording:
     def _plan(self) -> Plan:
         """Return the plan of a run whose operations are asked for while it is open."""
         from pico.bench.plans import Plans
+        from pico.planning import PlanGoal
 
         opened = self.opened
         seen = opened.wait(opened.edge.observe())
-        target = replace(self._target, state=live_state(opened.setup, seen).as_json())
-        lab = LabRef(name=opened.setup.lab.name, digest=opened.setup.digest())
-        return Plan(lab=lab, target=target, **Plans(opened).start_of(seen)).sealed()
+        return Plans(opened).planner(seen).plan(PlanGoal(live_state(opened.setup, seen), self._target, operations=()))
 
 
 def _outcome(exc: BaseException | None) -> RunOutcome:

@@ -29,10 +29,12 @@ from pico.edge.link.opening import opened
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Edge, Job
 from pico.history.examples.example import example_names, make_example
+from pico.model.observation import live_state
 from pico.model.operation import Operation, Reason
-from pico.model.plan import LabRef, Plan, Target
+from pico.model.plan import Plan, Target
 from pico.model.record import as_json
 from pico.model.trace.event import Event
+from pico.planning import PlanGoal
 from pico.twin.snapshot import Recording
 from pico.vision.arm import NOMINAL
 
@@ -185,8 +187,8 @@ def test_one_moves_it_at_a_time_and_a_lease_that_is_over_moves_nothing(bench: Be
 def opening(bench: Bench) -> Plan:
     """Return the plan of a run whose operations are asked for while it is open."""
     seen = bench.observe()
-    lab, target = LabRef(name=bench.setup.lab.name, digest=bench.setup.digest()), Target(title="it", cause="recording")
-    return Plan(lab=lab, target=target, **bench.plans.start_of(seen)).sealed()
+    goal = PlanGoal(live_state(bench.setup, seen), Target(title="it", cause="recording"), operations=())
+    return bench.plans.planner(seen).plan(goal)
 
 
 def test_an_open_run_has_the_operations_of_all_that_is_started_within_it(bench: Bench) -> None:

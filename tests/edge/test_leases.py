@@ -25,7 +25,7 @@ from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
-from pico.planning import set_one
+from pico.planning import Planner, set_one
 
 Acting = Callable[[Callable[[Edge], Awaitable[Any]]], Any]
 
@@ -104,7 +104,8 @@ def test_only_the_last_runs_are_kept_for_who_follows_them(tmp_path: Path, monkey
         edge = edge_of(root, "sim", "kinematic")
         for number in range(6):
             seen, angle = await edge.observe(), 10.0 + number
-            plan = set_one(edge.setup, seen, "p1", "angle", angle, backend="sim", fidelity="kinematic")
+            planner = Planner(edge.setup, None, seen)
+            plan = planner.plan(set_one(planner, "p1", "angle", angle))
             await edge.start(Job(plan=plan, holder="test"), f"r{number}")
             await edge.report(f"r{number}")
         assert len([event async for event in edge.events("r5")]) > 2

@@ -19,8 +19,9 @@ from pico.edge import unattended
 from pico.edge.protocol import RECIPE, Job
 from pico.history.examples.example import make_example
 from pico.model.observation import live_state
-from pico.model.plan import LabRef, Plan, Target
+from pico.model.plan import Target
 from pico.model.trace.unattended import Left, Terms
+from pico.planning import PlanGoal
 
 NAME = "night@20261124T230000Z-abcdef"
 
@@ -63,9 +64,8 @@ def open_run(bench: Bench) -> None:
     """Hold a run to its terms, and begin it as a recipe does."""
     bench.wait(bench.edge.hold(terms()))
     seen = bench.observe()
-    target = Target(title="night", cause="recipe", recipe=NAME, state=live_state(bench.setup, seen).as_json())
-    lab = LabRef(name=bench.setup.lab.name, digest=bench.setup.digest())
-    plan = Plan(lab=lab, target=target, **bench.plans.start_of(seen)).sealed()
+    target = Target(title="night", cause="recipe", recipe=NAME)
+    plan = bench.plans.planner(seen).plan(PlanGoal(live_state(bench.setup, seen), target, operations=()))
     bench.wait(bench.edge.open(Job(plan=plan, holder=f"{RECIPE} {NAME}"), "night"))
 
 

@@ -14,13 +14,12 @@ from pico.backends.sim.device import SimDevice
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Edge, Job
 from pico.manifest.load import load_folder
-from pico.model.observation import live_state
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.model.trace.event import Event
 from pico.motion.arms import ArmMotion
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 
 SHEL = Path(__file__).resolve().parent.parent.parent / "labs" / "shel"
 NOON = "2026-11-01T12:00:00Z"
@@ -56,12 +55,8 @@ def sim(setup: Setup, root: Path, **options: Any) -> LocalEdge:
 async def plan_to(backend: LocalEdge, wanted: LabState) -> Plan:
     """Return the plan from the bench as it stands to `wanted`."""
     setup, seen = backend.setup, await backend.observe()
-    base = Base(observed_at=seen.observed_at, state=live_state(setup, seen).as_json())
     able = await backend.describe()
-    return plan(
-        setup, seen, wanted, motion=ArmMotion(setup), backend=able.name, fidelity=able.fidelity, base=base,
-        target=Target(state=wanted.as_json()),
-    )  # fmt: skip
+    return Planner(setup, ArmMotion(setup), seen, able.name, able.fidelity).plan(PlanGoal(wanted))
 
 
 async def execute(

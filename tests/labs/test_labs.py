@@ -15,7 +15,7 @@ from shapely import affinity
 from pico.history.examples.example import example_names, make_example
 from pico.manifest.load import load_files, load_folder
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.robot import Fingers
 from pico.model.setup import Setup
@@ -23,7 +23,7 @@ from pico.model.state import LabState, home_state, place_of
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import MovePath
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 from pico.resources import labs_dir
 
 Example = tuple[Setup, dict[str, LabState]]
@@ -117,7 +117,7 @@ def planned(setup: Setup, motion: ArmMotion, a: LabState, b: LabState) -> Plan:
         values = {k: ObservedValue(value=v) for k, v in part.values.items()} if part else {}
         seen[name] = ObservedComponent(pose=place_of(setup, a, name)[1], values=values)
     live = Observation(backend="sim", components=seen)
-    return plan(setup, live, b, motion=motion, backend="sim", fidelity="kinematic", base=Base(), target=Target())
+    return Planner(setup, motion, live).plan(PlanGoal(b))
 
 
 EVERY_WAY = [

@@ -21,7 +21,7 @@ from pico.manifest.load import load_files, load_folder
 from pico.model.arming import Licence
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, place_of
@@ -29,7 +29,7 @@ from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import fk, joint_at
 from pico.motion.recheck import Recheck, Task
 from pico.motion.types import MovePath, Segment
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 
 THICK = 90.0
 """How far an arm, its hand or what it carries reaches from the lines between its joints [mm]."""
@@ -59,10 +59,7 @@ def observed(setup: Setup, state: LabState) -> Observation:
 
 def planned(lab: tuple[Setup, States, ArmMotion], a: str, b: str) -> Plan:
     setup, states, motion = lab
-    return plan(
-        setup, observed(setup, states[a]), states[b], motion=motion, backend="sim", fidelity="kinematic", base=Base(),
-        target=Target(),
-    )  # fmt: skip
+    return Planner(setup, motion, observed(setup, states[a])).plan(PlanGoal(states[b]))
 
 
 def arms(setup: Setup, pose: Pose) -> set[str]:
@@ -256,9 +253,7 @@ def test_an_arm_left_where_arms_meet_parks_before_the_other_comes_in(lab: tuple[
     wanted = replace(states["polarized"], components={
         **states["polarized"].components, "iris_out": ComponentState(pose=Pose(1180, 450, 0)),
     })  # fmt: skip
-    made = plan(
-        setup, seen, wanted, motion=motion, backend="sim", fidelity="kinematic", base=Base(), target=Target()
-    )  # fmt: skip
+    made = Planner(setup, motion, seen).plan(PlanGoal(wanted))
     assert not made.errored, [d.summary for d in made.diagnostics]
     park, move = (next(o for o in made.operations if o.component == name) for name in ("arm1", "iris_out"))
     assert park.start + park.seconds <= move.start + 1e-6

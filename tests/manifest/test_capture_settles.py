@@ -12,10 +12,10 @@ from pico.backends.sim.world import new_world, observe
 from pico.manifest.edit import capture
 from pico.manifest.load import load_files
 from pico.model.observation import Observation, ObservedValue, live_state, slot_at
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.state import LabState
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 from pico.resources import labs_dir
 
 LAB = {"lab.yaml": (labs_dir() / "shel" / "lab.yaml").read_bytes()}
@@ -56,8 +56,7 @@ def manifest(places: dict[str, Pose | str | None]) -> bytes:
 
 
 def planned(seen: Observation, wanted: LabState) -> Plan:
-    base, target = Base(state=live_state(SETUP, seen).as_json()), Target(state=wanted.as_json())
-    return plan(SETUP, seen, wanted, motion=None, backend="sim", fidelity="kinematic", base=base, target=target)
+    return Planner(SETUP, None, seen).plan(PlanGoal(wanted))
 
 
 @settings(deadline=None, max_examples=examples(30))

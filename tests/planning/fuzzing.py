@@ -8,9 +8,9 @@ from checker import check
 from exhaustive import Undecided, least_moves
 from random_labs import Case, random_case
 
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.motion.types import Motion
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 
 SMALL = 7
 """Up to so many components the exhaustive search decides about a refusal."""
@@ -35,10 +35,7 @@ class Verdict:
 
 def plan_case(case: Case, motion: Motion | None = None) -> Plan:
     """Return the plan of a case, without motion where none is given."""
-    return plan(
-        case.setup, case.seen, case.wanted, motion=motion, backend="sim", fidelity="kinematic", base=Base(),
-        target=Target(),
-    )  # fmt: skip
+    return Planner(case.setup, motion, case.seen).plan(PlanGoal(case.wanted))
 
 
 def judge(seed: int, *, least: int = 5, most: int = 30) -> Verdict:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 from pico.model.catalog import Axis, ComponentType, Footprint, Geometry, Grasp, Tunable
 from pico.model.lab import Lab, Part, Slot, Table
-from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
-from pico.model.plan import Base, Plan, Target
+from pico.model.observation import Observation, ObservedComponent, ObservedValue
+from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.motion.types import Motion
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 
 Places = Mapping[str, str | tuple[float, ...]]
 
@@ -97,10 +97,15 @@ def want(places: Places, values: Mapping[str, Mapping[str, Any]] | None = None) 
 
 def planned(setup: Setup, seen: Observation, wanted: LabState, motion: Motion | None = None, **rest: Any) -> Plan:
     """Return the plan."""
-    return plan(
-        setup, seen, wanted, motion=motion, backend="sim", fidelity="kinematic",
-        base=Base(state=live_state(setup, seen).as_json()), target=Target(state=wanted.as_json()), **rest,
-    )  # fmt: skip
+    return Planner(setup, motion, seen).plan(PlanGoal(wanted, **rest))
+
+
+def one(
+    goal: Callable[..., PlanGoal], setup: Setup, seen: Observation, *arguments: Any, motion: Motion | None = None
+) -> Plan:  # fmt: skip
+    """Return the plan of one operation: `goal` is a function of `pico.planning`, with its arguments after the bench."""
+    planner = Planner(setup, motion, seen)
+    return planner.plan(goal(planner, *arguments))
 
 
 def moves(made: Plan) -> list[tuple[str, str]]:

@@ -22,15 +22,14 @@ from pico.model.observation import (
     ObservedValue,
     Uncertainty,
     UnknownObject,
-    live_state,
 )
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.robot import Gripper, Mount, Robot
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, place_of
 from pico.motion.arms import ArmMotion
-from pico.planning import move_one, plan
+from pico.planning import PlanGoal, Planner, move_one
 
 SHUTTER = Tunable(datatype="choice", choices=("open", "closed"), settle=50)
 TUNABLES = {
@@ -101,17 +100,15 @@ def move_alone(made: Spiced, name: str) -> Plan:
     """Return the plan that takes one part to where it belongs, and moves nothing else."""
     setup, (slot, pose) = made.case.setup, place_of(made.case.setup, made.case.wanted, name)
     motion = ArmMotion(setup) if made.with_arms else None
-    return move_one(setup, made.seen, name, slot or pose, motion=motion)
+    planner = Planner(setup, motion, made.seen)
+    return planner.plan(move_one(planner, name, slot or pose))
 
 
 def plan_spiced(made: Spiced) -> Plan:
     """Return the plan of a case."""
-    setup, seen, wanted = made.case.setup, made.case.seen, made.case.wanted
-    base, target = Base(state=live_state(setup, seen).as_json()), Target(state=wanted.as_json())
-    return plan(
-        setup, seen, wanted, motion=ArmMotion(setup) if made.with_arms else None, backend="sim", fidelity="kinematic",
-        base=base, target=target, **made.options,
-    )  # fmt: skip
+    setup = made.case.setup
+    motion = ArmMotion(setup) if made.with_arms else None
+    return Planner(setup, motion, made.case.seen).plan(PlanGoal(made.case.wanted, **made.options))
 
 
 def one(made: Spiced, rng: random.Random) -> str:

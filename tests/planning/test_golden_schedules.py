@@ -9,7 +9,7 @@ from kept import differs
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.planning.explaining.graph import graph_of
-from pico.planning.schedule import least_makespan, makespan, schedule
+from pico.planning.passes.schedule import least_makespan, makespan, schedule
 
 CHANGED = Reason(kind="changed")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from planning_benches import TYPES, bench, moves, part, see, want
+from planning_benches import TYPES, bench, moves, one, part, see, want
 
 from pico.diagnostics import PicoError
 from pico.model.catalog import Frames
@@ -17,7 +17,7 @@ from pico.planning import home_one, move_one, set_one
 
 def test_a_single_move_is_one_move_for_the_reason_that_it_was_asked_for() -> None:
     setup = bench({"a": "block", "b": "block"})
-    made = move_one(setup, see(setup, {"a": (300, 300), "b": (500, 300)}), "a", Pose(400, 400), motion=None)
+    made = one(move_one, setup, see(setup, {"a": (300, 300), "b": (500, 300)}), "a", Pose(400, 400))
     assert moves(made) == [("a", "400,400")]
     assert made.operations[0].reason.kind == "asked"
     assert [c.component for c in made.changes] == ["a"]
@@ -25,18 +25,18 @@ def test_a_single_move_is_one_move_for_the_reason_that_it_was_asked_for() -> Non
 
 def test_a_single_move_moves_even_by_less_than_the_tolerance() -> None:
     setup = bench({"a": "block"})
-    assert len(moves(move_one(setup, see(setup, {"a": (300, 300)}), "a", Pose(300.2, 300), motion=None))) == 1
+    assert len(moves(one(move_one, setup, see(setup, {"a": (300, 300)}), "a", Pose(300.2, 300)))) == 1
 
 
 def test_a_single_move_to_a_slot_stows() -> None:
     setup = bench({"a": "block"})
-    made = move_one(setup, see(setup, {"a": (300, 300)}), "a", "s2", motion=None)
+    made = one(move_one, setup, see(setup, {"a": (300, 300)}), "a", "s2")
     assert [(o.primitive, o.component) for o in made.operations] == [("stow", "a"), ("park", "arm1")]
 
 
 def test_a_single_move_moves_nothing_else_out_of_the_way() -> None:
     setup = bench({"a": part("one_way"), "left": "block"})
-    made = move_one(setup, see(setup, {"a": (300, 300), "left": (236, 300)}), "a", Pose(500, 300), motion=None)
+    made = one(move_one, setup, see(setup, {"a": (300, 300), "left": (236, 300)}), "a", Pose(500, 300))
     assert made.errored and "left" in made.diagnostics[0].summary
 
 
@@ -44,25 +44,25 @@ def test_a_single_move_moves_nothing_else_out_of_the_way() -> None:
 def test_what_makes_no_sense_is_an_error(where: str | Pose) -> None:
     setup = bench({"a": "block"})
     with pytest.raises(PicoError):
-        move_one(setup, see(setup, {"a": (300, 300)}), "b" if isinstance(where, Pose) else "a", where, motion=None)
+        one(move_one, setup, see(setup, {"a": (300, 300)}), "b" if isinstance(where, Pose) else "a", where)
 
 
 def test_one_value_is_set() -> None:
     setup = bench({"a": "block", "b": "block"})
     seen = see(setup, {"a": (300, 300), "b": (500, 300)}, {"a": {"angle": 0.0}, "b": {"angle": None}})
-    (turn,) = set_one(setup, seen, "a", "angle", 90.0).operations
+    (turn,) = one(set_one, setup, seen, "a", "angle", 90.0).operations
     assert (turn.arguments["from"], turn.arguments["to"], turn.reason.kind) == (0.0, 90.0, "asked")
-    assert set_one(setup, seen, "a", "angle", 0.0).operations == ()
-    assert [o.primitive for o in set_one(setup, seen, "b", "angle", 0.0).operations] == ["home", "set"]
+    assert one(set_one, setup, seen, "a", "angle", 0.0).operations == ()
+    assert [o.primitive for o in one(set_one, setup, seen, "b", "angle", 0.0).operations] == ["home", "set"]
 
 
 def test_one_axis_is_homed() -> None:
     setup = bench({"a": "block"})
     seen = see(setup, {"a": (300, 300)}, {"a": {"angle": 60.0, "exposure": 1.0}})
-    (home,) = home_one(setup, seen, "a", "angle").operations
+    (home,) = one(home_one, setup, seen, "a", "angle").operations
     assert (home.primitive, home.seconds) == ("home", 2.0)
     with pytest.raises(PicoError, match="no axis to home"):
-        home_one(setup, seen, "a", "exposure")
+        one(home_one, setup, seen, "a", "exposure")
 
 
 def test_optical_centers_lie_apart_by_the_distance_along_the_beam() -> None:

@@ -22,13 +22,13 @@ from random_labs import Case, random_case  # noqa: E402
 
 from pico.history.examples.example import example_names, make_example  # noqa: E402
 from pico.history.lab.folder import LabFolder  # noqa: E402
-from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state  # noqa: E402
-from pico.model.plan import Base, Plan, Target  # noqa: E402
+from pico.model.observation import Observation, ObservedComponent, ObservedValue  # noqa: E402
+from pico.model.plan import Plan  # noqa: E402
 from pico.model.setup import Setup  # noqa: E402
 from pico.model.state import LabState, place_of  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Motion  # noqa: E402
-from pico.planning import plan  # noqa: E402
+from pico.planning import PlanGoal, Planner  # noqa: E402
 
 RANDOM, DISCS = 12, 3
 
@@ -71,10 +71,7 @@ def as_seen(setup: Setup, state: LabState) -> Observation:
 
 
 def _planned(case: Case, motion: Motion | None) -> Plan:
-    base, target = Base(state=live_state(case.setup, case.seen).as_json()), Target(state=case.wanted.as_json())
-    return plan(
-        case.setup, case.seen, case.wanted, motion=motion, backend="sim", fidelity="kinematic", base=base, target=target
-    )
+    return Planner(case.setup, motion, case.seen).plan(PlanGoal(case.wanted))
 
 
 def line(name: str, made: Plan) -> str:

@@ -12,15 +12,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.backends.devices import SIMULATOR
-from pico.model.observation import Observation, ObservedValue, live_state
+from pico.model.observation import Observation, ObservedValue
 from pico.model.operation import Operation
-from pico.model.plan import Base, LabRef, Plan, Target
+from pico.model.plan import LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.model.trace.report import RunReport
 from pico.motion.deferred import DeferredMotion
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 from pico.planning.checks.target import Source
 
 if TYPE_CHECKING:
@@ -58,17 +58,8 @@ def plan_from(
     setup: Setup, seen: Observation, wanted: LabState, *, base: str | None, name: str, fidelity: str, source: Source
 ) -> Plan:
     """Return the plan from a bench to the state `wanted`, which is called `name`; `base`: the commit of the bench."""
-    return plan(
-        setup,
-        seen,
-        wanted,
-        motion=DeferredMotion(setup),
-        backend=SIMULATOR,
-        fidelity=fidelity,
-        base=Base(commit=base, state=live_state(setup, seen).as_json()),
-        target=Target(title=name, state=wanted.as_json(), expect=wanted.expect or None),
-        source=source,
-    )
+    planner = Planner(setup, DeferredMotion(setup), seen, SIMULATOR, fidelity, base)
+    return planner.plan(PlanGoal(wanted, Target(title=name, expect=wanted.expect or None), source=source))
 
 
 def by_hand(plan: Plan) -> tuple[Operation, ...]:

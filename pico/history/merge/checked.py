@@ -8,7 +8,6 @@ from pico.history.lab.folder import LabFolder
 from pico.history.merge.commits import MergeMade, merge_revision
 from pico.manifest.load import Manifests
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
-from pico.model.plan import Base, Target
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state, place_of
 from pico.motion.deferred import DeferredMotion
@@ -27,36 +26,28 @@ def merge(folder: LabFolder, revision: str, message: str = "") -> MergeMade:
 def impossible(merged: Manifests, before: LabState | None) -> tuple[Diagnostic, ...]:
     """Return why a merged state can't stand, else why a bench in the state `before` (None: every part at home) can't be
     brought to it."""
-    from pico.planning import plan
+    from pico.planning import PlanGoal, Planner
 
     setup, wanted = merged.require()
     standing = overlapping(merged)
     if standing:
         return standing
-    found = plan(
-        setup,
-        _as_seen(setup, before),
-        wanted,
-        motion=DeferredMotion(setup),
-        backend=SIMULATOR,
-        fidelity="kinematic",
-        base=Base(),
-        target=Target(),
-        source=merged.source,
-    )
+    planner = Planner(setup, DeferredMotion(setup), _as_seen(setup, before))
+    found = planner.plan(PlanGoal(wanted, source=merged.source))
     return tuple(d for d in found.diagnostics if d.severity == "error")
 
 
 def overlapping(merged: Manifests) -> tuple[Diagnostic, ...]:
     """Return which parts can't stand where the state wants them, each with the part that it meets."""
-    from pico.planning.actors import actors
+    from pico.planning import PlanGoal
     from pico.planning.checks.target import check_target
-    from pico.planning.parts.situation import read_situation
-    from pico.planning.request import Request
+    from pico.planning.passes.actors import actors
+    from pico.planning.passes.comparison import compared
+    from pico.planning.passes.draft import Draft
 
     setup, wanted = merged.require()
-    request = Request(setup, _as_seen(setup, None), wanted, None, merged.source)
-    movers, obstacles, put_off = actors(request, read_situation(setup, request.seen, wanted, exact=True))
+    goal = PlanGoal(wanted, exact=True, source=merged.source)
+    movers, obstacles, put_off = actors(compared(Draft(setup, None, _as_seen(setup, None), goal)))
     found = (*put_off, *check_target(setup, movers, obstacles, merged.source))
     return tuple(d for d in found if d.severity == "error")
 

@@ -1,10 +1,10 @@
 """Lasers are shut while somebody works in the beam, or an axis that steers it is homed; they open when all is done. The
-lamps of the room are on while an arm works: cameras see by them."""
+lamps of the room are on while an arm works: cameras see by them. `pico.planning.passes.interlocks` makes a plan so."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from pico.diagnostics import Diagnostic, error, warning
@@ -44,56 +44,27 @@ class Gate:
     working: Value = CLOSED
 
 
-def with_interlocks(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
-    """Return the operations, more where shutters must be closed first and opened again at the end, and with the edges
-    that this takes. A shutter ends as the operations given leave it.
-
-    What sets a shutter comes after the moves themselves, not only after the park: where a move fails, an arm still
-    parks, but nobody knows what stands in the beam, and the shutter stays closed. That of a laser which nobody lets
-    emit stays closed in the end, too.
-    """
-    out = {op.id: op for op in operations}
-    arms = [op for op in operations if op.robot is not None]
-    for lamp in _lamps(setup, seen, operations) if arms else ():
-        _keep(out, lamp, arms, "the cameras of the arm see by it", "on while an arm worked")
-    guarded = _guarded(setup, operations)
-    if not guarded or setup.lab.policy.open_beam:
-        return [*out.values()]
-    why = _why(guarded)
-    for shutter in _shutters(setup, seen, operations):
-        if _stays_shut(setup, seen, operations, shutter):
-            shutter = replace(shutter, goal=None)
-        _keep(out, shutter, guarded, why, f"closed while {why}")
-    return [*out.values()]
-
-
 def stay_shut(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> dict[str, LaserClass]:
     """Return the lasers that are open now, and that the interlocks of these operations shut for good, for nobody lets
     them emit; each with its class."""
-    if not _guarded(setup, operations) or setup.lab.policy.open_beam:
+    if not in_beam(setup, operations) or setup.lab.policy.open_beam:
         return {}
     found: dict[str, LaserClass] = {}
-    for shutter in _shutters(setup, seen, operations):
-        found |= _stays_shut(setup, seen, operations, shutter) if shutter.goal != CLOSED else {}
+    for shutter in shutters(setup, seen, operations):
+        found |= stays_shut(setup, seen, operations, shutter) if shutter.goal != CLOSED else {}
     return found
 
 
-def _stays_shut(
+def stays_shut(
     setup: Setup, seen: Observation, operations: Sequence[Operation], gate: Gate
 ) -> dict[str, LaserClass]:  # fmt: skip
+    """Return the lasers that a gate would let out again and nobody lets emit, each with its class."""
     if gate.goal is None or gate.goal == CLOSED:
         return {}
-    return unlicensed(setup, seen, [*operations, _set(gate, CLOSED, gate.goal, "")])
+    return unlicensed(setup, seen, [*operations, set_gate(gate, CLOSED, gate.goal, "")])
 
 
-def _keep(out: dict[str, Operation], gate: Gate, guarded: Sequence[Operation], why: str, was: str) -> None:
-    """Let a gate be at its working value while the guarded operations go on, and as it is to be after them."""
-    first, last = _ends(guarded)
-    _close(out, gate, first, guarded, why)
-    _set_back(out, gate, last, was)
-
-
-def _lamps(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Gate]:
+def lamps(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Gate]:
     """Yield the lamps that a plan can turn on, by name."""
     for name in sorted(setup.lab.inventory):
         kind, part = setup.type_of(name).tunables.get(LAMP), seen.components.get(name)
@@ -106,11 +77,11 @@ def _gate(
     working: Value,
 ) -> Gate:  # fmt: skip
     live = known.value if known.status == "known" else None
-    ends = [o.arguments.get("to") for o in operations if _sets(o, name, tunable)]
+    ends = [o.arguments.get("to") for o in operations if sets(o, name, tunable)]
     return Gate(laser, name, kind, live, ends[-1] if ends else known.value, tunable, working)
 
 
-def _guarded(setup: Setup, operations: Sequence[Operation]) -> list[Operation]:
+def in_beam(setup: Setup, operations: Sequence[Operation]) -> list[Operation]:
     """Return the operations that want the beam blocked: those of arms and people, and homing what steers it."""
     return [o for o in operations if _works(o) or (o.primitive == "home" and _steers(setup, o))]
 
@@ -124,14 +95,8 @@ def _steers(setup: Setup, operation: Operation) -> bool:
     return setup.type_of(operation.component).optics.element in STEERING
 
 
-def _ends(guarded: Sequence[Operation]) -> tuple[list[str], list[str]]:
-    """Return which of the guarded operations wait for none of them, and which none but a park waits for."""
-    inside = {o.id for o in guarded}
-    waited = {e for o in guarded if not o.kind.parks for e in o.after}
-    return [o.id for o in guarded if inside.isdisjoint(o.after)], [o.id for o in guarded if o.id not in waited]
-
-
-def _why(guarded: Sequence[Operation]) -> str:
+def why_shut(guarded: Sequence[Operation]) -> str:
+    """Return in words why beams are shut for operations."""
     who = sorted({o.robot or "" for o in guarded} - {""})
     who += ["a person"] if any(o.kind.by_hand for o in guarded) else []
     if who:
@@ -140,7 +105,7 @@ def _why(guarded: Sequence[Operation]) -> str:
     return f"homing {', '.join(names)} steers the beam"
 
 
-def _shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Gate]:
+def shutters(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Gate]:
     """Yield what closes each laser that a plan can close, by name: its own shutter, else one in its beam."""
     taken = set[str]()
     for laser in _lasers(setup):
@@ -169,48 +134,14 @@ def _closes(kind: Tunable) -> bool:
     return kind.mover in ("motor", "electronics") and {OPEN, CLOSED} <= set(kind.choices)
 
 
-def _sets(operation: Operation, name: str, tunable: str = "shutter") -> bool:
+def sets(operation: Operation, name: str, tunable: str = "shutter") -> bool:
+    """Whether an operation sets a tunable of a component."""
     own = operation.arguments.get("tunable")
     return operation.primitive == "set" and operation.component == name and own == tunable
 
 
-def _close(
-    out: dict[str, Operation], gate: Gate, first: Sequence[str], guarded: Sequence[Operation], why: str
-) -> None:  # fmt: skip
-    """Let the first of the guarded operations come after the gate is as it must be, by what the plan holds or more."""
-    if gate.live == gate.working:
-        return
-    closing = _setting(out, gate, gate.working) or _set(gate, gate.live, gate.working, why)
-    out.setdefault(closing.id, closing)
-    _at_once(out, closing.id, {o.id for o in guarded})
-    for k in first:
-        out[k] = replace(out[k], after=(*out[k].after, closing.id))
-
-
-def _at_once(out: dict[str, Operation], one: str, guarded: Set[str]) -> None:
-    """Let an operation, and what it waits for, wait for none of the guarded: not for a hand to be emptied, either."""
-    out[one] = replace(out[one], after=tuple(e for e in out[one].after if e not in guarded))
-    for e in out[one].after:
-        _at_once(out, e, guarded)
-
-
-def _setting(out: Mapping[str, Operation], gate: Gate, value: Value) -> Operation | None:
-    """Return the operation that sets a gate to a value; None where none does."""
-    mine = (o for o in out.values() if _sets(o, gate.component, gate.tunable) and o.arguments["to"] == value)
-    return next(mine, None)
-
-
-def _set_back(out: dict[str, Operation], gate: Gate, last: Sequence[str], was: str) -> None:
-    """Let the gate be set as wanted after the last of the guarded operations."""
-    if gate.goal is None or gate.goal == gate.working:
-        return
-    own = _setting(out, gate, gate.goal)
-    back = replace(own, arguments={**own.arguments, "from": gate.working}) if own else None
-    back = back or _set(gate, gate.working, gate.goal, was)
-    out[back.id] = replace(back, after=(*back.after, *last))
-
-
-def _set(gate: Gate, before: Value | None, after: Value, why: str) -> Operation:
+def set_gate(gate: Gate, before: Value | None, after: Value, why: str) -> Operation:
+    """Return an operation that sets a gate."""
     return Operation(
         id=new_id(), primitive="set", component=gate.component, reason=Reason(kind="interlock", text=why),
         arguments={"tunable": gate.tunable, "from": before, "to": after},
@@ -224,10 +155,10 @@ def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
     if setup.lab.policy.open_beam:
         return []
     held = [*_opened_over_a_hand(setup, seen, operations)]
-    if held or not _guarded(setup, operations):
+    if held or not in_beam(setup, operations):
         return held
-    closed = {s.laser for s in _shutters(setup, seen, operations)}
-    why = _why(_guarded(setup, operations))
+    closed = {s.laser for s in shutters(setup, seen, operations)}
+    why = why_shut(in_beam(setup, operations))
     return [
         warning(
             "open-beam", f"no operation can close the beam of {laser} while {why}",
@@ -239,10 +170,10 @@ def unguarded(setup: Setup, seen: Observation, operations: Sequence[Operation]) 
 
 
 def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Iterator[Diagnostic]:
-    closing = {*_lasers(setup), *(s.component for s in _shutters(setup, seen, operations))}
+    closing = {*_lasers(setup), *(s.component for s in shutters(setup, seen, operations))}
     for robot, hand in sorted(seen.robots.items()):
         for laser in sorted(closing):
-            if hand.holding and any(_sets(o, laser) and o.arguments["to"] == OPEN for o in operations):
+            if hand.holding and any(sets(o, laser) and o.arguments["to"] == OPEN for o in operations):
                 text = f"the shutter of {laser} stays closed while {robot} holds {hand.holding}"
                 hint = f"take {hand.holding} out of the gripper and set it down, on the simulated bench with "
                 hint += f"`pico sim nudge {hand.holding}`; then plan again"
@@ -251,8 +182,8 @@ def _opened_over_a_hand(setup: Setup, seen: Observation, operations: Sequence[Op
 
 def policy_rules(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> tuple[Mapping[str, Any], ...]:
     """Return what `Plan.policy` says of a plan's lasers: each rule with whether it holds, and in words."""
-    count = sum(not o.kind.parks for o in _guarded(setup, operations))
-    lasers = [s.component for s in _shutters(setup, seen, operations)]
+    count = sum(not o.kind.parks for o in in_beam(setup, operations))
+    lasers = [s.component for s in shutters(setup, seen, operations)]
     if not count or not lasers:
         return ()
     when = f"during {count} move{'' if count == 1 else 's'}"

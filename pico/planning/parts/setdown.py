@@ -124,23 +124,9 @@ def _stuck(robot: str, name: str, why: str) -> Diagnostic:
     )  # fmt: skip
 
 
-def after_set_downs(
-    setup: Setup, settled: EmptiedHands, rest: Sequence[Operation], motion: Motion | None
-) -> list[Operation]:
-    """Return the operations with the set-downs before all others, and with a park of each robot that does nothing
-    else."""
-    first = settled.operations
-    if not first:
-        return list(rest)
-    out = [*first, *(replace(o, after=o.after or (first[-1].id,)) for o in rest)]
-    waits = first[-1].id
-    for robot in sorted({o.robot or "" for o in first} - {o.robot for o in rest}):
-        out.append(park_operation(setup, settled.seen, robot, (waits,), motion))
-        waits = out[-1].id  # one at a time: they may meet
-    return out
-
-
-def parked_first(setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None) -> list[Operation]:
+def parked_first(
+    setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None
+) -> tuple[Operation, ...]:  # fmt: skip
     """Return the operations after a park of each arm that was stopped on its way with an empty hand, and that none of
     them uses. An arm that has no way to its park pose is left where it stands."""
     used, parks = {o.robot for o in rest}, list[Operation]()
@@ -148,9 +134,8 @@ def parked_first(setup: Setup, seen: Observation, rest: Sequence[Operation], mot
         found = _park_path(setup, seen, name, motion)
         if name not in used and not isinstance(found, Blocked):
             parks.append(park_operation(setup, seen, name, [p.id for p in parks[-1:]], motion))
-    if not parks:
-        return list(rest)
-    return [*parks, *(replace(o, after=(parks[-1].id, *o.after)) if o.robot else o for o in rest)]
+    last = tuple(p.id for p in parks[-1:])
+    return (*parks, *(replace(o, after=(*last, *o.after)) if o.robot else o for o in rest))
 
 
 def _park_path(setup: Setup, seen: Observation, robot: str, motion: Motion | None) -> MovePath | Blocked | None:

@@ -10,7 +10,7 @@ from checker import check
 from fuzzing import plan_case
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from planning_benches import TALL, TYPES, bench, part, planned, see, want
+from planning_benches import TALL, TYPES, bench, one, part, planned, see, want
 from random_labs import random_case
 
 from examples import examples
@@ -121,7 +121,9 @@ def test_without_a_move_nobody_touches_the_shutter() -> None:
     made = planned(*case("open", "open", moves=False))
     assert (made.operations, made.policy) == ((), ())
     setup, seen, _ = case("open", None)
-    assert [o.arguments["to"] for o in set_one(setup, seen, "laser0", "shutter", "closed").operations] == ["closed"]
+    assert [o.arguments["to"] for o in one(set_one, setup, seen, "laser0", "shutter", "closed").operations] == [
+        "closed"
+    ]
 
 
 def test_an_equal_bench_stays_equal_after_the_shutter_was_opened_again() -> None:
@@ -136,14 +138,14 @@ def test_in_a_plan_for_other_components_the_shutter_ends_as_it_was(live: str, to
 
 def test_a_single_move_closes_the_shutter_and_opens_it_again() -> None:
     setup, seen, _ = case("open", None)
-    assert steps(move_one(setup, seen, "a", Pose(*THERE), motion=None)) == ["closed", "move", "park", "open"]
+    assert steps(one(move_one, setup, seen, "a", Pose(*THERE))) == ["closed", "move", "park", "open"]
 
 
 @pytest.mark.parametrize(("name", "told"), [("plate", ["closed", "home", "open"]), ("pol", ["home"])])
 def test_homing_closes_the_shutter_where_it_steers_the_beam(name: str, told: list[str]) -> None:
     setup = lit()
     seen = see(setup, at(HERE), {"laser0": {"shutter": "open"}, name: {"angle": 10.0}})
-    assert steps(home_one(setup, seen, name, "angle")) == told
+    assert steps(one(home_one, setup, seen, name, "angle")) == told
 
 
 def test_where_the_lab_allows_open_beam_work_the_shutter_stays() -> None:
@@ -186,7 +188,7 @@ def test_a_laser_that_nothing_can_close_is_told() -> None:
 def test_the_shutter_is_closed_while_a_person_works_at_the_table() -> None:
     setup = lit()
     seen = see(setup, at(HERE), {"laser0": {"shutter": "open"}, "a": {"filter": "red"}})
-    close, by_hand, back = set_one(setup, seen, "a", "filter", "blue").operations
+    close, by_hand, back = one(set_one, setup, seen, "a", "filter", "blue").operations
     assert (close.arguments["to"], by_hand.primitive, back.arguments["to"]) == ("closed", "operator", "open")
     assert close.reason.text == "a person works in the beam"
     assert close.id in by_hand.after and by_hand.id in back.after
@@ -210,7 +212,7 @@ def gated(gate: tuple[float, ...], *more: tuple[float, float]) -> tuple[Setup, O
 
 
 def moved_beside(setup: Setup, seen: Observation, to: Pose = Pose(*THERE)) -> Plan:  # noqa: B008
-    return move_one(setup, seen, "a", to, motion=None)
+    return one(move_one, setup, seen, "a", to)
 
 
 def test_a_shutter_that_stands_in_the_beam_closes_it() -> None:
@@ -240,7 +242,7 @@ def test_a_shutter_elsewhere_does_not_count(gate: Any, more: Any, to: Any) -> No
 
 def test_a_shutter_that_is_moved_does_not_count() -> None:
     setup, seen = gated((300, 420, 0))
-    made = move_one(setup, seen, "gate", Pose(400, 420), motion=None)
+    made = one(move_one, setup, seen, "gate", Pose(400, 420))
     assert [d.code for d in made.diagnostics] == ["open-beam"]
 
 
@@ -251,7 +253,7 @@ def test_a_shutter_that_is_all_that_closes_an_unarmed_laser_is_not_moved_out_of_
     for enclosed in (None, True):
         lab = replace(setup.lab, policy=replace(setup.lab.policy, enclosed=enclosed))
         unarmed = Setup(lab=lab, catalog=kinds)
-        made = move_one(unarmed, seen, "gate", Pose(400, 200), motion=None)
+        made = one(move_one, unarmed, seen, "gate", Pose(400, 200))
         assert "unarmed" in [d.code for d in made.diagnostics if d.severity == "error"]
         with pytest.raises(PicoError, match="nobody has armed it"):
             require_licensed(unarmed, seen, made.operations)

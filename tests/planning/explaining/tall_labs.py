@@ -20,14 +20,14 @@ from pico.model.catalog import ComponentType, Footprint, Geometry, Grasp
 from pico.model.lab import Lab as LabFile
 from pico.model.lab import Margins, Part, Slot, Table
 from pico.model.observation import Observation, ObservedComponent
-from pico.model.plan import Base, Plan, Target
+from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.motion.arms import ArmMotion
 from pico.motion.types import MovePath, StandingObject
-from pico.planning import plan
+from pico.planning import PlanGoal, Planner
 
 SIZE = (1200.0, 900.0)
 CONFIGURATIONS, QUESTIONS = 60_000, 600
@@ -244,10 +244,7 @@ def judge(seed: int) -> Judged:
     case, robots = tall_case(seed)
     motion = ArmMotion(case.setup)
     began = time.process_time()
-    made = plan(
-        case.setup, case.seen, case.wanted, motion=motion, backend="sim", fidelity="kinematic", base=Base(),
-        target=Target(),
-    )  # fmt: skip
+    made = Planner(case.setup, motion, case.seen).plan(PlanGoal(case.wanted))
     took = time.process_time() - began
     errors = [d for d in made.diagnostics if d.severity == "error"]
     if not errors:

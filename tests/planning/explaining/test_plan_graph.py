@@ -12,7 +12,7 @@ from planning_benches import bench, planned, see, want
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.planning.explaining.graph import graph_of
-from pico.planning.schedule import makespan, schedule
+from pico.planning.passes.schedule import makespan, schedule
 
 SECONDS = st.integers(0, 40).map(lambda n: n / 4)
 

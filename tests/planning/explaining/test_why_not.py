@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from planning_benches import Places, bench, part, planned, see, want
+from planning_benches import Places, bench, one, part, planned, see, want
 
 from pico.diagnostics import Diagnostic, PicoError, Position, SourceRange, error, warning
 from pico.model.catalog import Footprint
@@ -19,8 +19,7 @@ from pico.model.pose import Pose
 from pico.model.request import place_after
 from pico.model.setup import Setup
 from pico.motion.types import Blocked
-from pico.planning import set_one
-from pico.planning.actors import actors
+from pico.planning import PlanGoal, set_one
 from pico.planning.checks.bolted import check_bolted
 from pico.planning.checks.contacts import Contact, ends_of, spot_of, starts_of
 from pico.planning.explaining.blocking import blocks_of
@@ -32,8 +31,9 @@ from pico.planning.ordering.search import OrderedMove
 from pico.planning.ordering.solve import Refusal
 from pico.planning.parts.movers import Hold
 from pico.planning.parts.phrases import listed
-from pico.planning.parts.situation import read_situation
-from pico.planning.request import Request
+from pico.planning.passes.actors import actors
+from pico.planning.passes.comparison import compared
+from pico.planning.passes.draft import Draft
 
 LINE = SourceRange("state/table.yaml", Position(3, 1), Position(3, 9), "p")
 
@@ -53,8 +53,8 @@ def table(
 ) -> Conflicts:  # fmt: skip
     setup = bench(parts, **lab)
     now = see(setup, seen)
-    request = Request(setup, now, want(wanted), motion, lambda _: LINE)
-    movers, obstacles, _ = actors(request, read_situation(setup, now, request.wanted))
+    goal = PlanGoal(want(wanted), source=lambda _: LINE)
+    movers, obstacles, _ = actors(compared(Draft(setup, motion, now, goal)))
     return Conflicts(setup, movers, obstacles, motion, False)
 
 
@@ -297,7 +297,7 @@ def test_what_was_wrong_with_what_was_seen_is_an_error_only_where_the_goal_names
         error("odd", "b is odd", address="b"), error("odd", "all is odd"), warning("odd", "b is odd, too", address="b"),
     )  # fmt: skip
     seen = replace(see(setup, {"a": (300, 300)}), problems=problems)
-    found = read_situation(setup, seen, want({"a": (300, 300)})).diagnostics
+    found = compared(Draft(setup, None, seen, PlanGoal(want({"a": (300, 300)})))).diagnostics
     assert [(d.severity, d.summary) for d in found] == [
         ("error", "a's is hidden"), ("warning", "b is odd"), ("error", "all is odd"), ("warning", "b is odd, too"),
     ]  # fmt: skip
@@ -306,7 +306,8 @@ def test_what_was_wrong_with_what_was_seen_is_an_error_only_where_the_goal_names
 def test_a_part_that_is_missing_is_told_once_with_where_it_belongs() -> None:
     setup = bench({"a": "block", "b": "block", "c": "block"})
     told = replace(see(setup, {}), problems=(error("odd", "a is odd", address="a"),))
-    found = read_situation(setup, told, want({"a": (300, 300), "b": (400, 300), "c": "s1"})).diagnostics
+    wanted = want({"a": (300, 300), "b": (400, 300), "c": "s1"})
+    found = compared(Draft(setup, None, told, PlanGoal(wanted))).diagnostics
     assert [d.summary for d in found] == [
         "a is odd", "nobody sees b, which belongs at (400, 300, 0°)", "nobody sees c, which belongs in s1",
     ]  # fmt: skip
@@ -317,7 +318,7 @@ def test_a_part_that_lies_is_told_though_something_else_is_wrong_with_it() -> No
     seen = see(setup, {"a": (300, 300)})
     lying = {"a": replace(seen.components["a"], presence="toppled")}
     told = replace(seen, components=lying, problems=(error("odd", "a is odd", address="a"),))
-    found = read_situation(setup, told, want({"a": (300, 300)})).diagnostics
+    found = compared(Draft(setup, None, told, PlanGoal(want({"a": (300, 300)})))).diagnostics
     assert [d.code for d in found] == ["odd", "toppled"]
 
 
@@ -349,17 +350,17 @@ def test_a_value_that_there_is_not_or_that_nobody_reads_back_can_not_be_set() ->
     setup = bench(BLOCKS)
     seen: Observation = see(setup, {"a": (300, 300)}, {"a": {"angle": 0.0}})
     with pytest.raises(PicoError, match="a has no tunable `angel`") as caught:
-        set_one(setup, seen, "a", "angel", 1.0)
+        one(set_one, setup, seen, "a", "angel", 1.0)
     assert "angle" in str(caught.value.diagnostics[0].hint) and caught.value.diagnostics[0].address == "a"
     with pytest.raises(PicoError, match=r"does not model a\.exposure"):
-        set_one(setup, seen, "a", "exposure", 1.0)
+        one(set_one, setup, seen, "a", "exposure", 1.0)
     for presence, hint in (("missing", "pico drift"), ("held", "pico recover")):
         there = {**seen.components, "b": replace(seen.components["a"], presence=presence)}
         with pytest.raises(PicoError, match=f"b is {presence}") as caught:
-            set_one(setup, replace(seen, components=there), "b", "angle", 1.0)
+            one(set_one, setup, replace(seen, components=there), "b", "angle", 1.0)
         assert hint in str(caught.value.diagnostics[0].hint)
     with pytest.raises(PicoError, match="b is missing"):
-        set_one(setup, seen, "b", "angle", 1.0)
+        one(set_one, setup, seen, "b", "angle", 1.0)
 
 
 def test_a_person_takes_a_minute() -> None:

@@ -22,7 +22,7 @@ from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, Joints, MovePath, StandingObject
 from pico.motion.zones import shared_zones
-from pico.planning.actors import actors, asides
+from pico.planning import PlanGoal
 from pico.planning.checks.contacts import footprint_at
 from pico.planning.ordering.clock import FAR, HANDLING, SPEED, TURN, Clock
 from pico.planning.ordering.conflicts import Conflicts
@@ -33,9 +33,10 @@ from pico.planning.ordering.search import OrderedMove, ranked_storage
 from pico.planning.ordering.several_arms import _near, work_of
 from pico.planning.ordering.shorten import shortened, valid
 from pico.planning.parts.movers import Hold
-from pico.planning.parts.situation import read_situation
 from pico.planning.parts.spots import MOST, with_spots
-from pico.planning.request import Request
+from pico.planning.passes.actors import actors, asides
+from pico.planning.passes.comparison import compared
+from pico.planning.passes.draft import Draft
 from pico.staging.feedback import Component
 from pico.staging.feedback import solve as fewest_staged
 
@@ -43,11 +44,10 @@ Act = tuple[int, str]
 
 
 def table(setup: Setup, seen: Observation, wanted: Places, *, with_asides: bool = False) -> Conflicts:
-    request = Request(setup, seen, want(wanted), None)
-    situation = read_situation(setup, seen, request.wanted)
-    movers, obstacles, _ = actors(request, situation)
+    draft = compared(Draft(setup, None, seen, PlanGoal(want(wanted))))
+    movers, obstacles, _ = actors(draft)
     if with_asides:
-        movers = (*movers, *asides(request, situation, movers))
+        movers = (*movers, *asides(draft, movers))
         obstacles = [o for o in obstacles if o.name not in {m.name for m in movers}]
     return Conflicts(setup, movers, obstacles, None, False)
 
@@ -107,8 +107,7 @@ def test_an_order_stages_what_it_should_and_brings_everybody_home() -> None:
     staged = 0
     for seed in range(900, 930):
         case = random_case(seed, least=4, most=7)
-        request = Request(case.setup, case.seen, case.wanted, None)
-        movers, obstacles, _ = actors(request, read_situation(case.setup, case.seen, case.wanted))
+        movers, obstacles, _ = actors(compared(Draft(case.setup, None, case.seen, PlanGoal(case.wanted))))
         made = Conflicts(case.setup, movers, obstacles, None, False)
         problem = relaxation(made)
         for mover, component in zip(movers, problem.components, strict=True):

@@ -10,7 +10,7 @@ from test_golden_schedules import listed
 from pico.manifest.load import load_folder
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.pose import Pose
-from pico.planning.schedule import schedule
+from pico.planning.passes.schedule import schedule
 from pico.planning.surveying import surveying
 from pico.resources import labs_dir
 

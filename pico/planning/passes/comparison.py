@@ -1,39 +1,29 @@
-"""The physical diff of a bench as seen against the state wanted, and what about the bench itself needs a word."""
+"""What differs between the bench as seen and the state wanted, and what about the bench itself needs a word."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.diff import Change, diff_observed
+from pico.model.diff import diff_observed
 from pico.model.drift import uncertain
 from pico.model.observation import Observation
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
+from pico.planning.parts.selection import selection
+from pico.planning.passes.draft import Draft
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
-    """What must change, which of it by moving, and the robots whose gripper is free."""
-
-    changes: tuple[Change, ...]
-    moving: tuple[str, ...]
-    robots: tuple[str, ...]
-    diagnostics: tuple[Diagnostic, ...]
-
-
-def read_situation(setup: Setup, seen: Observation, wanted: LabState, *, exact: bool = False) -> Situation:
-    """Return what differs, and warnings about parts that can't be planned for."""
-    changes = diff_observed(setup, seen, wanted, exact=exact)
-    moving = tuple(c.component for c in changes if c.tunable == "pose" and not c.tolerated)
-    robots = tuple(n for n in sorted(setup.lab.robots) if not _holding(seen, n))
-    found = [*_problems(seen, wanted), *_absences(setup, seen, wanted), *_doubts(setup, seen, wanted)]
-    return Situation(changes, moving, robots, tuple(found))
-
-
-def _holding(seen: Observation, robot: str) -> str | None:
-    return seen.robots[robot].holding if robot in seen.robots else None
+def compared(draft: Draft) -> Draft:
+    """Return the plan with what differs and which of it is asked for, and warnings about parts that can't be planned
+    for. Raises PicoError for a target that the lab does not have."""
+    setup, seen, goal = draft.setup, draft.seen, draft.goal
+    samples = bool(goal.alone) or goal.target.cause in ("undo", "recover")
+    only = selection(setup, goal.targets, goal.exclude, samples=samples)
+    changes = diff_observed(setup, seen, goal.wanted, exact=goal.exact)
+    found = (*_problems(seen, goal.wanted), *_absences(setup, seen, goal.wanted), *_doubts(setup, seen, goal.wanted))
+    return replace(draft, only=only, changes=changes).told(*found)
 
 
 def _problems(seen: Observation, wanted: LabState) -> Iterator[Diagnostic]:

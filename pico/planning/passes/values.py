@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import Tunable
@@ -12,14 +13,29 @@ from pico.model.operation import Operation, Reason, new_id
 from pico.model.quantities import Value
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.model.setup import Setup
+from pico.model.state import references_of
+from pico.planning.passes.draft import Draft
 
 OPERATOR_SECONDS = 60.0
 """What a plan reckons with for something that a person does by hand [s]."""
 UNKNOWN = "nobody knows where its axis is"
 
 
+def values_set(draft: Draft) -> Draft:
+    """Return the plan with what sets every tunable that differs and is asked for, and homes the axes of those that
+    light is to find."""
+    chosen, goal = draft.only.chosen, draft.goal
+    asked = [
+        c for c in draft.changes if chosen(c.component, c.tunable) and (c.component, c.tunable) not in draft.withheld
+    ]
+    made, notes = value_operations(draft.setup, draft.seen, asked, goal.reason)
+    referred = [address for address in references_of(goal.wanted) if chosen(*address.split("."))]
+    homed = homing(draft.setup, draft.seen, referred)
+    return replace(draft, operations=(*draft.operations, *made, *homed)).told(*notes)
+
+
 def value_operations(
-    setup: Setup, seen: Observation, changes: tuple[Change, ...], reason: Reason | None = None
+    setup: Setup, seen: Observation, changes: Sequence[Change], reason: Reason | None = None
 ) -> tuple[list[Operation], list[Diagnostic]]:
     """Return the operations that bring every tunable other than a pose to its value, homing first where nobody knows
     where a homed axis stands."""

@@ -2,35 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic
 from pico.model.arming import LaserClass
-from pico.model.diff import Change
 from pico.model.observation import Observation
 from pico.model.operation import Operation
 from pico.model.plan import UNARMED, Plan
 from pico.model.setup import Setup
 from pico.planning.checks.emission import left_shut, lets_out, refused, unlicensed
-from pico.planning.request import Request
-from pico.planning.values import value_operations
-
-Withheld = Mapping[tuple[str, str], Mapping[str, LaserClass]]
-"""Requests that a plan leaves as they are, by component and tunable, each with the lasers that stay shut for it."""
+from pico.planning.checks.interlocks import stay_shut
+from pico.planning.passes.draft import Draft
+from pico.planning.passes.values import value_operations
 
 
-def withheld(request: Request, changes: Sequence[Change], *, undoing: bool) -> Withheld:
-    """Return the requests among some changes that a plan leaves: those that let light out of a laser which nobody lets
-    emit. Undoing lets no light out at all: it only shuts."""
-    asked = [c for c in changes if c.requested and not c.tolerated]
-    made = {(c.component, c.tunable): value_operations(request.setup, request.seen, (c,))[0] for c in asked}
-    opening = {one: ops for one, ops in made.items() if any(lets_out(request.setup, op) for op in ops)}
-    if undoing:
-        return {one: {} for one in opening}
-    lasers = unlicensed(request.setup, request.seen, [op for ops in opening.values() for op in ops])
-    own = {one: _of(request.setup, one[0], lasers) for one in opening}
-    return {one: left for one, left in own.items() if left}
+def light_withheld(draft: Draft) -> Draft:
+    """Return the plan with the requests that it leaves as they are: those that let light out of a laser which nobody
+    lets emit. Undoing lets no light out at all: it only shuts."""
+    setup, seen = draft.setup, draft.seen
+    asked = [c for c in draft.changes if c.requested and not c.tolerated and draft.only.chosen(c.component, c.tunable)]
+    made = {(c.component, c.tunable): value_operations(setup, seen, (c,))[0] for c in asked}
+    opening = {one: ops for one, ops in made.items() if any(lets_out(setup, op) for op in ops)}
+    if draft.goal.target.cause == "undo":
+        return replace(draft, withheld={one: {} for one in opening})
+    lasers = unlicensed(setup, seen, [op for ops in opening.values() for op in ops])
+    own = {one: _of(setup, one[0], lasers) for one in opening}
+    return replace(draft, withheld={one: left for one, left in own.items() if left})
 
 
 def _of(setup: Setup, component: str, lasers: Mapping[str, LaserClass]) -> dict[str, LaserClass]:
@@ -39,14 +37,15 @@ def _of(setup: Setup, component: str, lasers: Mapping[str, LaserClass]) -> dict[
     return {name: of for name, of in lasers.items() if apart or name == component}
 
 
-def told_of(request: Request, left: Withheld, shut: Mapping[str, LaserClass]) -> tuple[Diagnostic, ...]:
-    """Return what is said of light that a plan leaves shut: of each laser with the command that opens it."""
-    lasers = {**{name: of for one in left.values() for name, of in one.items()}, **shut}
-    undone = sorted(f"{component}.{tunable}" for (component, tunable), of in left.items() if not of)
+def light_told(draft: Draft) -> Draft:
+    """Return the plan with what is said of light that it leaves shut: of each laser with the command that opens it."""
+    shut = stay_shut(draft.setup, draft.seen, draft.operations)
+    lasers = {**{name: of for one in draft.withheld.values() for name, of in one.items()}, **shut}
+    undone = sorted(f"{component}.{tunable}" for (component, tunable), of in draft.withheld.items() if not of)
     text = f"undoing lets no light out: {', '.join(undone)} {'stays' if len(undone) == 1 else 'stay'} as is"
     hint = "`pico apply` brings what the manifest asks for"
     notes = [Diagnostic("note", UNARMED, text, hint=hint)] if undone else []
-    return (*left_shut(request.seen, lasers), *notes)
+    return draft.told(*left_shut(draft.seen, lasers), *notes)
 
 
 def without_light(setup: Setup, seen: Observation, plan: Plan) -> Plan:
@@ -64,16 +63,17 @@ def without_light(setup: Setup, seen: Observation, plan: Plan) -> Plan:
     return replace(plan, operations=operations, diagnostics=(*plan.diagnostics, *told)).sealed()
 
 
-def light_last(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> list[Operation]:
-    """Return the operations such that light comes out after all else is done; a laser behind its own shutter, which is
+def light_last(draft: Draft) -> Draft:
+    """Return the plan such that light comes out after all else is done; a laser behind its own shutter, which is
     closed, warms up meanwhile."""
-    lit = {op.id for op in operations if _comes_out(setup, seen, op)}
-    others = [op for op in operations if op.id not in lit]
+    lit = {op.id for op in draft.operations if _comes_out(draft.setup, draft.seen, op)}
+    others = [op for op in draft.operations if op.id not in lit]
     waited = {e for op in others for e in op.after}
     last = [op.id for op in others if op.id not in waited]
-    return [
-        replace(op, after=tuple(dict.fromkeys((*op.after, *last)))) if op.id in lit else op for op in operations
-    ]  # fmt: skip
+    operations = (
+        replace(op, after=tuple(dict.fromkeys((*op.after, *last)))) if op.id in lit else op for op in draft.operations
+    )
+    return replace(draft, operations=tuple(operations))
 
 
 def _comes_out(setup: Setup, seen: Observation, op: Operation) -> bool:

@@ -6,10 +6,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pico.model.operation import Operation
+from pico.planning.passes.draft import Draft
 
 Span = tuple[float, float]
 Waits = Sequence[Sequence[int]]
 """For each operation by its place in the list those that it waits for, in order of the list."""
+
+
+def scheduled(draft: Draft) -> Draft:
+    """Return the plan with its operations in time."""
+    return replace(draft, operations=schedule(draft.operations))
 
 
 def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:
